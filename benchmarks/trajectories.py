@@ -17,6 +17,7 @@ a document, an id, the bits of a noise or an event time changed, or if a model i
 
 The document of each model is stored too, as the version that computed the trajectory wrote it. `compare`
 opens it, as a user opens a file of that version, and requires that it is the document of the present model.
+The notes of a document are prose and may differ.
 """
 
 from __future__ import annotations
@@ -360,11 +361,11 @@ def _documents(model: dd.Model, before: Mapping[str, Any]) -> Iterator[str]:
     """Yield what differs between the stored document, as it opens now, and that of the present model."""
     keys = [key for key in before if key == "document" or key.endswith(".npz")]
     try:
-        then = written(opened({key: before[key] for key in keys}))
+        then = _without_notes(written(opened({key: before[key] for key in keys})))
     except dd.errors.DeodarError as error:
         yield f"the stored document does not open: {error}"
         return
-    now = written(model)
+    now = _without_notes(written(model))
     if then != now:
         lines = list(zip(then["document"].split("\n"), now["document"].split("\n"), strict=False))
         first = next(
@@ -372,6 +373,11 @@ def _documents(model: dd.Model, before: Mapping[str, Any]) -> Iterator[str]:
             "arrays or length differ",
         )
         yield f"another document: {first}"
+
+
+def _without_notes(written: Mapping[str, str]) -> dict[str, str]:
+    document = {key: value for key, value in json.loads(written["document"]).items() if key != "notes"}
+    return {**written, "document": json.dumps(document, indent=1)}
 
 
 def _changed(what: str, then: Mapping[str, str], now: Mapping[str, str]) -> list[str]:

@@ -63,9 +63,9 @@ def selection() -> dd.Model:
         )
     model.describe(
         notes=(
-            "Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at 100"
-            " ms, at 30 and 70 deg. Both grow, and one wins: exactly one peak stands at 600 ms. Which one,"
-            " the noise decides: about half of the trials each. Run 100 trials for 600 ms."
+            "Selection. Two inputs of the same strength, one peak: the field decides. The inputs come at"
+            " 100 ms, at 30 and 70 deg. Both grow, and one wins: at 600 ms exactly one peak is left. The"
+            " noise decides which one: each wins in about half of the trials. Run 100 trials for 600 ms."
         )
     )
     return model
@@ -215,11 +215,11 @@ def correlated_noise() -> dd.Model:
     model.describe(
         notes=(
             "Correlated noise. Noise that neighbours share makes peaks by itself, here and there. A field"
-            " below detection, without any input. Neighbours within about 8 deg share their noise, so that it"
-            " can lift a whole stretch over the threshold. At 400 ms about half of the trials hold one peak,"
-            " none holds two, and the peaks stand all over the field. `noise` is here the standard deviation"
-            " at a point; with a correlation length, refining the grid leaves the rate of such events as it"
-            " is. Run 100 trials for 400 ms."
+            " below detection, without any input. Neighbours within about 8 deg share their noise, so that"
+            " it can lift a whole stretch over the threshold. At 400 ms about half of the trials hold one"
+            " peak, none holds two, and the peaks lie anywhere in the field. `noise` is here the standard"
+            " deviation at a point; with a correlation length, refining the grid leaves the rate of such"
+            " events as it is. Run 100 trials for 400 ms."
         )
     )
     return model
@@ -243,10 +243,10 @@ def timed_stimuli() -> dd.Model:
     )
     model.describe(
         notes=(
-            "Timed stimuli. Inputs come and go at times that stand in the document. Two box stimuli, each on"
-            " in two windows of time. The peak stands at 20 deg at 250 and 850 ms, at 80 deg at 550 and 1150"
-            " ms, and nowhere at 50, 380 and 680 ms: the windows are part of the document. Run it for"
-            " 1300 ms."
+            "Timed stimuli. Inputs come and go at times that the document states. Two box stimuli, each on"
+            " in two windows of time. The peak is at 20 deg at 250 and 850 ms, and at 80 deg at 550 and 1150"
+            " ms; at 50, 380 and 680 ms there is none: the windows are part of the document. Run it for 1300"
+            " ms."
         )
     )
     return model
@@ -291,11 +291,11 @@ def groups() -> dd.Model:
         )
     model.describe(
         notes=(
-            "Groups. Four behaviours take turns, each until its condition of satisfaction. They are copied"
-            " from one template: a bistable intention node and a condition of satisfaction that ends it. One"
-            " intention is on at a time, in the order search, approach, grasp, lift; each goes off when its"
-            " signal `done` comes, at 500, 1100, 1700 and 2300 ms, and hands over to the next. The document"
-            " parameter `tempo` is the time constant of all eight nodes. Run it for 2800 ms."
+            "Groups. Four behaviours follow one another, each until its condition of satisfaction. They are"
+            " copied from one template: a bistable intention node and a condition of satisfaction that ends"
+            " it. One intention is on at a time, in the order search, approach, grasp, lift; each goes off"
+            " when its signal `done` comes, at 500, 1100, 1700 and 2300 ms, and the next one begins. The"
+            " document parameter `tempo` is the time constant of all eight nodes. Run it for 2800 ms."
         )
     )
     return model
@@ -323,10 +323,10 @@ def motor_attractor() -> dd.Model:
     target >> model.add(dd.Attractor("turn", heading, tau=1500, initial=0))
     model.describe(
         notes=(
-            "Motor attractor. A motor variable turns to the place of a peak, and stays where it is without"
-            " one. The peak of `target` draws the motor variable `turn` to 150 deg; without a peak, from 900"
-            " to 1300 ms, it stays there. Then a peak at -120 deg draws it the short way round, over 180 deg:"
-            " it ends at -120 deg and never passes 0 on this way. Run it for 2000 ms."
+            "Motor attractor. A motor variable turns to the place of a peak, and keeps its value without"
+            " one. The peak of `target` moves the motor variable `turn` to 150 deg; without a peak, from 900"
+            " to 1300 ms, it stays there. Then a peak at -120 deg moves it the short way round, across 180"
+            " deg: it ends at -120 deg and never passes 0. Run it for 2000 ms."
         )
     )
     return model
@@ -355,9 +355,9 @@ def plan() -> dd.Model:
             "Plan. A wave of motivation spreads from a goal until it meets the walker, who then goes there."
             " Billing, Lowe & Sandamirskaya (2015), figure 3. The goal is at 40 cm; in `left.motivation` the"
             " wave spreads to the right at a constant speed. Near step 85 it is at 100 cm, where the walker"
-            " stands: its place releases the precondition, `left.intention` rises, and it walks (`gone`). At"
-            " step 450 the goal goes to 150 cm: the plan decays, another one spreads, and it walks back. Time"
-            " is in steps of 64 ms. Run it for 1200 steps."
+            " is: this place releases the precondition, `left.intention` rises, and it walks (`gone`). At"
+            " step 450 the goal goes to 150 cm: the plan decays, another one spreads, and it walks back."
+            " Time is in steps of 64 ms. Run it for 1200 steps."
         )
     )
     return model
@@ -384,12 +384,12 @@ def behaviours() -> dd.Model:
     model = dd.architectures.behaviours()
     model.describe(
         notes=(
-            "Behaviours. Five elementary behaviours order themselves by precondition, suppression and"
+            "Behaviours. Five elementary behaviours are ordered by precondition, suppression and"
             " competition. All tasks but `avoid` come at 100 ms. `find` is satisfied at 500 ms; only then"
             " `reach` begins. An obstacle from 900 to 1200 ms turns `avoid` on, which suppresses `reach`;"
-            " afterwards it goes on, until the hand is at the target at 1600 ms, where `reach.outcome`"
-            " predicts it. `look left` and `look right` compete: noise decides which is first, the other has"
-            " its turn when that is satisfied, at 700 ms. Run it for 2400 ms."
+            " afterwards it continues until the hand is at the target at 1600 ms, as `reach.outcome`"
+            " predicts. `look left` and `look right` compete: noise decides which is first, and the other"
+            " follows when the first is satisfied, at 700 ms. Run it for 2400 ms."
         )
     )
     return model
@@ -401,10 +401,10 @@ def serial_order() -> dd.Model:
     model.describe(
         name="serial order",
         notes=(
-            "Serial order. A chain of ordinal nodes learns a sequence of four actions, one of them twice, and"
-            " produces it. Sandamirskaya & Schöner (2010), without a robot. From 1000 to 5000 ms the actions"
-            " 30, 6, 30, 54 are shown, one a second, and the weights `meaning` of one ordinal node after the"
-            " other learn them. At 5000 ms all is cleared but the weights, at 5300 ms the first node is"
+            "Serial order. A chain of ordinal nodes learns a sequence of four actions, one of them twice,"
+            " and produces it. Sandamirskaya & Schöner (2010), without a robot. From 1000 to 5000 ms the"
+            " actions 30, 6, 30, 54 are shown, one a second, and the weights `meaning` of successive ordinal"
+            " nodes learn them. At 5000 ms all is cleared but the weights, at 5300 ms the first node is"
             " started. From 6000 ms on the places 6, 30 and 54 are perceived in turn, over and over; each"
             " action waits for its own, and the order is 30, 6, 30, 54 again. Run it for 11200 ms."
         ),
@@ -432,11 +432,11 @@ def remapping() -> dd.Model:
     model = dd.architectures.remapping()
     model.describe(
         notes=(
-            "Remapping. From the retina to the body, by a steered shift and by the diagonals of a field: both"
-            " say the same. An object stands still at 12 deg before the body; the gaze jumps to 15 deg at 400"
-            " ms and to -10 deg at 800 ms, so that it jumps on the retina to -3 and 22 deg. In both fields"
-            " `body` its peak is at 12 deg before and after. At 1000 ms another object appears at -25 deg."
-            " Run it for 1400 ms."
+            "Remapping. From the retina to the body, by a steered shift and by the diagonals of a field,"
+            " with the same result. An object stays at 12 deg relative to the body; the gaze jumps to 15 deg"
+            " at 400 ms and to -10 deg at 800 ms, so that it jumps on the retina to -3 and 22 deg. In both"
+            " fields `body` its peak is at 12 deg before and after. At 1000 ms another object appears at -25"
+            " deg. Run it for 1400 ms."
         )
     )
     return model
@@ -449,10 +449,10 @@ def change_detection() -> dd.Model:
         name="change detection",
         notes=(
             "Change detection. Three colours are remembered, one has changed when they are shown again:"
-            " different. A sample of 40, 130 and 250 deg is shown from 200 ms to 700 ms; `memory` takes it"
-            " over and keeps it, and inhibits `contrast` there. The test at 1700 ms has 180 instead of 130"
-            " deg: it alone makes a peak in `contrast`, and the node `different` comes on. Set `test"
-            " 2.center` to 130, and `same` does. Run it for 2600 ms."
+            " different. A sample of 40, 130 and 250 deg is shown from 200 ms to 700 ms; `memory` stores it"
+            " and inhibits `contrast` there. The test at 1700 ms has 180 instead of 130 deg: it alone makes"
+            " a peak in `contrast`, and the node `different` comes on. Set `test 2.center` to 130, and"
+            " `same` does. Run it for 2600 ms."
         ),
     )
     return model

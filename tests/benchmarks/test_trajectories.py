@@ -63,6 +63,14 @@ def test_a_parameter_changed_by_a_millionth_is_reported(stored: trajectories.Sto
     assert any("another document" in p for p in problems) and any("above 1e-10" in p for p in problems)
 
 
+def test_other_notes_are_the_same_document(stored: trajectories.Stored) -> None:
+    model = dd.load("example:selection")
+    model.describe(notes="Other words.")
+    before = stored.models["example selection"]
+    assert "Other words" not in before["document"]
+    assert not list(trajectories._documents(model, before))
+
+
 def test_a_changed_id_and_its_noise_are_reported(stored: trajectories.Stored) -> None:
     name, before = "example selection", stored.models["example selection"]
     before = before | {"ids": before["ids"] | {"u": "00000000"}, "noise": {"u": "0" * 12}}
