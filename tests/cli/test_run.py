@@ -266,7 +266,7 @@ def test_a_very_long_run_is_asked_about(
         and "Begin? [y/N]" in told
         and "RunWarning" not in told
     )
-    assert (here / "out").is_dir() == (status == 0) and ("not begun" in told) == (status == 1)
+    assert (here / "out").is_dir() == (status == 0) and ("was not confirmed" in told) == (status == 1)
     assert main(["run", "small.json", "--duration", "39", "--out", "shorter"]) == 0
     assert "on this machine" not in capsys.readouterr().err
 
@@ -310,7 +310,7 @@ def test_a_very_long_record_is_not_repeated_without_yes(
     capsys.readouterr()
     assert main(["run", "first", "--out", "second"]) == 1 and not (here / "second").exists()
     assert re.search(
-        "40 steps of dt = 1 take about .* cannot ask for confirmation .* --yes",
+        "40 steps of dt = 1 take about .* cannot ask for confirmation.* --yes",
         capsys.readouterr().err.replace("\n", " "),
     )
     assert main(["run", "first", "--out", "second", "--yes"]) == 0

@@ -256,11 +256,11 @@ CASES: dict[str, Case] = {
         AxesError,
         ("cannot be sampled", "an origin nearer"),
     ),
-    "axis: one sample": (lambda: dd.Axis("x", 0, 1, 1), AxesError, ("samples is 1; it is 2 to 1000000",)),
+    "axis: one sample": (lambda: dd.Axis("x", 0, 1, 1), AxesError, ("samples is 1; expected 2 to 1000000",)),
     "axis: no sample": (
         lambda: dd.Axis("x", 0, 1, 0, periodic=True),
         AxesError,
-        ("samples is 0; it is 1 to 1000000",),
+        ("samples is 0; expected 1 to 1000000",),
     ),
     "axis: too many samples": (lambda: dd.Axis("x", 0, 1, 10**7), AxesError, ("samples is 10000000",)),
     "axis: absurdly many samples": (lambda: dd.Axis("x", 0, 1, 10**5000), AxesError, ("samples is int",)),

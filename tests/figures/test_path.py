@@ -66,7 +66,7 @@ def test_the_film_of_a_view_shows_its_trial(walked: xarray.DataArray, tmp_path: 
 
 
 def test_what_is_no_path_is_refused(walked: xarray.DataArray, tmp_path: Path) -> None:
-    with pytest.raises(RecordError, match="is no path"):
+    with pytest.raises(RecordError, match="is not a path"):
         path.path_figure(walked.isel(of=0))
     with pytest.raises(RecordError, match="not into a Picture"):
         path.path_figure(walked, Picture.example())

@@ -179,8 +179,8 @@ def test_a_package_that_was_dropped_is_read_from_its_content(tmp_path: Path) -> 
     assert content.read_package(dropped, "m.deodar") == weighted(1).document
     for wrong, why in (
         ("?", "base64"),
-        ("", "no package"),
-        (base64.b64encode(b"{}").decode(), "no package"),
+        ("", "not a package"),
+        (base64.b64encode(b"{}").decode(), "not a package"),
         (dropped[:400], "damaged"),
     ):
         with pytest.raises(DocumentError, match=why):

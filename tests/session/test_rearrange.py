@@ -73,7 +73,7 @@ def test_what_is_refused_changes_nothing_and_is_not_written_down() -> None:
     session = dd.Session(driving(), world=Arena(OPEN))
     before = session.scene()
     for wrong, said in [
-        (lambda: session.move("crate", (0.2, 1.0)), "crate: .* stand on 'e-puck'"),
+        (lambda: session.move("crate", (0.2, 1.0)), "crate: .* cover 'e-puck'"),
         (lambda: session.move("goal", (0.5, 1.5)), "goal: .* inside 'crate'"),
         (lambda: session.place("goal", (1.0, 1.0), (0.1, 0.1)), "goal: is the name of a mark"),
         (lambda: session.place("flat", (1.0, 1.0), (0.1, 0.0)), "flat.*has no area"),

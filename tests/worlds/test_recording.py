@@ -112,7 +112,7 @@ def test_what_cannot_be_replayed(run: Any) -> None:
         )
     with pytest.raises(WorldError, match="holds the output of no sensor"):
         Recording(run[["u.activation"]].assign_attrs(run.attrs))
-    with pytest.raises(WorldError, match="does not say what made it"):
+    with pytest.raises(WorldError, match="does not state the model that made it"):
         Recording(run[["eyes.output"]].assign_attrs({}).drop_attrs())
     with pytest.raises(WorldError, match="is not a record"):
         Recording(run["eyes.output"])

@@ -93,7 +93,7 @@ def test_a_camera_that_stops_is_an_error(film: Path) -> None:
     camera = Camera(str(film), patience=0.2)
     camera.reset(0)
     time.sleep(0.6)
-    with pytest.raises(WorldError, match=r"camera .*square.avi: has given no picture for \d+\.\d s"):
+    with pytest.raises(WorldError, match=r"camera .*square.avi: has delivered no picture for \d+\.\d s"):
         camera.sense("picture", AXES, 0.0)
     camera.close()
 
@@ -104,7 +104,7 @@ def test_a_camera_that_is_not_there_is_an_error(tmp_path: Path) -> None:
     for number in (-1, 1.5, True, "", None):
         with pytest.raises(WorldError, match="number of a camera"):
             Camera(number)  # type: ignore[arg-type]
-    with pytest.raises(WorldError, match="what a camera saw is gone"):
+    with pytest.raises(WorldError, match="the pictures of a camera are not stored"):
         Camera.again({})
 
 

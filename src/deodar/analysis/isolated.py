@@ -233,7 +233,7 @@ def _widths(field: Field, sigma: Any) -> tuple[float, ...]:
         widths = tuple(float(s) for s in (sigma if np.ndim(sigma) else (sigma,) * len(axes)))
         if len(widths) != len(axes) or any(not s > 0 for s in widths):
             raise ParameterError(
-                f"sigma is {sigma!r}; it is a number above 0, or one for each of the {len(axes)} axes"
+                f"sigma is {sigma!r}; expected a number above 0, or one for each of the {len(axes)} axes"
             )
         return widths
     return tuple(max(a.step, _excitation(field, d) or a.range / 20) for d, a in enumerate(axes))

@@ -37,7 +37,7 @@ def curves(
     grid = flat.shape[: len(others)]
     if int(np.prod(grid)) > MOST_CURVES:
         raise RecordError(
-            f"would need {int(np.prod(grid))} curves; at most {MOST_CURVES} are told apart",
+            f"would need {int(np.prod(grid))} curves; a figure shows at most {MOST_CURVES}",
             where=view.name,
             fix="Choose values with --where PATH=VALUE",
         )

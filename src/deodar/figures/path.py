@@ -89,7 +89,7 @@ def animate_path(
     path, looked = Path(file), variable if isinstance(variable, View) else View(variable)
     if path.suffix.lower() != ".gif":
         raise RecordError(
-            f"the name ends in {path.suffix!r}; a film of a path is a GIF",
+            f"the name ends in {path.suffix!r}; a video of a path is a GIF",
             where=str(path),
             fix="End it in .gif",
         )
@@ -98,7 +98,7 @@ def animate_path(
     lines, times = _lines(looked), looked.times[::stride]
     if not 2 <= len(times) <= MOST_FRAMES:
         raise RecordError(
-            f"makes {len(times)} frames; a film has 2 to {MOST_FRAMES}",
+            f"makes {len(times)} frames; a video has 2 to {MOST_FRAMES}",
             where=looked.name,
             fix="Choose another stride=",
         )
@@ -194,9 +194,9 @@ def _lines(view: View) -> list[np.ndarray]:
     v = view.chosen()
     if len(view.space) != 1 or v.sizes[view.space[0]] not in (2, 3) or "time" not in v.dims:
         raise RecordError(
-            "is no path: that is x and y (and heading) over time",
+            "is not a path (x, y and perhaps a heading over time)",
             where=view.name,
-            fix="Record what a sensor place or pose shows",
+            fix="Record a Sensor of place or pose",
         )
     rest = [d for d in v.dims if d not in ("time", view.space[0])]
     values = v.transpose(*rest, "time", view.space[0]).values

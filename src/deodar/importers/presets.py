@@ -117,7 +117,7 @@ def _values(doc: Document, here: Entry, there: Entry) -> tuple[Document, list[Li
                             "parameter",
                             path,
                             "dropped",
-                            "what lies beyond the ends stays as it is",
+                            "values outside the common range are unchanged",
                         )
                     )
                 continue

@@ -46,7 +46,7 @@ async def aside(function: Callable[[], T], where: str) -> T:
         raise DocumentError(
             f"took longer than {SECONDS:g} s to read or write",
             where=where,
-            fix="Does its disk or network folder answer?",
+            fix="Check its disk or network folder",
         ) from None
 
 

@@ -120,7 +120,7 @@ class PageConnection:
             logging.getLogger("deodar.studio").exception("a request of the page failed")
             what = (
                 f"This is an error of deodar itself ({type(error).__name__}: {error}). The terminal of the"
-                " studio tells more."
+                " studio shows the details."
             )
             answers = [Answer(request=message.request, problems=[ListedProblem(what=what)])]
         self._answers.extend(a for a in answers if message.request)

@@ -37,7 +37,7 @@ def read_package(content: str, title: str) -> Document:
         raise DocumentError("the content is not base64", where=title) from None
     if not package.is_content(data):
         raise DocumentError(
-            "is no package",
+            "is not a package",
             where=title,
             fix="deodar pack FILE makes one; a document without arrays ends in .json",
         )

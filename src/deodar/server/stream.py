@@ -69,7 +69,7 @@ class Stream:
         try:
             entry = session.document.by_id().get(ident)
             if entry is None or ident not in program.plan.row:
-                return _lost(self.number, Problem("", "the element is not there"))
+                return _lost(self.number, Problem("", "the element does not exist"))
             find.port(session.document, f"{entry.path}.{port}")
             self._axes = program.axes(program.port(ident, port))
         except (DeodarError, KeyError) as error:

@@ -51,11 +51,11 @@ class Workspace:
             DocumentError: the path is invalid, or lies outside the root.
         """
         if "\0" in path:
-            raise DocumentError("is no path", where=repr(path))
+            raise DocumentError("is not a path", where=repr(path))
         try:
             place = (self.root / path).resolve()
         except (OSError, RuntimeError, ValueError) as error:
-            raise DocumentError(f"is no path ({error})", where=path) from None
+            raise DocumentError(f"is not a path ({error})", where=path) from None
         if place != self.root and self.root not in place.parents:
             fix = "Start the studio in the folder you want to work in"
             raise DocumentError(
@@ -160,7 +160,7 @@ class Workspace:
         if place.is_dir():
             raise OutputError("is a folder", where=path)
         if not place.parent.is_dir():
-            raise OutputError("the folder is not there", where=path)
+            raise OutputError("the folder does not exist", where=path)
         return place
 
 

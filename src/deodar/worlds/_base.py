@@ -128,18 +128,18 @@ class World:
 
     def remove(self, name: str) -> None:
         """Remove a thing from the scene."""
-        raise WorldError(f"nothing can be taken out of the world {type(self).__name__}", where=name)
+        raise WorldError(f"nothing can be removed from the world {type(self).__name__}", where=name)
 
     def arrangement(self) -> Any:
         """Return the present state of everything that `place`, `move` and `remove` change, for `arrange`.
 
         Actions of experiments need both methods.
         """
-        raise WorldError(f"the world {type(self).__name__} does not say what its things are")
+        raise WorldError(f"the world {type(self).__name__} does not list its objects")
 
     def arrange(self, kept: Any) -> None:
         """Restore the things as they were when `arrangement` returned `kept`."""
-        raise WorldError(f"the world {type(self).__name__} cannot put its things back")
+        raise WorldError(f"the world {type(self).__name__} cannot restore its objects")
 
     def describe(self) -> dict[str, Any]:
         """Return the description of the world that a record stores, as plain data."""

@@ -135,9 +135,9 @@ class Eye:
         silent = time.monotonic() - self._stream.since
         if silent > self.patience:
             raise WorldError(
-                f"has given no picture for {silent:.1f} s",
+                f"has delivered no picture for {silent:.1f} s",
                 where=f"camera {self.source}",
-                fix="Look whether it is still connected",
+                fix="Check that it is connected",
             )
         return self._stream.newest
 

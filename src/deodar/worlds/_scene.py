@@ -127,5 +127,5 @@ def pair(what: str, given: Any) -> tuple[float, float]:
     numbers = [real(v) for v in given] if isinstance(given, Sequence) and not isinstance(given, str) else []
     found = [n for n in numbers if n is not None and math.isfinite(n)]
     if len(numbers) != 2 or len(found) != 2:
-        raise WorldError(f"is {show(given)}; it is two finite numbers", where=what)
+        raise WorldError(f"is {show(given)}; expected two finite numbers", where=what)
     return found[0], found[1]

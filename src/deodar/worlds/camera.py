@@ -47,12 +47,12 @@ class Camera(World):
         known = isinstance(number, (int, np.integer)) and not isinstance(number, bool) and number >= 0
         if not known and not (isinstance(number, str) and number):
             raise WorldError(
-                f"the number of a camera is {show(number)}; it is a whole number, 0 for the first"
+                f"the number of a camera is {show(number)}; expected a whole number, 0 for the first"
             )
         for name, given in (("period", period), ("patience", patience)):
             value = real(given)
             if value is None or not 0 < value < math.inf:
-                raise WorldError(f"{name} is {show(given)}; it is a number above 0")
+                raise WorldError(f"{name} is {show(given)}; expected a number above 0")
         self.number = number if isinstance(number, str) else int(number)
         self.period, self.patience = float(period), float(patience)
         self._eye: _capture.Eye | None = None
@@ -93,8 +93,8 @@ class Camera(World):
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Camera:
         raise WorldError(
-            "what a camera saw is gone",
-            fix="Record what the sensor shows, and replay that: --world recording:RECORD",
+            "the pictures of a camera are not stored",
+            fix="Record its sensor and replay the record: --world recording:RECORD",
         )
 
     def _open(self) -> _capture.Eye:

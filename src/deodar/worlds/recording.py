@@ -91,7 +91,7 @@ class Recording(World):
         motors = {
             path: str(e.get("motor", "left")) for path, e in elements.items() if e.get("kind") == "Motor"
         }
-        self.motors = {name: Signal(f"taken from {path}, and does nothing") for path, name in motors.items()}
+        self.motors = {name: Signal(f"accepted from {path}, without effect") for path, name in motors.items()}
         self.period = float(np.diff(self.times).min()) if len(self.times) > 1 else None
         self._copies: list[int] = []
 
@@ -153,7 +153,7 @@ def _elements(record: xarray.Dataset, file: str) -> Mapping[str, Mapping[str, An
         return codec.parse(record.attrs["deodar"])["document"]["elements"]
     except (KeyError, TypeError, ValueError):
         raise WorldError(
-            "does not say what made it, so its sensors are not known", where=file or "the record"
+            "does not state the model that made it, so its sensors are unknown", where=file or "the record"
         ) from None
 
 

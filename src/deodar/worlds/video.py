@@ -49,7 +49,7 @@ class Video(World):
     def __init__(self, file: str | Path, period: float = 40.0, loop: bool = False) -> None:
         value = real(period)
         if value is None or not 0 < value < math.inf:
-            raise WorldError(f"period is {show(period)}; it is a number of ms above 0")
+            raise WorldError(f"period is {show(period)}; expected a number of ms above 0")
         self.period, self.loop, self.name = float(value), bool(loop), str(file)
         self._film = _capture.Film(Path(file))
         self.size = self._film.size

@@ -276,9 +276,9 @@ def test_keys_that_occur_twice_are_reported_with_the_value_in_use(tmp_path):
     assert [str(line) for line in done.report.losses] == [
         (
             "key simulator.deltaT: approximated, it occurs 3 times, with the values 3, 2, 1; the last one is"
-            " taken"
+            " used"
         ),
-        "u: key param.tau: approximated, it occurs 2 times, with the values 30, 20; the last one is taken",
+        "u: key param.tau: approximated, it occurs 2 times, with the values 30, 20; the last one is used",
     ]
     assert done.model["u"].element.tau == 20 and done.model.document.dt == 1
 

@@ -33,9 +33,9 @@ def test_a_start_without_a_heading_looks_along_x():
     [
         ("z, gaol=1 2", "no setting 'gaol'. Did you mean 'goal'"),
         ("z, goal", "no setting 'goal'"),
-        ("z, goal=1", "goal is '1'; it is x and y"),
+        ("z, goal=1", "goal is '1'; expected x and y"),
         ("z, start=1 2 3 4", "start is '1 2 3 4'"),
-        ("z, slip=much", "slip is 'much'; it is a number"),
+        ("z, slip=much", "slip is 'much'; expected a number"),
         ("z, place_noise=-1", "place_noise is -1"),
         ("z, unit=mile", "unit is 'mile'"),
     ],

@@ -149,7 +149,7 @@ def _repeated(data: Any, found: Repeated) -> Line:
         "key",
         what,
         "approximated",
-        f"it occurs {len(found.values)} times, with the values {values}; the last one is taken",
+        f"it occurs {len(found.values)} times, with the values {values}; the last one is used",
     )
 
 
@@ -159,7 +159,7 @@ def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> 
     numbers = array(body[key])
     found = float(numbers.reshape(-1)[0]) if numbers is not None and numbers.size == 1 else math.nan
     if not math.isfinite(found) or abs(found) > 1e12 or (key == "deltaT" and not found > 0):
-        lines.append(Line("", "file", key, "approximated", f"it is {show(body[key])}; {default:g} is taken"))
+        lines.append(Line("", "file", key, "approximated", f"it is {show(body[key])}; {default:g} is used"))
         return default
     lines.append(Line("", "file", key, "carried"))
     return found
@@ -214,7 +214,7 @@ def _entries(value: Any) -> list[Any]:
 
 def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
     if not isinstance(entry, dict):
-        lines.append(Line(f"entry {place + 1}", "element", show(entry), "dropped", "it is no element"))
+        lines.append(Line(f"entry {place + 1}", "element", show(entry), "dropped", "it is not an element"))
         return None
     body = cast("dict[str, Any]", entry)
     label, kind = _text(body.get("label")) or f"element {place + 1}", _text(body.get("class")) or "unknown"
@@ -225,7 +225,7 @@ def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
                 "element",
                 show(body.get("label")),
                 "approximated",
-                f"this is no label; it is called {label!r}",
+                f"this is not a label; the element is called {label!r}",
             )
         )
     param = body.get("param")

@@ -88,7 +88,7 @@ class Translation:
             found = placeholder(e, self.dimensions, list(CLASSES), str(error))
         except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
             found = placeholder(
-                e, self.dimensions, list(CLASSES), f"its parameters do not go together ({error})"
+                e, self.dimensions, list(CLASSES), f"its parameters are inconsistent ({error})"
             )
         self.met += source.met
         self.said.append(Line(e.label, "element", e.kind, found.verdict, found.why))
@@ -129,7 +129,7 @@ def _shown(e: Foreign, piece: Piece) -> list[Line]:
         elif component in piece.elsewhere:
             lines.append(Line(e.label, "component", component, "carried", piece.elsewhere[component]))
         else:
-            lines.append(Line(e.label, "component", component, "dropped", "nothing here shows it"))
+            lines.append(Line(e.label, "component", component, "dropped", "no element here outputs it"))
     return lines
 
 

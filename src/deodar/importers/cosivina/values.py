@@ -34,7 +34,7 @@ class Values:
         value = float(found.reshape(-1)[0])
         inside = min(max(value, lower), upper)
         if inside != value:
-            self.say(name, "approximated", f"{value:g} lies beyond what is possible; {inside:g} is taken")
+            self.say(name, "approximated", f"{value:g} is out of range; {inside:g} is used")
         else:
             self.say(name)
         return inside
@@ -108,7 +108,7 @@ class Values:
         return list(self.lines.values())
 
     def _instead(self, name: str, default: Any) -> Any:
-        self.say(name, "approximated", f"it is {show(self.element.values[name])}; {show(default)} is taken")
+        self.say(name, "approximated", f"it is {show(self.element.values[name])}; {show(default)} is used")
         return default
 
 

@@ -52,15 +52,14 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
             each=True,
         ),
         "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True),
-        "heading": Signal("where it looks; 0 along x, counter-clockwise", (), "rad", each=True),
+        "heading": Signal("heading; 0 along x, counter-clockwise", (), "rad", each=True),
         "pose": Signal(
             "true x, y and heading, for records and figures", (3,), f"{unit}, {unit}, rad", each=True
         ),
-        "encoders": Signal("motor steps that the left and the right wheel counted", (2,), "step", each=True),
+        "encoders": Signal("motor steps counted by the left and the right wheel", (2,), "step", each=True),
         "touching": Signal("1 while it touches something, else 0", (), each=True),
         "obstacles": Signal(
-            "over two dimensions: the share of a sample's cell that something stands on, or that lies"
-            " outside",
+            "over two dimensions: the share of a sample's cell that an object covers, or that lies outside",
             each=True,
         ),
         "above": Signal(
@@ -148,7 +147,7 @@ class Arena(PureWorld):
         self.reflection = _number("reflection", reflection, above=0.0)
         if isinstance(place_every, bool) or not isinstance(place_every, (int, np.integer)) or place_every < 1:
             raise WorldError(
-                f"place_every is {show(place_every)}; it is a whole number of periods, at least 1"
+                f"place_every is {show(place_every)}; expected a whole number of periods, at least 1"
             )
         self.place_every = int(place_every)
         given = {
@@ -460,7 +459,7 @@ class Arena(PureWorld):
     def again(cls, described: Mapping[str, Any]) -> Arena:
         settings = dict(described["settings"])
         if settings.pop("vehicle") != EPUCK.name:
-            raise WorldError("was run with a vehicle of its own, which a record does not keep", where="arena")
+            raise WorldError("was run with a custom vehicle, which a record does not contain", where="arena")
         found = cls(described["layout"], described["start"], described["goal"], **settings)
         found.furniture.take(described["things"])
         found.source = str(described.get("file", ""))
@@ -489,7 +488,7 @@ def _number(name: str, given: Any, above: float | None = None) -> float:
     value = real(given)
     if value is None or not math.isfinite(value) or value < 0 or (above is not None and value <= above):
         raise WorldError(
-            f"{name} is {show(given)}; it is a finite number,"
+            f"{name} is {show(given)}; expected a finite number,"
             f" {'above 0' if above is not None else '0 or above'}"
         )
     return float(value)

@@ -49,7 +49,7 @@ def _place(name: str, value: str, argument: str) -> list[float]:
     if not least <= len(numbers) <= most or None in numbers:
         what = "x and y, and a heading in rad if wanted" if most > least else "x and y"
         raise WorldError(
-            f"{name} is {value!r}; it is {what}, with spaces between",
+            f"{name} is {value!r}; expected {what}, with spaces between",
             where=f"arena:{argument}",
             fix=f"For example {name}=20 30",
         )
@@ -59,7 +59,7 @@ def _place(name: str, value: str, argument: str) -> list[float]:
 def _number(name: str, value: str, argument: str) -> float | int:
     number = _float(value)
     if number is None:
-        raise WorldError(f"{name} is {value!r}; it is a number", where=f"arena:{argument}")
+        raise WorldError(f"{name} is {value!r}; expected a number", where=f"arena:{argument}")
     return int(number) if name == "place_every" and number.is_integer() else number
 
 

@@ -150,7 +150,7 @@ class _Faults(list[Problem]):
             [real(v) for v in value] if isinstance(value, Sequence) and not isinstance(value, str) else []
         )
         if len(numbers) != 2 or not all(n is not None and math.isfinite(n) for n in numbers):
-            self.say(place, f"is {show(value)}; it is two finite numbers")
+            self.say(place, f"is {show(value)}; expected two finite numbers")
             return None
         return float(numbers[0] or 0), float(numbers[1] or 0)
 
@@ -162,14 +162,14 @@ def _layout(data: Any, where: str) -> ArenaLayout:
     for key in data:
         near = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
         if near:  # keys that are not similar to a known one are notes of the author
-            faults.say("", f"says {key!r}, which is not known", f"Did you mean {near[0]!r}?")
+            faults.say("", f"has the unknown key {key!r}", f"Did you mean {near[0]!r}?")
     scale = UNITS.get(data.get("unit", "m"), 0.0) if isinstance(data.get("unit", "m"), str) else 0.0
     if not scale:
         faults.say("unit", f"is {show(data.get('unit'))}; expected one of {', '.join(UNITS)}")
         scale = 1.0
     names = str(data.get("plane", "x,y")).split(" ")[0]
     if names not in ("x,y", "x,z"):
-        faults.say("plane", f"is {names!r}; it is x,y, or x,z (y up)")
+        faults.say("plane", f"is {names!r}; expected x,y, or x,z (y up)")
         names = "x,y"
     # as in Webots: y is up, and heading 0 points along -z; so x is the file's -z, and y its -x
     turned = names == "x,z"
@@ -178,7 +178,7 @@ def _layout(data: Any, where: str) -> ArenaLayout:
     start = _place(data, "start", turned, scale, faults)
     heading = real(data.get("heading", 0.0))
     if heading is None or not math.isfinite(heading):
-        faults.say("heading", f"is {show(data.get('heading'))}; it is an angle in rad")
+        faults.say("heading", f"is {show(data.get('heading'))}; expected an angle in rad")
     area = data.get("goal_area")
     goal = _place(
         data if "goal" in data or not isinstance(area, Mapping) else {"goal": area.get("center")},
@@ -198,7 +198,7 @@ def _border(
     area = data.get("arena")
     if not isinstance(area, Mapping) or not set(names) <= set(area):
         faults.say(
-            "arena", f"is {show(area)}; it is {{{', '.join(f'{n!r}: [lower, upper]' for n in names)}}}"
+            "arena", f"is {show(area)}; expected {{{', '.join(f'{n!r}: [lower, upper]' for n in names)}}}"
         )
         return None
     spans = [faults.pair(f"arena.{n}", area[n]) for n in names]
@@ -206,7 +206,7 @@ def _border(
         if span is not None and span[0] >= span[1]:
             faults.say(
                 f"arena.{name}",
-                f"is {show(area[name])}; the lower end comes first, and there is room between them",
+                f"is {show(area[name])}; expected [lower, upper] with lower < upper",
             )
     first, second = spans
     if first is None or second is None:
@@ -234,12 +234,12 @@ def _things(data: Mapping[str, Any], turned: bool, scale: float, faults: _Faults
     for kind, colour in COLOURS.items():
         listed = data.get(kind, [])
         if not isinstance(listed, Sequence) or isinstance(listed, str):
-            faults.say(kind, f"is {show(listed)}; it is a list")
+            faults.say(kind, f"is {show(listed)}; expected a list")
             continue
         for k, entry in enumerate(listed):
             name = str(entry.get("name", f"{kind}.{k}")) if isinstance(entry, Mapping) else f"{kind}.{k}"
             if not isinstance(entry, Mapping):
-                faults.say(name, f"is {show(entry)}; it is an object with center and size")
+                faults.say(name, f"is {show(entry)}; expected an object with center and size")
                 continue
             if name in taken:
                 faults.say(name, "is the name of two things")
@@ -273,7 +273,7 @@ def _thing(name: str, center: Any, size: Any, color: Any, found: _Faults) -> Thi
         found.say(name, f"has the size {show(size)}; both are above 0, or it has no area")
     parts = [real(c) for c in color] if isinstance(color, Sequence) and not isinstance(color, str) else []
     if len(parts) != 3 or not all(c is not None and 0 <= c <= 1 for c in parts):
-        found.say(f"{name}.color", f"is {show(color)}; it is red, green and blue, each from 0 to 1")
+        found.say(f"{name}.color", f"is {show(color)}; expected red, green and blue, each from 0 to 1")
     if len(found) > before:
         return None
     assert middle is not None and extent is not None

@@ -21,7 +21,7 @@ def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:
         rows = np.zeros((0, 0))
     if rows.ndim != 2 or rows.shape[1] != len(scale) or not len(rows) or not np.isfinite(rows).all():
         raise WorldError(
-            f"is {show(given)}; it is {len(scale)} finite numbers, or a row of them for each trial",
+            f"is {show(given)}; expected {len(scale)} finite numbers, or a row of them for each trial",
             where=what,
         )
     return rows * np.asarray(scale)

@@ -99,7 +99,7 @@ def dynamic_variable(b: SourceElement) -> Piece:
     tau = b.values.number("tau", 10)
     if tau == 0:
         tau = 10.0
-        b.values.say("tau", "approximated", "it is 0; cosivina's default 10 is taken")
+        b.values.say("tau", "approximated", "it is 0; cosivina's default 10 is used")
     elif "tau" in b.element.values and b.values.lines["tau"].verdict == "carried":
         b.values.say("tau", "carried", "as the rate 1 / tau")
     given = b.values.matrix("initialState")
@@ -186,7 +186,7 @@ def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, sho
     if b.asked:
         why += (
             "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them"
-            " undefined for ever"
+            " undefined permanently"
         )
     outlets = {"output": Outlet(b.label, shown, state=True)}
     return Piece(

@@ -65,7 +65,7 @@ def kernel_nd(b: SourceElement) -> Piece:
     """Translate GaussKernel2D and 3D; the amplitude is applied on one axis, which gives the same product."""
     form = _form(b)
     mixed = b.element.kind == "GaussKernel3D" and len(form.ends) == 3 and form.ends[0] != form.ends[1]
-    if mixed and b.bug("GaussKernel3D looks at circularY where it convolves along x"):
+    if mixed and b.bug("GaussKernel3D reads circularY for its convolution along x"):
         form = dc.replace(form, ends=[form.ends[0], form.ends[0], form.ends[2]])
     return _convolve(b, form, [form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))])
 

@@ -17,7 +17,7 @@ MISSING = {
     "Convolution": "convolves its two inputs with each other",
     "DynamicRobotController": "drives an e-puck robot",
     "ImageLoader": "reads images from files",
-    "Interpolation1D": "samples its input anew at given points",
+    "Interpolation1D": "resamples its input at given points",
     "LFP": "records the mean input of a field",
     "MobileRobotArena": "simulates a vehicle among targets",
 }
@@ -29,7 +29,7 @@ def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str =
     what = why or MISSING.get(e.kind, "")
     if not what:
         hint = did_you_mean(e.kind, known)
-        what = "no class of cosivina that is known here" + (f". {hint}" if hint.startswith("Did") else "")
+        what = "an unknown class of cosivina" + (f". {hint}" if hint.startswith("Did") else "")
     dims = _dims(e, dimensions)
     element = Placeholder(e.label, axes(dims), f"{e.kind}: {what}")
     outlets = {"output": Outlet(e.label, dims, state=True)}

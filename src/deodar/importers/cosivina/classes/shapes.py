@@ -236,7 +236,7 @@ def _unused_amplitude(b: SourceElement) -> float:
     if amplitude in (0, 1):
         if amplitude == 0 and "amplitude" in b.element.values:
             b.values.say(
-                "amplitude", "carried", "0 where nobody gave one; the input is taken as it is, as in cosivina"
+                "amplitude", "carried", "0 where none was given; the input is taken as it is, as in cosivina"
             )
         return 1.0
     return 1.0 if b.bug(f"{b.element.kind} does not apply its amplitude") else amplitude

@@ -121,7 +121,7 @@ def sequence(b: SourceElement) -> Piece:
     """Translate CustomStimulusSequence: one pattern after another, and zero before the first."""
     given = b.values.matrix("stimulusPatterns")
     if given is None or given.ndim > 3:
-        raise Unfit("its stimulusPatterns are no patterns")
+        raise Unfit("its stimulusPatterns are not patterns")
     patterns = (
         np.moveaxis(given, -1, 0) if given.ndim == 3 else given.reshape(1, -1) if given.ndim < 2 else given
     )
@@ -134,7 +134,7 @@ def sequence(b: SourceElement) -> Piece:
         raise Unfit("cosivina cannot show patterns that are planes after it has read them from a file")
     starts = b.values.matrix("startTimes")
     if starts is None and not empty(b.element.values.get("startTimes")):
-        raise Unfit("its startTimes are no times")
+        raise Unfit("its startTimes are not times")
     times = np.arange(1.0, len(patterns) + 1) if starts is None else starts.reshape(-1)
     if times.size != len(patterns) or (np.diff(times) < 0).any():
         raise Unfit(f"its startTimes are not {len(patterns)} rising numbers")

@@ -79,7 +79,7 @@ def hebbian(b: SourceElement) -> Piece:
     """
     came, dims = b.source(0), b.source(1)
     if came is None or dims is None:
-        raise Unfit("it learns between two inputs, which are not both there")
+        raise Unfit("it learns between two inputs, and one is missing")
     if "size" in b.element.values:
         b.values.say("size", "carried", "it follows from the inputs")
     rate, tau, decay = (
@@ -138,7 +138,7 @@ T = TypeVar("T", float, str)
 def _default(b: SourceElement, name: str, value: T) -> T:
     """Return a parameter of the file, or cosivina's default, which the report then lists."""
     if name not in b.element.values:
-        b.values.say(name, "approximated", f"it is not in the file; cosivina's default {value} is taken")
+        b.values.say(name, "approximated", f"it is not in the file; cosivina's default {value} is used")
         return value
     if isinstance(value, str):
         b.values.say(name)
@@ -153,7 +153,7 @@ def _duration(b: SourceElement, gated: bool) -> float:
         b.values.say(
             "rewardDuration",
             "approximated",
-            "it is not in the file; cosivina's default [-1, -1] is taken, no fixed duration",
+            "it is not in the file; cosivina's default [-1, -1] is used, no fixed duration",
         )
         return 0.0
     delay, duration = b.values.numbers("rewardDuration", [-1.0, -1.0], 2)
