@@ -64,6 +64,11 @@ class Extensions(Mapping[str, T], Generic[T]):
             )
         return plugin.load()[0]
 
+    def package(self, member: T) -> str:
+        """Return name and version of the package of a member, in the form of files; "" for one of deodar."""
+        outside = (p for p in self.packaged() if p.name == getattr(member, "__name__", ""))
+        return next((f"{p.package} {p.version}" for p in outside if p.load()[0] is member), "")
+
     def __contains__(self, name: object) -> bool:
         """Return whether a member has that name, usable or not, without importing it."""
         return name in self._own() or name in [p.name for p in self.packaged()]

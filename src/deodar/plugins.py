@@ -13,12 +13,13 @@ from __future__ import annotations
 
 import functools
 import importlib.metadata
-from collections.abc import Collection
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from deodar import __version__
-from deodar.errors import first_line
+from deodar.errors import Problem, UnknownName, first_line, show
 
 GROUPS = {
     "kinds": "elements, couplings, kernels and sigmoids, by the name of their class",
@@ -30,6 +31,9 @@ GROUPS = {
     "papers": "modules with HELP, about, jobs, report and so on",
 }
 """The kind of object that the entry points of each group `deodar.GROUP` refer to."""
+
+PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99} [0-9A-Za-z][0-9A-Za-z.!+_-]{0,49}")
+"""Name and version of a package, as files state them under `packages`."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +77,53 @@ def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
         )
         out.append(Plugin(group, entry.name, package, version, problem, entry))
     return out
+
+
+def stated(data: Any, problems: list[Problem]) -> dict[str, str]:
+    """Return the package and its version for each name that a file lists under `packages`.
+
+    Anything else than a package and its version is added to `problems`.
+    """
+    if not isinstance(data, dict):
+        problems.append(Problem("packages", f"needs an object, not {type(data).__name__}"))
+        return {}
+    out: dict[str, str] = {}
+    for name, text in cast("dict[str, Any]", data).items():
+        if isinstance(text, str) and PACKAGE.fullmatch(text):
+            out[name] = text
+        else:
+            what = f"needs a package and its version, such as 'deodar-change 0.1.0', not {show(text)}"
+            problems.append(Problem(f"packages.{name}", what))
+    return out
+
+
+def unfit(
+    needed: Mapping[str, str], package: Callable[[str], str], known: Collection[str]
+) -> Iterator[Problem]:
+    """Yield the packages of a file that are missing or have another version: the cause of other problems.
+
+    Args:
+        needed: the package and version for each name, as the file states them.
+        package: function that returns the present package and version of a name; it raises UnknownName if the
+            name cannot be used.
+        known: names from installed packages, usable or not.
+    """
+    for name, text in needed.items():
+        where = f"packages.{name}"
+        try:
+            here = package(name)
+        except UnknownName:
+            if name not in known:
+                project, _, version = text.partition(" ")
+                yield Problem(
+                    where,
+                    f"{name} is of the package {text}, which is not installed",
+                    f"If you trust it, type: pip install {project}=={version}",
+                )
+            continue
+        if here != text:
+            now = here or "a module that is in no package"
+            yield Problem(where, f"was saved with {text}; {name} is of {now} now")
 
 
 @functools.cache

@@ -87,7 +87,7 @@ def test_another_version_is_named_where_the_document_does_not_open(install: Inst
     with pytest.raises(DocumentError) as caught:
         dd.load(_write(tmp_path / "m.json", NEEDS))
     assert [p.what for p in caught.value.problems] == [
-        "the document was saved with deodar-detector 1.2; Detector is of deodar-detector 2.0 now",
+        "was saved with deodar-detector 1.2; Detector is of deodar-detector 2.0 now",
         "Detector has no such parameter",
     ]
 

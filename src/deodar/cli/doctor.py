@@ -8,6 +8,7 @@ import importlib.metadata
 import os
 import platform
 import re
+from pathlib import Path
 from typing import Any
 
 from deodar import __version__, codec
@@ -24,7 +25,9 @@ GIB = 2**30
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("files", nargs="*", metavar="FILE", help="documents whose packages are looked for")
+    parser.add_argument(
+        "files", nargs="*", metavar="FILE", help="documents and experiments whose packages are looked for"
+    )
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
     parser.add_argument(
         "--sbom",
@@ -146,22 +149,35 @@ def examine() -> dict[str, Any]:
 
 
 def _needs(path: str) -> dict[str, Any]:
-    """Return the packages that a document needs and that are missing or have another version."""
+    """Return the packages that a document needs, or an experiment and its model, and that are missing or have
+    another version.
+    """
     # start-up time: these bring JAX
+    from deodar.experiments.design import Design
     from deodar.importers import opening
     from deodar.model import files
 
+    check = f"deodar check {path}"
     try:
-        files.load(opening.require(path))
+        place = opening.require(path)
+        if _is_experiment(place):
+            check = f"deodar experiment {path} --check"
+            place = opening.require(str(Design.load(place).model))
+        files.load(place)
     except DocumentError as error:
-        return {
-            "file": path,
-            "problems": [
-                f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where
-            ],
-            "opens": False,
-        }
-    return {"file": path, "problems": [], "opens": True}
+        problems = [
+            f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where
+        ]
+        return {"file": path, "problems": problems, "opens": False, "check": check}
+    return {"file": path, "problems": [], "opens": True, "check": check}
+
+
+def _is_experiment(path: Path) -> bool:
+    try:
+        data = codec.read(path.read_bytes())
+    except (DocumentError, OSError):
+        return False
+    return isinstance(data, dict) and "experiment" in data
 
 
 def _plugins() -> list[dict[str, str]]:
@@ -212,7 +228,7 @@ def _page(found: dict[str, Any]) -> str:
         other = (
             "opens"
             if document["opens"]
-            else "no package is missing, but it does not open. Type: deodar check " + document["file"]
+            else "no package is missing, but it does not open. Type: " + document["check"]
         )
         lines += [
             f"document   {document['file']}: {what}"

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
-from deodar import codec
+from deodar import codec, plugins
 from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
 from deodar.experiments.actions import ACTIONS, Action
 from deodar.experiments.events import EVENTS, Event
@@ -119,7 +119,9 @@ class Design(Part):
                     if key == "actions"
                     else {part.name: data for part, data in zip(parts, plain, strict=True)}
                 )
-        return out
+        packages = {type(part).__name__: MEASURES.package(type(part)) for part in self.measures}
+        packages = {kind: package for kind, package in sorted(packages.items()) if package}
+        return out | ({"packages": packages} if packages else {})
 
     @classmethod
     def from_data(cls, data: Any, folder: Path | None = None, read: Callable[[str], Model] = load) -> Self:
@@ -140,6 +142,7 @@ class Design(Part):
             what = f"is an experiment of another version; this deodar reads versions 1 to {VERSION}"
             raise DocumentError(what, fix="Type: pip install --upgrade deodar")
         problems: list[Problem] = []
+        needed = plugins.stated(given.pop("packages", {}), problems)
         for key, kinds in KINDS.items():
             rows = given.pop(key, None)
             if rows is None:
@@ -160,7 +163,9 @@ class Design(Part):
                 for k, v in pairs
             ]
         if problems:
-            raise DocumentError(problems)
+            known = [p.name for p in MEASURES.packaged()]
+            unfit = plugins.unfit(needed, lambda kind: MEASURES.package(MEASURES[kind]), known)
+            raise DocumentError([*unfit, *problems])
         for key in ("model", "world"):
             given[key] = _beside(given.get(key, ""), folder, key == "world") if key in given else ""
         if not given["model"]:
@@ -232,6 +237,7 @@ class Design(Part):
             "name": {"type": "string"},
             "model": {"type": "string"},
             "world": {"type": "string"},
+            "packages": {"type": "object", "additionalProperties": {"type": "string"}},
         }
         for key, kinds in KINDS.items():
             parts = schema(kinds, named=key != "actions")

@@ -67,7 +67,7 @@ def _carry(
     setup: Setup, out: Path, workers: int | None, progress: Callable[[Standing], None] | None
 ) -> xarray.Dataset:
     about = _about(setup, workers, out)
-    rows = Rows(out / ROWS, about, read=lambda made: migrate(made, setup.model.document))
+    rows = Rows(out / ROWS, about, read=lambda made: _of_today(made, about, setup.model.document))
     if not (out / MODEL).exists():
         documents.save(setup.model.document, out / MODEL)
     if not (out / EXPERIMENT).exists():
@@ -101,6 +101,12 @@ def _about(setup: Setup, workers: int | None, folder: Path) -> dict[str, Any]:
     unit = setup.model.document.time_unit
     world = None if setup.world is None else setup.world.describe()
     return {**_plan(setup), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
+
+
+def _of_today(made: dict[str, Any], about: Mapping[str, Any], doc: Document) -> dict[str, Any]:
+    """Convert the identity of existing rows to the present version; older rows name no packages."""
+    packages = {"packages": about["packages"]} if "packages" in about else {}
+    return packages | migrate(made, doc)
 
 
 def _digest(text: str, arrays: bytes | None) -> str:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any, cast
 
-from deodar import registry
+from deodar import plugins, registry
 from deodar.element import Element
 from deodar.errors import (
     AxesError,
@@ -26,9 +25,6 @@ from deodar.model.parts import part_from_json
 from deodar.model.paths import PathNames, display, split, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
-
-PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99} [0-9A-Za-z][0-9A-Za-z.!+_-]{0,49}")
-"""A package and its version, as a document states them."""
 
 MOST_PROBLEMS = 100
 """Largest number of connections whose problems are listed: each is compared with all names, which takes long
@@ -71,9 +67,10 @@ class _Reader:
         # connections and links of elements that failed would only repeat their problems
         if not self.problems:
             doc = self.uses(self.knobs(self.connections(doc)))
-        needed = self.packages()
+        needed = plugins.stated(self.data.get("packages", {}), self.problems)
         if self.problems:
-            raise DocumentError([*self.unfit_packages(needed), *self.problems])
+            known = [p.name for p in registry.packaged()]
+            raise DocumentError([*plugins.unfit(needed, _package, known), *self.problems])
         return doc
 
     def problem(self, where: str, what: str, fix: str = "") -> None:
@@ -109,45 +106,6 @@ class _Reader:
             self.problem(key, f"needs a list, not {type(value).__name__}")
             return []
         return cast("list[Any]", value)
-
-    def packages(self) -> dict[str, str]:
-        """Return the package and its version for each kind that comes from a package."""
-        found: dict[str, str] = {}
-        for kind, text in self.table("packages").items():
-            if isinstance(text, str) and PACKAGE.fullmatch(text):
-                found[kind] = text
-            else:
-                self.problem(
-                    f"packages.{kind}",
-                    f"needs a package and its version, such as 'deodar-change 0.1.0', not {show(text)}",
-                )
-        return found
-
-    @staticmethod
-    def unfit_packages(needed: Mapping[str, str]) -> Iterator[Problem]:
-        """Report packages of the document that are missing or have another version: the cause of other
-        problems.
-        """
-        for kind, package in needed.items():
-            where = f"packages.{kind}"
-            try:
-                registry.kind(kind)
-            except UnknownName:
-                if kind not in [p.name for p in registry.packaged()]:
-                    name, _, version = package.partition(" ")
-                    yield Problem(
-                        where,
-                        f"{kind} is of the package {package}, which is not installed",
-                        f"If you trust it, type: pip install {name}=={version}",
-                    )
-            else:
-                here = registry.package(kind)
-                if here != package:
-                    yield Problem(
-                        where,
-                        f"the document was saved with {package}; {kind} is of"
-                        f" {here or 'a module that is in no package'} now",
-                    )
 
     def general(self, doc: Document) -> Document:
         doc = self.attempt(
@@ -339,3 +297,8 @@ def _groups(groups: Any) -> tuple[PathNames, ...]:
     for g in groups:
         out += [g[:k] for k in range(1, len(g) + 1) if g[:k] not in out]
     return tuple(out)
+
+
+def _package(kind: str) -> str:
+    registry.kind(kind)
+    return registry.package(kind)
