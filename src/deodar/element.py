@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NoReturn, Self
 
 import jax.numpy as jnp
 import numpy as np
@@ -30,8 +30,9 @@ from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.exact import Exact, exact, split, wide
 from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.scalar import Scalar
 from deodar.numerics.signs import Sign
-from deodar.parameters import Part, Recompile
+from deodar.parameters import ArrayLike, FrozenArray, Part, Recompile
 
 Arrays = dict[str, Array]
 
@@ -50,8 +51,8 @@ class Time:
         ticks: step of the element as a multiple of the model's step.
     """
 
-    origin: Any
-    passed: Any
+    origin: Exact
+    passed: Array | np.uint32
     step: Exact
     ticks: int = 1
 
@@ -66,7 +67,7 @@ class Time:
         return cls(Exact(*split(now, dtype)), np.uint32(0), Exact(*split(dt, dtype)))
 
     @property
-    def dt(self) -> Any:
+    def dt(self) -> Scalar:
         """The step of the element (at its own rate), in the working precision."""
         return self.step.high * self.ticks
 
@@ -127,7 +128,7 @@ class Convolution:
     into: str
 
 
-def _undeclared(y: Any) -> Any:
+def _undeclared(y: Array) -> NoReturn:
     raise ModelError(
         "an element calls `at.convolve` and declares no convolution, or calls it outside of `output` and"
         " `advance`",
@@ -149,28 +150,26 @@ class Setting:
     ins: Mapping[str, Axes]
     outs: Mapping[str, Axes]
     dtype: DTypeLike
-    convolve: Callable[[Any], Any] = _undeclared
+    convolve: Callable[[Array], Array] = _undeclared
 
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
             raise renamed.no_member(self, name)
 
-    def full(self, axes: Axes, value: Any) -> Array:
+    def full(self, axes: Axes, value: Scalar) -> Array:
         """Return an array over the axes, filled with one value."""
         return jnp.full(shape(axes), value, self.dtype)
 
-    def array(self, values: Any) -> Array:
+    def array(self, values: ArrayLike | Array) -> Array:
         """Return the values as an array in the working precision."""
-        return jnp.asarray(getattr(values, "data", values), self.dtype)
+        return jnp.asarray(values.data if isinstance(values, FrozenArray) else values, self.dtype)
 
-    def exact(self, values: Any) -> Exact:
+    def exact(self, values: ArrayLike | Exact | float) -> Exact:
         """Return the values with the digits of float64."""
-        return (
-            values
-            if isinstance(values, Exact)
-            else Exact(*split(getattr(values, "data", values), self.dtype))
-        )
+        if isinstance(values, Exact):
+            return values
+        return Exact(*split(values.data if isinstance(values, FrozenArray) else values, self.dtype))
 
     def points(self, axis: Axis) -> Array:
         """Return the values at the samples of an axis, in the working precision."""
@@ -349,7 +348,7 @@ class Element(Part):
         """
         return None
 
-    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         """Return the learned state as parameters from which `init` restores it; empty if nothing is
         learned.
         """

@@ -6,23 +6,24 @@ import dataclasses as dc
 import functools
 import math
 import typing
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Container, Hashable, Iterator, Sequence, Sized
 from typing import Any, TypeVar
 
 import numpy as np
 
 from deodar.declarations import LIMITING, Role
 from deodar.errors import UnknownName
-from deodar.parameters import FrozenArray, Parameter, Part, parameter, parameters
+from deodar.parameters import FrozenArray, Parameter, Part, PerAxis, parameter, parameters
 
 P = TypeVar("P", bound=Part)
+T = TypeVar("T")
 
 
 # ---------------------------------------------------------------------------------------------- traced leaves
 
 
 def leaves(
-    part: Any, prefix: str = "", only: Container[str] | None = None
+    part: Part, prefix: str = "", only: Container[str] | None = None
 ) -> Iterator[tuple[str, float | np.ndarray, Parameter]]:
     """Yield (path, value, declaration) of every traced leaf, including nested parts: `kernel.0.sigma`.
 
@@ -70,17 +71,17 @@ def bind(part: P, values: Callable[[str], Any], prefix: str = "") -> P:
     return new
 
 
-def _or(value: Any, default: Any) -> Any:
+def _or(value: T | None, default: T) -> T:
     return default if value is None else value
 
 
-def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = "") -> tuple[Any, ...]:
+def structure(part: Part, neutral: frozenset[str] = frozenset(), prefix: str = "") -> tuple[Hashable, ...]:
     """Return a hashable description of everything but traced leaves and the name: equal structure, equal
     code.
 
     Leaves in `neutral` are omitted from the program, which is a different structure.
     """
-    out: list[Any] = [type(part)]
+    out: list[Hashable] = [type(part)]
     for p in parameters(type(part)):
         value, path = getattr(part, p.name), prefix + p.name
         if p.name == "name" or value is None:
@@ -91,7 +92,7 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
             out.append((p.name, tuple(structure(v, neutral, f"{path}.{i}.") for i, v in enumerate(value))))
         elif p.traced:
             if isinstance(value, FrozenArray):
-                form: Any = value.shape
+                form: int | tuple[int | str, ...] = value.shape
             elif p.form == "numbers":
                 form = tuple(k for k, _ in value)
             else:
@@ -103,7 +104,7 @@ def structure(part: Any, neutral: frozenset[str] = frozenset(), prefix: str = ""
     return tuple(out)
 
 
-def arrays(part: Any) -> Iterator[np.ndarray]:
+def arrays(part: Part) -> Iterator[np.ndarray]:
     """Yield the arrays among the parameters of a part and of its nested parts."""
     for p in parameters(type(part)):
         value = getattr(part, p.name)
@@ -143,7 +144,7 @@ class StepLimit:
         )
 
 
-def step_limits(part: Any) -> Iterator[StepLimit]:
+def step_limits(part: Part) -> Iterator[StepLimit]:
     """Yield every parameter whose role limits the Euler step, including nested parts."""
     only = _may_limit(type(part))
     return (
@@ -158,7 +159,7 @@ def _may_limit(cls: type[Part]) -> frozenset[str]:
     return frozenset(p.name for p in parameters(cls) if p.role in LIMITING or p.form in ("part", "parts"))
 
 
-def resting(part: Any) -> frozenset[str]:
+def resting(part: Part) -> frozenset[str]:
     """Return the leaves that have their declared neutral value."""
     return frozenset(
         path
@@ -175,17 +176,15 @@ def is_neutral(value: Any, neutral: float = 0.0) -> bool:
     return all(isinstance(v, float) and v == neutral for v in values)
 
 
-def per_axis(value: Any, axes: Sequence[Any]) -> tuple[Any, ...]:
+def per_axis(value: PerAxis, axes: Sized) -> tuple[float, ...]:
     """Return one value for each axis, from one value for all axes or one for each."""
-    if isinstance(value, tuple):
-        return typing.cast("tuple[Any, ...]", value)
-    return (value,) * len(axes)
+    return tuple(value) if isinstance(value, Sequence) else (value,) * len(axes)
 
 
 # -------------------------------------------------------------------------------------- one value by its path
 
 
-def get(part: Any, path: str) -> Any:
+def get(part: Part, path: str) -> Any:
     """Return the value of a parameter: `get(field, "kernel.0.sigma")`."""
     value = part
     for step in path.split("."):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 from deodar.declarations import needed
@@ -107,7 +108,7 @@ class AdaptiveWeights(Coupling):
         pre = x.reshape(x.shape + (1,) * len(self.axes))
         return {"weights": w + time.dt * speed * (inputs["post"] - w) * pre}
 
-    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         return {"start": state["weights"]}
 
     @classmethod

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -116,7 +116,7 @@ class DelayLine(Element):
             for name, value in new.items()
         }
 
-    def _ages(self, state: Arrays, time: Time) -> Any:
+    def _ages(self, state: Arrays, time: Time) -> Array:
         """The age of each stored sample in float64; call it inside `exact()`."""
         return jnp.where(
             state["moments"] > -0.5 * NEVER,

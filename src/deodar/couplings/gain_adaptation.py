@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 from deodar.element import Arrays, Coupling, Setting, Time
@@ -102,7 +103,7 @@ class GainAdaptation(Coupling):
             speed = speed * jnp.maximum(inputs["gate"], 0.0)
         return {"gains": state["gains"] + speed * inputs["input"]}
 
-    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         return {"start": state["gains"]}
 
     @classmethod

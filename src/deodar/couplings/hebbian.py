@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
@@ -164,10 +164,10 @@ class Hebbian(Coupling):
         w, post = state["weights"], len(self.axes)
         return {"start": np.moveaxis(w, range(w.ndim - post, w.ndim), range(post)) if post else w}
 
-    def _matrix(self, weights: Any, pre: tuple[int, ...]) -> Any:
+    def _matrix(self, weights: Array, pre: tuple[int, ...]) -> Array:
         return weights.reshape(int(np.prod(pre, dtype=int)), -1)
 
-    def _active(self, x: Any) -> Any:
+    def _active(self, x: Array) -> Array:
         return jnp.where(x > self.threshold, x, jnp.zeros_like(x)).ravel()
 
     @classmethod

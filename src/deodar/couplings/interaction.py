@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -12,6 +12,7 @@ from jax import Array
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, cell
+from deodar.numerics.interaction import KernelWeights, Mixture
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.signs import Sign, together
@@ -59,14 +60,20 @@ class Interaction(Coupling):
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str]:
         yield from validate_kernels(self.kernel, ins["input"])
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> dict[str, list[KernelWeights]]:
         return {"kernel": interaction.prepare(self.kernel, at.ins["input"], at.dtype)}
 
-    def hoist(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting, constants: dict[str, list[KernelWeights]]) -> dict[str, Mixture]:
         return {"kernel": interaction.mix(self.kernel, at.ins["input"], constants["kernel"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, Mixture],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         x, axes = inputs["input"], at.ins["input"]
         total = cell(axes) * jnp.sum(x)

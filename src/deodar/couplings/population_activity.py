@@ -112,7 +112,7 @@ class PopulationActivity(Coupling):
 
     @classmethod
     def of(
-        cls, preferred: Any, sigma: PerAxis, axes: Sequence[Axis], rate: float = 1.0, **others: Any
+        cls, preferred: ArrayLike, sigma: PerAxis, axes: Sequence[Axis], rate: float = 1.0, **others: Any
     ) -> PopulationActivity:
         """Create neurons with Gaussian tuning curves; on a periodic axis the distance is the shorter one.
 

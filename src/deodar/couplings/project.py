@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -116,7 +116,7 @@ class Project(Coupling):
 
     def prepare(self, at: Setting) -> Arrays:
         here = {a.name: a for a in self.axes}
-        out: dict[str, Any] = {}
+        out: Arrays = {}
         for name, axis in zip(self._source(at.ins["input"]), at.ins["input"], strict=True):
             if name in here and here[name].samples != axis.samples:
                 out[name] = resampling.weights(axis, here[name].points, self.interpolation, at.dtype)
@@ -139,8 +139,7 @@ class Project(Coupling):
         return {"output": jnp.broadcast_to(y, shape(self.axes))}
 
     def _renames(self) -> tuple[tuple[str, str], ...]:
-        pairs: Any = self.rename
-        return pairs
+        return tuple(dict(self.rename).items())
 
     def _source(self, axes: Axes) -> list[str]:
         names = dict(self._renames())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -83,7 +83,7 @@ class RateCode(Coupling):
     ) -> Arrays:
         axes, f = tuple(self.axes), inputs["input"] * cell(self.axes)
         every = zip(axes, *(per_axis(v, axes) for v in (self.gain, self.offset, self.absent)), strict=True)
-        found: list[Any] = []
+        found: list[Array] = []
         for d, (axis, gain, offset, absent) in enumerate(every):
             along = jnp.sum(f, axis=tuple(k for k in range(len(axes)) if k != d))
             place, there, _ = centre(axis, along, self.least)

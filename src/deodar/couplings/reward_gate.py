@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -112,11 +112,11 @@ class RewardGate(Coupling):
             "rewarded": (reward > self.threshold).astype(at.dtype),
         }
 
-    def _reward(self, at: Setting, inputs: Arrays) -> Any:
+    def _reward(self, at: Setting, inputs: Arrays) -> Array:
         reward = cell(at.ins["input"]) * jnp.sum(inputs["input"])
         return reward * inputs["gate"] if self.gated else reward
 
-    def _onset(self, state: Arrays, reward: Any) -> Any:
+    def _onset(self, state: Arrays, reward: Array) -> Array:
         return (reward > self.threshold) & (state["rewarded"] == 0)
 
     @classmethod

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -109,7 +109,7 @@ class SpaceCode(Coupling):
             per_axis(self.offset, axes),
             strict=True,
         )
-        factors: list[Any] = []
+        factors: list[Array] = []
         for d, (axis, end, sigma, gain, offset) in enumerate(every):
             distance = at.points(axis) - (gain * values[d] + offset)
             if end == "periodic":

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 from jax import Array
 
 from deodar.declarations import needed
@@ -66,7 +67,7 @@ class Weighting(Coupling):
         return {"output": constants["weights"] * inputs["input"]}
 
     @classmethod
-    def of(cls, function: Any, axes: Any) -> Weighting:
+    def of(cls, function: Callable[..., npt.ArrayLike], axes: Sequence[Axis]) -> Weighting:
         """Sample the weights from a function of the axes' values: `Weighting.of(lambda x: x / 100, [x])`."""
         grids = np.meshgrid(*(a.points for a in axes), indexing="ij")
         return cls(np.broadcast_to(np.asarray(function(*grids), float), shape(axes)), tuple(axes))

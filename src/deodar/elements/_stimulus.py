@@ -14,7 +14,7 @@ from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.intervals import ANY, ZERO, Interval, hull, times
 from deodar.numerics.windows import Window, gate
-from deodar.parameters import FrozenArray, Recompile
+from deodar.parameters import FrozenArray, PerAxis, Recompile
 
 NOTHING = 3.0
 """Widths beyond the end of an axis from which a Gaussian counts as absent (1 % of its height at the end)."""
@@ -33,7 +33,7 @@ class Stimulus(Element):
     inputs: ClassVar[tuple[str, ...]] = ()
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ()}
 
-    def pattern(self, at: Setting) -> Any:
+    def pattern(self, at: Setting) -> Array:
         """The value of the stimulus over its axes while it is on."""
         raise NotImplementedError
 
@@ -71,7 +71,7 @@ class Stimulus(Element):
 
     def placed(self, width: str, ends: Sequence[str]) -> Iterator[tuple[str, str]]:
         """Warn about a center outside the axes, and about a width too small or too large for them."""
-        sizes: Any = getattr(self, width)
+        sizes: PerAxis = getattr(self, width)
         for axis, center, size, end in zip(
             self.axes,
             per_axis(self.center, self.axes),  # type: ignore[attr-defined]

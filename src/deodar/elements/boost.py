@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
@@ -45,5 +46,5 @@ class Boost(Stimulus):
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
-    def pattern(self, at: Setting) -> Any:
+    def pattern(self, at: Setting) -> Array:
         return jnp.broadcast_to(jnp.asarray(self.amplitude, at.dtype), shape(self.axes))

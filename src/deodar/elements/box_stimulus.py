@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
@@ -58,7 +59,7 @@ class BoxStimulus(Stimulus):
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
 
-    def pattern(self, at: Setting) -> Any:
+    def pattern(self, at: Setting) -> Array:
         y = self.amplitude * jnp.ones((), at.dtype)
         centers, widths = per_axis(self.center, self.axes), per_axis(self.width, self.axes)
         for axis, center, width in zip(self.axes, centers, widths, strict=True):

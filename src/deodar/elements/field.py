@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
@@ -198,18 +198,18 @@ class Field(Element):
     ) -> Mapping[str, np.ndarray] | None:
         return {"activation": state["activation"] + dt / self.tau * amount}
 
-    def _output(self, u: Any) -> Any:
+    def _output(self, u: Array) -> Array:
         return (
             quadrature.cell_means(self.sigmoid, u, tuple(self.axes))
             if self.quadrature == "cell"
             else self.sigmoid(u)
         )
 
-    def _interaction(self, at: Setting, g: Any) -> Any:
+    def _interaction(self, at: Setting, g: Array) -> Array:
         inhibition = self.global_inhibition * cell(tuple(self.axes)) * jnp.sum(g)
         return at.convolve(g) - inhibition
 
-    def _noise(self, deviates: Any, constants: dict[str, list[Array]]) -> Any:
+    def _noise(self, deviates: Array | None, constants: dict[str, list[Array]]) -> Array | None:
         if deviates is None:
             return None
         return self.noise * noises.over(tuple(self.axes), deviates, constants.get("noise"))

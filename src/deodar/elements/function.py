@@ -10,15 +10,17 @@ from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
+from jax.typing import ArrayLike
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import DeodarError, ModelError, UnknownName, first_line
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.scalar import Scalar
 from deodar.parameters import Live, Recompile, show
 from deodar.registry import register
 
 
-def leaky(state: Any, inputs: Mapping[str, Any], time: Time, rate: Any = 0.1) -> Any:
+def leaky(state: Array, inputs: Mapping[str, Array], time: Time, rate: Scalar = 0.1) -> Array:
     """A leaky integrator, du/dt = rate (input - u): the default of `Function` and the manual's example."""
     return state + time.dt * rate * (inputs["input"] - state)
 
@@ -50,7 +52,7 @@ class Function(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the state")] = ()
-    function: Annotated[str | Callable[..., Any], Recompile(meaning="module:name")] = (
+    function: Annotated[str | Callable[..., ArrayLike], Recompile(meaning="module:name")] = (
         "deodar.elements.function:leaky"
     )
     ports_in: Annotated[Sequence[str], Recompile(meaning="names of the input ports")] = ("input",)
@@ -60,7 +62,7 @@ class Function(Element):
     stateful: ClassVar[bool] = True
 
     def validate(self) -> Iterator[tuple[str, str]]:
-        names: Any = self.ports_in
+        names = tuple(self.ports_in)
         for name in names:
             if not name.isidentifier() or name == "output":
                 yield (
@@ -69,8 +71,7 @@ class Function(Element):
                 )
         if len(set(names)) < len(names):
             yield "ports_in", f"contains a name twice: {', '.join(names)}"
-        values: Any = self.values
-        for name, _ in values:
+        for name in dict(self.values):
             if not name.isidentifier():
                 yield "values", f"contains {name!r}, which cannot be the name of a keyword argument"
 
@@ -91,10 +92,9 @@ class Function(Element):
     def advance(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
-        values: Any = self.values
         function, here = self.load(), state["state"].shape
         try:
-            new = jnp.asarray(function(state["state"], inputs, time, **dict(values)))
+            new = jnp.asarray(function(state["state"], inputs, time, **dict(self.values)))
         except DeodarError:
             raise
         except Exception as error:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
@@ -82,7 +83,7 @@ class GaussianStimulus(Stimulus):
     def strength(self) -> Interval:
         return ANY if self.normalized else signed(self.amplitude)
 
-    def pattern(self, at: Setting) -> Any:
+    def pattern(self, at: Setting) -> Array:
         y = self.amplitude * jnp.ones((), at.dtype)
         centers, sigmas = per_axis(self.center, self.axes), per_axis(self.sigma, self.axes)
         ends = boundaries(self.boundary, tuple(self.axes))

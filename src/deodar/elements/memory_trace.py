@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
@@ -128,7 +129,7 @@ class MemoryTrace(Element):
             rate = jnp.maximum(inputs["gate"], 0.0) * rate
         return {"trace": p + time.dt * rate, "active": active.astype(p.dtype)}
 
-    def learned_parameters(self, state: Mapping[str, Any]) -> Mapping[str, Any]:
+    def learned_parameters(self, state: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
         return {"start": state["trace"]}
 
     @classmethod

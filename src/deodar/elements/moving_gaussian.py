@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 import numpy as np
@@ -112,13 +112,13 @@ class MovingGaussian(Stimulus):
             y = y[..., None] * jnp.exp(-0.5 * (distance / sigma) ** 2)
         return {"output": y}
 
-    def _places(self, at: Setting, constants: dict[str, Exact], time: Time) -> list[Any]:
+    def _places(self, at: Setting, constants: dict[str, Exact], time: Time) -> list[Array]:
         """The centre along each axis.
 
         On a periodic axis whole periods are subtracted in float64, before the cast to the model's
         precision, so that large positions lose no digits.
         """
-        out: list[Any] = []
+        out: list[Array] = []
         with exact():
             for d, axis in enumerate(self.axes):
                 place = (

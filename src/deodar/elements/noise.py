@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -85,5 +85,5 @@ class Noise(Element):
             return {"output": at.full(tuple(self.axes), 0.0)}
         return {"output": self.amplitude / jnp.sqrt(time.dt) * self._over(noise, constants)}
 
-    def _over(self, deviates: Any, constants: dict[str, list[Array]]) -> Any:
+    def _over(self, deviates: Array, constants: dict[str, list[Array]]) -> Array:
         return noises.over(tuple(self.axes), deviates, constants.get("noise"))

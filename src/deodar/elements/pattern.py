@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
+from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Setting
@@ -66,5 +67,5 @@ class Pattern(Stimulus):
     def strength(self) -> Interval:
         return array_strength(self.values, self.amplitude)
 
-    def pattern(self, at: Setting) -> Any:
+    def pattern(self, at: Setting) -> Array:
         return self.amplitude * jnp.broadcast_to(at.array(self.values), shape(self.axes))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -100,5 +100,5 @@ class RateNode(Element):
             u = u + jnp.sqrt(time.dt) * self.noise * noise
         return {"activation": u, "rate": self._rate(u, inputs["input"])}
 
-    def _rate(self, u: Any, s: Any) -> Any:
+    def _rate(self, u: Array, s: Array) -> Array:
         return (-u + self.resting_level + self.self_excitation * self.sigmoid(u) + s) / self.tau

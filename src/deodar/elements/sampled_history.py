@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -115,7 +115,7 @@ class SampledHistory(Element):
             "stored": jnp.maximum(state["stored"], due.astype(at.dtype)),
         }
 
-    def _each(self, values: Any) -> Any:
+    def _each(self, values: Array) -> Array:
         """Reshape values of the slots so that they broadcast over the axes."""
         return values.reshape(-1, *(1 for _ in self.axes))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -15,6 +15,7 @@ from deodar.numerics import interaction
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
+from deodar.numerics.interaction import KernelWeights, Mixture
 from deodar.numerics.kernels._base import Kernel, validate_kernels
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.semilinear import SemiLinear
@@ -114,14 +115,20 @@ class SoftWinnerTakeAll(Element):
     def init(self, at: Setting) -> Arrays:
         return {"rate": at.full(tuple(self.axes), 0.0), "inhibition": at.full((), 0.0)}
 
-    def prepare(self, at: Setting) -> Any:
+    def prepare(self, at: Setting) -> dict[str, list[KernelWeights]]:
         return {"kernel": interaction.prepare(self.kernel, tuple(self.axes), at.dtype)}
 
-    def hoist(self, at: Setting, constants: Any) -> Any:
+    def hoist(self, at: Setting, constants: dict[str, list[KernelWeights]]) -> dict[str, Mixture]:
         return {"kernel": interaction.mix(self.kernel, tuple(self.axes), constants["kernel"])}
 
     def output(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, Mixture],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         return {
             "output": state["rate"],
@@ -130,7 +137,13 @@ class SoftWinnerTakeAll(Element):
         }
 
     def advance(
-        self, at: Setting, state: Arrays, inputs: Arrays, constants: Any, time: Time, noise: Array | None
+        self,
+        at: Setting,
+        state: Arrays,
+        inputs: Arrays,
+        constants: dict[str, Mixture],
+        time: Time,
+        noise: Array | None,
     ) -> Arrays:
         r, v, axes = state["rate"], state["inhibition"], tuple(self.axes)
         u = inputs["input"] + self._interaction(state, constants) - self.threshold
@@ -141,7 +154,7 @@ class SoftWinnerTakeAll(Element):
             "inhibition": euler(v, -v + self.sigmoid_inhibition(driven), self.tau_inhibition, time.dt),
         }
 
-    def _interaction(self, state: Arrays, constants: Any) -> Any:
+    def _interaction(self, state: Arrays, constants: dict[str, Mixture]) -> Array:
         r = state["rate"]
         neighbours = interaction.apply(constants["kernel"], tuple(self.axes), r) if self.kernel else 0.0
         return self.self_excitation * r + neighbours - self.inhibition * state["inhibition"]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, TypedDict
 
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
 from jax import Array
 
 from deodar.declarations import needed
@@ -141,7 +142,12 @@ class TimeSeries(Stimulus):
 
     @classmethod
     def of(
-        cls, name: str, function: Callable[..., Any], times: Any, axes: Sequence[Axis], **others: Any
+        cls,
+        name: str,
+        function: Callable[..., npt.ArrayLike],
+        times: Iterable[float],
+        axes: Sequence[Axis],
+        **others: Any,
     ) -> TimeSeries:
         """Sample a function of time and of the axes' values.
 

@@ -10,13 +10,15 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
+from collections.abc import Sequence
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
 from jax import Array
-from jax.typing import DTypeLike
+from jax.typing import ArrayLike, DTypeLike
 
 LOW = "~low"
 """Suffix of the path of a traced leaf that stores the rounding error of the leaf without the suffix."""
@@ -34,7 +36,7 @@ class Exact:
     low: Any
 
     @property
-    def rounded(self) -> Any:
+    def rounded(self) -> Array:
         """The value in the working precision."""
         return self.high
 
@@ -47,7 +49,9 @@ def exact() -> contextlib.AbstractContextManager[None]:
     return jax.enable_x64(True)
 
 
-def split(value: Any, dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
+def split(
+    value: npt.ArrayLike | Sequence[float | np.ndarray], dtype: DTypeLike
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the high and low part of a number or an array of the host."""
     wide = np.asarray(value, np.float64)
     high = wide.astype(dtype)
@@ -56,7 +60,7 @@ def split(value: Any, dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
     return high, rest.astype(dtype)
 
 
-def wide(value: Any) -> Array:
+def wide(value: Exact | ArrayLike) -> Array:
     """Return the value in float64; call it inside `exact()`."""
     if isinstance(value, Exact):
         return jnp.asarray(value.high, jnp.float64) + jnp.asarray(value.low, jnp.float64)

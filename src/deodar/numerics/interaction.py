@@ -10,7 +10,7 @@ own matrices or spectra.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import Any
+from typing import TypeAlias, TypedDict
 
 import jax.numpy as jnp
 from jax import Array
@@ -21,24 +21,56 @@ from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.choice import Choice, bounds, bucket, choose
 from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.scalar import Scalar
 from deodar.numerics.waves import Waves
 
-KernelWeights = list[Any]
-"""For each kernel: `spectrum`, or for each of its terms `matrices` (one per axis), `waves` or `spectra` (one
-vector per axis), or `taps`.
-"""
 
-Mixture = dict[str, Any]
-"""The mixed weights: `gain` on a node; else `terms` (for each its matrices, one per axis), `spectra`, `waves`
-and `taps` (by boundaries).
-"""
+class KernelWeights(TypedDict, total=False):
+    """The weights of one kernel, in one of these forms.
+
+    Attributes:
+        spectrum: of a sampled kernel.
+        matrices: for each term one matrix per axis.
+        waves, spectra: for each term one vector per axis.
+        taps: for each term the weights of its lags.
+    """
+
+    spectrum: Array
+    matrices: list[list[Array]]
+    waves: list[list[Array]]
+    spectra: list[list[Array]]
+    taps: list[list[Array]]
+
+
+class NodeMixture(TypedDict):
+    """The mixed weights on a node: the sum of the amplitudes."""
+
+    gain: Scalar
+
+
+class FieldMixture(TypedDict):
+    """The mixed weights over axes.
+
+    Attributes:
+        terms: for each term one matrix per axis.
+        spectra, waves, taps: the sum for each kind of boundaries.
+    """
+
+    terms: list[list[Array]]
+    spectra: dict[str, Array]
+    waves: dict[str, Array]
+    taps: dict[str, Array]
+
+
+Mixture: TypeAlias = NodeMixture | FieldMixture
+"""The mixed weights of several kernels."""
 
 
 def buckets(kernels: Sequence[Kernel]) -> Hashable:
     """Return the buckets of the widths; widths may change without recompiling while it is equal."""
     return tuple(
         tuple(
-            tuple(bucket(float(w)) for w in (width if isinstance(width, tuple) else (width,)))
+            tuple(bucket(float(w)) for w in (width if isinstance(width, Sequence) else (width,)))
             for width in k.widths()
         )
         for k in kernels
@@ -76,8 +108,8 @@ def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str,
 
 def prepare(
     kernels: Sequence[Kernel], axes: Axes, dtype: DTypeLike, chosen: Mapping[str, Choice] | None = None
-) -> KernelWeights:
-    """Return the weights of the convolution that depend on widths only.
+) -> list[KernelWeights]:
+    """Return the weights of the convolution that depend on widths only, for each kernel.
 
     `chosen` are the choices; without them the convolution is exact.
     """
@@ -91,14 +123,14 @@ def prepare(
     ]
 
 
-def mix(kernels: Sequence[Kernel], axes: Axes, weights: KernelWeights) -> Mixture:
+def mix(kernels: Sequence[Kernel], axes: Axes, weights: Sequence[KernelWeights]) -> Mixture:
     """Return the sum of the kernels, multiplied by their amplitudes.
 
     Over one axis it is a single matrix, whatever the number of kernels.
     """
     if not axes:
         return {"gain": sum((t.amplitude for kernel in kernels for t in kernel.terms()), 0.0)}
-    out: Mixture = {"terms": [], "spectra": {}, "waves": {}, "taps": {}}
+    out: FieldMixture = {"terms": [], "spectra": {}, "waves": {}, "taps": {}}
     for kernel, w in zip(kernels, weights, strict=True):
         key = boundaries(kernel, axes)
         if "spectrum" in w:
@@ -127,7 +159,7 @@ def apply(
     `chosen` are the choices with which the kernels were prepared. For the boundaries `key`, `own` is y as
     spectral modes, if known, and `arriving` is added as spectral modes before the inverse transform.
     """
-    if not axes:
+    if "gain" in mixture:
         return mixture["gain"] * y
     parts = [convolution.separable(matrices, y) for matrices in mixture["terms"]]
     for ends, spectrum in mixture["spectra"].items():
@@ -182,7 +214,7 @@ def _product(gains: Sequence[Array]) -> Array:
     return out
 
 
-def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None) -> dict[str, Any]:
+def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None) -> KernelWeights:
     ends = convolution.boundaries(kernel.boundary, axes)
     samples = kernel.samples(axes, dtype)
     if samples is not None:

@@ -32,7 +32,6 @@ the number of axes.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -40,6 +39,7 @@ from jax import Array
 from jax.lax import optimization_barrier, slice_in_dim
 
 from deodar.numerics.axes import Axes
+from deodar.numerics.scalar import Scalar
 from deodar.numerics.sigmoids._base import SigmoidFunction
 
 AT_SAMPLES = tuple(c / 64 for c in (3, -12, 13, 56, 13, -12, 3))
@@ -85,7 +85,7 @@ def _space(g: SigmoidFunction, u: Array, axes: Axes, long: list[int]) -> Array:
     for d in long:
         wide = _padded(wide, d, 1, axes[d].periodic)
     wide = optimization_barrier(wide)
-    steepest: Any = 0.0
+    steepest: Scalar = 0.0
     for d in long:
         inner = wide
         for e in long:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
+
+from deodar.numerics.scalar import Scalar
+from deodar.parameters import ArrayLike
 
 Sign = Literal["+", "-", "±"]
 
 
-def sign_of(*values: Any) -> Sign:
+def sign_of(*values: ArrayLike | Scalar | None) -> Sign:
     """Return the common sign of numbers and arrays; zeros and empty arrays count as excitation."""
     arrays = [np.asarray(getattr(v, "data", v), float) for v in values if v is not None]
     above, below = any((a > 0).any() for a in arrays), any((a < 0).any() for a in arrays)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
 from deodar.numerics.intervals import ANY, Interval
 from deodar.numerics.scalar import Scalar
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import Part, Recompile, parameters
+from deodar.parameters import Part, PerAxis, Recompile, parameters
 
 if TYPE_CHECKING:
     from jax import Array
@@ -54,7 +54,7 @@ class Kernel(Part):
         """Return the separable terms; amplitudes are live, `along` may only use parameters that rebuild."""
         raise NotImplementedError
 
-    def widths(self) -> Sequence[Any]:
+    def widths(self) -> Sequence[PerAxis]:
         """Return the widths of a sum of Gaussians (each one number, or one for each axis), in the order of
         the terms; empty for other kernels.
 

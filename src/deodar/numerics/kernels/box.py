@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -15,6 +15,7 @@ from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.kernels.gaussian import NARROWEST
+from deodar.numerics.scalar import Scalar
 from deodar.parameters import Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
 
@@ -58,14 +59,14 @@ class Box(Kernel):
 
     def terms(self) -> Sequence[Term]:
         def along(d: int, lag: Array, period: float | None, step: float) -> Array:
-            w: Any = self.width[d] if isinstance(self.width, tuple) else self.width
+            w = self.width[d] if isinstance(self.width, Sequence) else self.width
             weight = _covered(lag, w, period, step)
             return weight / w if self.normalized else weight
 
         return (Term(self.amplitude, along),)
 
 
-def _covered(lag: Array, width: Any, period: float | None, step: float) -> Array:
+def _covered(lag: Array, width: float, period: float | None, step: float) -> Array:
     """Return the share of the cell around `lag` that is inside the box; on a periodic axis the box may
     overlap itself.
     """
@@ -79,7 +80,7 @@ def _covered(lag: Array, width: Any, period: float | None, step: float) -> Array
     return turns + sum(_overlap(near + k * period, rest, step) for k in (-1, 0, 1))
 
 
-def _overlap(lag: Array, width: Any, step: float) -> Array:
+def _overlap(lag: Array, width: Scalar, step: float) -> Array:
     upper = jnp.minimum(lag + step / 2, width / 2)
     lower = jnp.maximum(lag - step / 2, -width / 2)
     return jnp.maximum(0.0, upper - lower) / step

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 import numpy as np
@@ -75,8 +75,8 @@ class Custom(Kernel):
         return ()
 
     def samples(self, axes: Axes, dtype: DTypeLike) -> Array:
-        weights: Any = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
-        weights = jnp.asarray(weights, dtype)
+        given = self.weights.data if isinstance(self.weights, FrozenArray) else self.weights
+        weights = jnp.asarray(given, dtype)
         if self.spacing is None:
             return weights
         for d, (axis, spacing) in enumerate(zip(axes, per_axis(self.spacing, axes), strict=True)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 from jax import Array
@@ -62,15 +62,15 @@ class Gaussian(Kernel):
     def terms(self) -> Sequence[Term]:
         return (gaussian_term(self.amplitude, self.sigma, self.normalized),)
 
-    def widths(self) -> Sequence[Any]:
+    def widths(self) -> Sequence[PerAxis]:
         return (self.sigma,)
 
 
-def gaussian_term(amplitude: Scalar, sigma: Any, normalized: bool) -> Term:
+def gaussian_term(amplitude: Scalar, sigma: PerAxis, normalized: bool) -> Term:
     """Return a Gaussian as one separable term."""
 
     def along(d: int, lag: Array, period: float | None, step: float) -> Array:
-        s = sigma[d] if isinstance(sigma, tuple) else sigma
+        s = sigma[d] if isinstance(sigma, Sequence) else sigma
         weight = profile(lag, s, period)
         return weight / integral(s, step) if normalized else weight * unresolved(s, step)
 

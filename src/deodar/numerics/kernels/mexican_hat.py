@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, hull, signed
@@ -66,5 +66,5 @@ class MexicanHat(Kernel):
             gaussian_term(-self.inhibition, self.sigma_inhibition, self.normalized),
         )
 
-    def widths(self) -> Sequence[Any]:
+    def widths(self) -> Sequence[PerAxis]:
         return (self.sigma_excitation, self.sigma_inhibition)

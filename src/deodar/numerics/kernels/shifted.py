@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval
@@ -50,7 +50,7 @@ class Shifted(Kernel):
 
     def _moved(self, term: Term) -> Callable[[int, Array, float | None, float], Array]:
         def along(d: int, lag: Array, period: float | None, step: float) -> Array:
-            by: Any = self.shift[d] if isinstance(self.shift, tuple) else self.shift
+            by = self.shift[d] if isinstance(self.shift, Sequence) else self.shift
             return term.along(d, lag - by, period, step)
 
         return along

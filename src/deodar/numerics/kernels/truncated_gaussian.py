@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import jax.numpy as jnp
 import numpy as np
@@ -74,8 +74,8 @@ class TruncatedGaussian(Kernel):
         return () if is_neutral(self.amplitude) else (Term(self.amplitude, self._along),)
 
     def _along(self, d: int, lag: Array, period: float | None, step: float) -> Array:
-        sigma: Any = self.sigma[d] if isinstance(self.sigma, tuple) else self.sigma
-        least: Any = self.least[d] if isinstance(self.least, tuple) else self.least
+        sigma = self.sigma[d] if isinstance(self.sigma, Sequence) else self.sigma
+        least = self.least[d] if isinstance(self.least, Sequence) else self.least
         slack = ROUNDING if lag.dtype == jnp.float32 else 0.0
         reach = jnp.ceil(jnp.maximum(self.cutoff * sigma, least) / step - slack) + 0.5
 
