@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -16,6 +17,8 @@ from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._pure import PureWorld
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -103,21 +106,21 @@ def shared_dtype(shared: Arrays) -> np.dtype[np.floating]:
     return next(a.dtype for a in jax.tree.leaves(shared) if a.dtype.kind == "f")
 
 
-def batched(tree: PyTree, batch: Sequence[int]) -> PyTree:
+def batched(tree: T, batch: Sequence[int]) -> T:
     """Reshape arrays of copies (copies, ...) to arrays of a batch (points, trials, ...), or of one copy
     without a batch.
     """
     return jax.tree.map(lambda a: np.asarray(a).reshape(*batch, *np.shape(a)[1:]), tree)
 
 
-def unbatched(tree: PyTree, batch: Sequence[int]) -> PyTree:
+def unbatched(tree: T, batch: Sequence[int]) -> T:
     """Reverse `batched`."""
     return jax.tree.map(lambda a: np.asarray(a).reshape(-1, *np.shape(a)[len(batch) :]), tree)
 
 
-def _rows(tree: PyTree) -> PyTree:
+def _rows(tree: T) -> T:
     return jax.tree.map(lambda a: jnp.asarray(a)[None], tree)
 
 
-def _copy(tree: PyTree) -> PyTree:
+def _copy(tree: T) -> T:
     return jax.tree.map(lambda a: a[0], tree)

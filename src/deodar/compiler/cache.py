@@ -12,7 +12,7 @@ import hashlib
 import os
 import platform
 from pathlib import Path
-from typing import Any
+from typing import cast
 
 import jax
 import jaxlib.version
@@ -22,6 +22,8 @@ from jax.stages import Compiled, Lowered
 
 from deodar.compiler.device import Device
 from deodar.model import output
+
+CompilerOptions = dict[str, str | bool | int]
 
 MOST_BYTES = 512 * 2**20
 LISTED = 16
@@ -38,21 +40,22 @@ def folder() -> Path | None:
     return Path(given) if given else Path(platformdirs.user_cache_dir("deodar")) / "programs"
 
 
-def compile(lowered: Lowered, options: dict[str, Any] | None, device: Device) -> tuple[Compiled, bool]:
+def compile(lowered: Lowered, options: CompilerOptions | None, device: Device) -> tuple[Compiled, bool]:
     """Return the executable of a program lowered for a device, and whether it was compiled."""
     place = folder()
+    given = cast("dict[str, str | bool] | None", options)  # JAX accepts whole numbers, too
     if place is None:
-        return lowered.compile(compiler_options=options), True
+        return lowered.compile(compiler_options=given), True
     path = place / key(lowered, options, device)
     found = _read(path, lowered, device)
     if found is not None:
         return found, False
-    compiled = lowered.compile(compiler_options=options)
+    compiled = lowered.compile(compiler_options=given)
     _write(path, compiled)
     return compiled, True
 
 
-def key(lowered: Lowered, options: dict[str, Any] | None, device: Device) -> str:
+def key(lowered: Lowered, options: CompilerOptions | None, device: Device) -> str:
     """Return the file name of a program, equal for equal programs, devices and versions."""
     about = [
         jax.__version__,
@@ -77,7 +80,7 @@ def key(lowered: Lowered, options: dict[str, Any] | None, device: Device) -> str
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 
 
-def options(device: Device) -> dict[str, Any]:
+def options(device: Device) -> CompilerOptions:
     """Return options for compiling: the processor's widest vectors, where XLA would use half (elementwise
     operations are 25 to 30 % faster).
     """

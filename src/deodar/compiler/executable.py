@@ -11,7 +11,7 @@ import functools
 import math
 import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -40,6 +40,17 @@ from deodar.numerics.pytree import PyTree
 from deodar.worlds._base import World
 from deodar.worlds._pure import PureWorld
 
+Result = TypeVar("Result")
+
+OneCopy = Callable[[ProgramValues, list[Constants], ProgramState, NoiseKeys], Result]
+"""A function of one copy of a model."""
+
+Recorded = tuple[Array, ProgramState, tuple[Array, ...]]
+"""Tick, state, and a buffer of records for each port."""
+
+ChunkResult = tuple[ProgramState, tuple[Array, ...], tuple[Array, list[Array]]]
+"""The state after a chunk, the records of each port, and the result of `Program.finite`."""
+
 PRECISIONS = ("float32", "float64")
 ACCURACIES = ("default", "exact")
 MOST_KEPT = 16
@@ -58,7 +69,7 @@ SHARED_BYTES = 8 * 2**20
 them.
 """
 
-RARELY = {"xla_backend_optimization_level": 0}
+RARELY: cache.CompilerOptions = {"xla_backend_optimization_level": 0}
 """Options for functions that run once, or when a width changes: they compile in half the time."""
 
 BUFFER_BYTES = 16 * 2**20
@@ -254,24 +265,24 @@ class Executable:
             return many({**values, "swept": ()}, seed, trials)
         return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
 
-    def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> Any:
+    def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> ChunkResult:
         clock = unpacked(given.whole, given.real)
 
         def one(
             values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
-        ) -> Any:
+        ) -> ChunkResult:
             return self._run(
                 ports, capacity, self._begin(values, constants, keys, given.sensed, clock), state
             )
 
         return self._batched(one, given)
 
-    def _read(self, ports: Sequence[Port], given: ProgramArguments) -> Any:
+    def _read(self, ports: Sequence[Port], given: ProgramArguments) -> tuple[Array, ...]:
         clock = unpacked(given.whole, given.real)
 
         def one(
             values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
-        ) -> Any:
+        ) -> tuple[Array, ...]:
             chunk = self._begin(values, constants, keys, given.sensed, clock)
             return self.program.observe(ports, chunk, state, clock["tick"])
 
@@ -290,7 +301,7 @@ class Executable:
         still = self.program.steady(values, constants, sensed)
         return Chunk(values, constants, keys, sensed, clock, still)
 
-    def _batched(self, one: Any, given: ProgramArguments) -> Any:
+    def _batched(self, one: OneCopy[Result], given: ProgramArguments) -> Result:
         values, constants, state, keys = given[:4]
         if self.batch.trials == 1:
             one = _alone(one)
@@ -307,7 +318,7 @@ class Executable:
     def _swept_axes(self, values: ProgramValues) -> PyTree:
         return {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
 
-    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: ProgramState) -> Any:
+    def _run(self, ports: Sequence[Port], capacity: int, chunk: Chunk, state: ProgramState) -> ChunkResult:
         """`head` steps, a record, then `every` steps and a record until there are `records`; without ports
         `head` steps.
         """
@@ -357,7 +368,7 @@ class Executable:
             return state, (), program.finite(state)
         buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
 
-        def segment(r: Array, carry: Any) -> Any:
+        def segment(r: Array, carry: Recorded) -> Recorded:
             tick, state, buffers = carry
             tick, state = steps(jnp.where(r == 0, head, every), tick, state)
             seen = program.observe(ports, chunk, full(state), tick)
@@ -385,7 +396,7 @@ class Executable:
     # ---------------------------------------------------------------------------------------------- compiling
 
     def compile(
-        self, function: Callable[..., Any], *args: Any, options: Mapping[str, Any] | None = None
+        self, function: Callable[..., Any], *args: Any, options: cache.CompilerOptions | None = None
     ) -> tuple[Compiled, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
@@ -420,12 +431,12 @@ def _form(a: Array) -> jax.ShapeDtypeStruct:
     return jax.ShapeDtypeStruct(a.shape, a.dtype)
 
 
-def _alone(one: Any) -> Any:
+def _alone(one: OneCopy[Result]) -> OneCopy[Result]:
     """The function of one trial as that of a batch of one: it has the bits of a single run."""
 
     def single(
         values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
-    ) -> Any:
+    ) -> Result:
         out = one(values, constants, *jax.tree.map(lambda a: a[0], (state, keys)))
         return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -93,12 +92,12 @@ class LeafLayout:
     def _group(self, ident: str) -> RowGroup:
         return self.plan.groups[self.plan.row[ident][0]]
 
-    def _part(self, name: str, value: Any) -> np.ndarray:
+    def _part(self, name: str, value: float | np.ndarray | Sequence[float | np.ndarray]) -> np.ndarray:
         """Return a leaf in the working precision, or its rounding error."""
         return split(value, self.dtype)[name.endswith(LOW)]
 
 
-def require_range(doc: Document, leaf: Leaf, value: Any, precision: str) -> None:
+def require_range(doc: Document, leaf: Leaf, value: float | np.ndarray, precision: str) -> None:
     """Raise an error if a number exceeds the range of the working precision."""
     if abs(value) > float(np.finfo(precision).max):
         entry = doc.by_id().get(leaf[0])

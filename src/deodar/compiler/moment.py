@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -17,7 +17,7 @@ WHOLE = ("tick", "origin", "period", "head", "every", "records")
 REAL = ("start", "dt")
 
 
-def packed(now: Mapping[str, Any], dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
+def packed(now: Mapping[str, float], dtype: DTypeLike) -> tuple[np.ndarray, np.ndarray]:
     """Pack the time and the numbers of steps and records into two arrays, as each argument of a program costs
     microseconds.
 

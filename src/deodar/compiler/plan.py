@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -265,7 +264,7 @@ def _groups(
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
             # noise at its neutral strength 0 is omitted from the program, unless that value may change
-            probe: Any = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
+            probe = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
             groups.append(RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id]))
         row[n.id] = (g, groups[g].rows)
         groups[g].nodes.append(n)

@@ -7,7 +7,6 @@ from __future__ import annotations
 import dataclasses as dc
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -106,8 +105,8 @@ def _seconds(case: Case, key: str, choice: Choice) -> float:
     axes, kernels, chosen = case.axes, case.kernels, {} if choice.way == "matrices" else {key: choice}
     weights = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float32"), chosen))
 
-    def run(weights: Any, y: Array, n: Any) -> Any:
-        def once(_: Any, y: Array) -> Array:
+    def run(weights: interaction.Mixture, y: Array, n: Array) -> Array:
+        def once(_: Array, y: Array) -> Array:
             return 0.5 * y + 0.25 * jax.vmap(lambda one: interaction.apply(weights, axes, one, chosen))(y)
 
         return lax.fori_loop(0, n, once, y)
@@ -119,7 +118,7 @@ def _seconds(case: Case, key: str, choice: Choice) -> float:
     return _least(lambda n: jax.block_until_ready(compiled(weights, y, np.int32(n))))
 
 
-def _least(run: Callable[[int], Any]) -> float:
+def _least(run: Callable[[int], Array]) -> float:
     """Return the CPU time in seconds of one of many repetitions, without the cost of the call."""
 
     def cpu(n: int) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses as dc
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import jax
 import jax.numpy as jnp
@@ -27,6 +27,8 @@ from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.noise import element_keys, normal, pair
+
+T = TypeVar("T")
 
 Buffers = dict[tuple[int, str, int], Array]
 
@@ -304,12 +306,12 @@ class Program:
         rows = buffers[p.group, p.name, 0] if shown else self._sum(p.group, p.name, buffers, now=True)
         return rows if p.row is None else rows[p.row]
 
-    def _each(self, g: int, fn: Callable[..., Any], values: ProgramValues, *args: Any, only: str = "") -> Any:
+    def _each(self, g: int, fn: Callable[..., T], values: ProgramValues, *args: Any, only: str = "") -> T:
         """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""
         group, at = self.plan.groups[g], self.settings[g]
         own = self._leaves(g, values)
 
-        def one(own: Arrays, *args: Any) -> Any:
+        def one(own: Arrays, *args: Any) -> T:
             def value(path: str) -> Array | Exact | _NotHere | None:
                 if only and path in group.cost and group.cost[path] != only:
                     return _NotHere()
@@ -365,7 +367,7 @@ def gather(x: Array, read: Read) -> Array:
     for rows, blocks in read.more:
         blocks = jnp.asarray(blocks)
 
-        def add(n: int, part: Array, blocks: Any = blocks) -> Any:
+        def add(n: int, part: Array, blocks: Array = blocks) -> Array:
             for column in range(blocks.shape[1]):
                 part = part + x[blocks[n, column]]
             return part

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from deodar.compiler.functions import Functions, StepArguments, run_advance, run_output
 from deodar.compiler.ways import EXACT, Strategy, acted_axes, role
@@ -22,6 +22,8 @@ from deodar.numerics import interaction
 
 if TYPE_CHECKING:
     from jax import Array
+
+T = TypeVar("T")
 
 WAVES = "~"
 """Suffix of a port with the spectral modes of the port without the suffix; for an input, only the part that
@@ -41,7 +43,7 @@ class SharedNode(Node):
         return (*direct, "input" + WAVES, "input" + REST) if "input" in direct else direct
 
 
-def plain_ports(ports: Mapping[str, Any]) -> dict[str, Any]:
+def plain_ports(ports: Mapping[str, T]) -> dict[str, T]:
     """Return the ports of the element, without the ports for spectral modes."""
     return {name: value for name, value in ports.items() if not name.endswith((WAVES, REST))}
 

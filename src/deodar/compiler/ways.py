@@ -11,8 +11,8 @@ from __future__ import annotations
 import dataclasses as dc
 import functools
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any, Literal
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
+from typing import Literal
 
 from deodar.compiler.functions import convolved_axes
 from deodar.element import Element
@@ -79,7 +79,7 @@ def acted_axes(n: Node) -> Axes:
     return convolved_axes(n) or (n.outs["output"] if role(n) else ())
 
 
-def widths(doc: Document) -> dict[str, Any]:
+def widths(doc: Document) -> dict[str, Hashable]:
     """What of its kernels' widths the way of an element is decided by: while it stays equal, so do all
     ways.
     """
@@ -115,7 +115,7 @@ def _merged(
     """Circles over the same axes with the same waves, and fields that would take waves on their own, where
     that costs little more: fewer groups.
     """
-    places: dict[Any, list[Circle]] = {}
+    places: dict[tuple[Axes, int, str], list[Circle]] = {}
     for circle in circles:
         first = circle[0][0]
         places.setdefault((acted_axes(first), first.every, circle[1]), []).append(circle)
@@ -213,5 +213,5 @@ def _key(n: Node) -> str:
     return keys.pop() if len(keys) == 1 else ""
 
 
-def _likeness(n: Node) -> Any:
+def _likeness(n: Node) -> Hashable:
     return (n.every, structure(n.element), acted_axes(n)) if n.element.kernels() else n.id

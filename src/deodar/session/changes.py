@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from deodar.compiler.plan import cost
@@ -12,7 +10,7 @@ from deodar.leaves import leaves, structure
 from deodar.model.document import Document
 from deodar.parameters import parameters
 
-LeafChange = tuple[tuple[str, str], Any, str, bool]
+LeafChange = tuple[tuple[str, str], float | np.ndarray, str, bool]
 """A leaf with a new value: (id, path), value, cost, and whether that value switches something off."""
 
 
@@ -34,7 +32,7 @@ def changed_leaves(old: Document, new: Document) -> list[LeafChange] | None:
     return out
 
 
-def _of_element(old: Element, new: Element) -> list[tuple[str, Any, str, bool]] | None:
+def _of_element(old: Element, new: Element) -> list[tuple[str, float | np.ndarray, str, bool]] | None:
     """Return the changed leaves of one element; parameters that are the same objects are skipped."""
     if type(old) is not type(new):
         return None

@@ -17,8 +17,9 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
-from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramState, ProgramValues
-from deodar.compiler.executable import Executable
+from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
+from deodar.compiler.executable import ChunkResult, Executable
+from deodar.compiler.functions import Constants
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Plan
 from deodar.compiler.program import Chunk, Port, Program, array_key
@@ -116,6 +117,10 @@ class StepCost:
         )
 
 
+GroupCarry = tuple[Array, ProgramState, tuple[Array, ...]]
+"""Tick, state and outputs of one group between its steps."""
+
+
 @dc.dataclass(frozen=True)
 class StepInputs:
     """Everything that a step depends on, at one moment; it does not change when the run continues."""
@@ -123,11 +128,11 @@ class StepInputs:
     program: Executable
     document: Document
     values: ProgramValues
-    constants: PyTree
+    constants: list[Constants]
     state: ProgramState
     keys: NoiseKeys
     sensed: Mapping[str, EitherArray]
-    clock: PyTree
+    clock: Mapping[str, float]
 
 
 class _GroupArguments(NamedTuple):
@@ -135,13 +140,13 @@ class _GroupArguments(NamedTuple):
 
     values: ProgramValues
     arrays: dict[str, EitherArray]
-    constants: PyTree
+    constants: Constants
     state: ProgramState
     keys: NoiseKeys
-    inputs: PyTree
-    shown: PyTree
+    inputs: list[Array]
+    shown: tuple[Array, ...]
     sensed: Mapping[str, EitherArray]
-    clock: PyTree
+    clock: ProgramClock
 
 
 def moment(run: Run) -> StepInputs:
@@ -224,11 +229,11 @@ def _buffers(at: StepInputs, used: Sequence[Sequence[Port]]) -> dict[tuple[int, 
     return {(p.group, p.name): rows for p, rows in zip(ports, seen, strict=True)}
 
 
-def _together(at: StepInputs) -> Callable[[int], object]:
+def _together(at: StepInputs) -> Callable[[int], ChunkResult]:
     """Return a function that takes `n` steps of the whole model."""
     chunk, _ = at.program.chunk(())
 
-    def call(n: int) -> object:
+    def call(n: int) -> ChunkResult:
         now = packed({**at.clock, "head": n}, at.program.program.dtype)
         return at.program.call(chunk, at.values, at.constants, at.state, at.keys, at.sensed, *now)
 
@@ -237,7 +242,7 @@ def _together(at: StepInputs) -> Callable[[int], object]:
 
 def _alone(
     at: StepInputs, g: int, ports: Sequence[Port], held_by: dict[tuple[int, str], Array]
-) -> Callable[[int], object]:
+) -> Callable[[int], GroupCarry]:
     """Return a function that takes `n` steps of one group, with constant inputs and an advancing state."""
     plan, precision = at.program.plan, at.program.precision
     group, count = plan.groups[g], len(plan.groups)
@@ -251,11 +256,11 @@ def _alone(
     def only(one: Any) -> list[Any]:
         return [one if k == g else None for k in range(count)]
 
-    def run(given: _GroupArguments, n: Array) -> Any:
+    def run(given: _GroupArguments, n: Array) -> GroupCarry:
         values, clock, keys = given.values, given.clock, given.keys
         settled = only(alone.hoist({**values, "arrays": given.arrays}, [given.constants])[0])
 
-        def step(tick: Array, state: ProgramState, drawn: Arrays) -> tuple[PyTree, Any]:
+        def step(tick: Array, state: ProgramState, drawn: Arrays) -> tuple[ProgramState, tuple[Array, ...]]:
             # without the barrier XLA would compute all that depends on the inputs alone once, before the loop
             now, tick = lax.optimization_barrier((given.inputs, tick))
             buffers = {
@@ -267,7 +272,7 @@ def _alone(
             shown = program.observe(ports, chunk, state, tick)
             return program.step(chunk, state, drawn, tick), shown
 
-        def body(_: Array, carry: Any) -> Any:
+        def body(_: Array, carry: GroupCarry) -> GroupCarry:
             tick, state, shown = carry
             for drawn in program.draw(keys, tick) if pairs else ({},):
                 state, shown = step(tick, state, drawn)
@@ -300,7 +305,7 @@ def _alone(
 # ----------------------------------------------------------------------------------------------------- timing
 
 
-def _timed(call: Callable[[int], object], multiple: int, seconds: float) -> float:
+def _timed(call: Callable[[int], tuple[PyTree, ...]], multiple: int, seconds: float) -> float:
     """Measure the microseconds per step, without the time of a call that takes no steps.
 
     `multiple` is the number of ticks after which the computation repeats.

@@ -17,7 +17,7 @@ from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, WorldError
 from deodar.model.document import Document
-from deodar.numerics.axes import shape
+from deodar.numerics.axes import Axes, shape
 from deodar.parameters import show
 from deodar.worlds._base import Signal, World, fitting
 from deodar.worlds._pure import PureWorld
@@ -271,7 +271,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
     return sensors, motors
 
 
-def _fit(path: str, name: str, known: Mapping[str, Signal], axes: Any) -> None:
+def _fit(path: str, name: str, known: Mapping[str, Signal], axes: Axes) -> None:
     try:
         if name in known:  # a user's world may accept any name
             fitting(name, known[name], axes)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from types import EllipsisType
+from typing import TypeVar
 
 import numpy as np
 
@@ -13,10 +14,13 @@ from deodar.session.clock import Clock
 RowSpans = list[tuple[int, int]]
 """Pairs of a group of a plan and a row in it."""
 
+CopyIndex = TypeVar("CopyIndex", tuple[int, ...], EllipsisType)
+"""Index of a copy in a batch; `...` means all copies together."""
+
 
 def first_steps(
-    bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int, copies: Sequence[Any]
-) -> dict[Any, tuple[int, RowSpans]]:
+    bad: Callable[[int], Sequence[np.ndarray]], low: int, high: int, copies: Sequence[CopyIndex]
+) -> dict[CopyIndex, tuple[int, RowSpans]]:
     """Find for each copy the first step after which a value is not finite, and the rows concerned.
 
     The search is a bisection, shared by copies that fail at the same steps.
@@ -26,7 +30,7 @@ def first_steps(
             (copies..., rows).
         low: number of steps after which all values are finite.
         high: number of steps after which each copy has a value that is not finite.
-        copies: indices of the copies in a batch; `...` means all copies together.
+        copies: indices of the copies.
     """
     if not copies:
         return {}

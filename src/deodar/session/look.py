@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 import numpy as np
+from jax.stages import Compiled
 
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
@@ -25,13 +25,13 @@ class Look:
 
     program: Executable
     ports: tuple[Port, ...]
-    reader: Any
+    reader: Compiled | None
 
     def fits(self, places: Iterable[PortKey]) -> bool:
         """Return whether it reads exactly the ports that these places need."""
         return whole(self.program, places) == set(self.ports)
 
-    def arrays(self, seen: Iterable[Any], places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
+    def arrays(self, seen: Iterable[np.ndarray], places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
         """Return the arrays of places from the values of the reader, without places that it does not read."""
         by_port = dict(zip(self.ports, seen, strict=True))
         out: dict[PortKey, np.ndarray] = {}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from typing import Any
 
 import numpy as np
 import psutil
@@ -91,7 +90,7 @@ def _constants(n: Node) -> int:
     Constants are the matrices of kernels, of correlated noise, of shifts and of resampling (one for each
     axis), and arrays given as parameters.
     """
-    e: Any = n.element
+    e = n.element
     square = len(getattr(e, "kernel", ()) or ()) + sum(
         not is_neutral(getattr(e, name, 0.0)) for name in ("noise_length", "length", "amount")
     )

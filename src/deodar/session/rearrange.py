@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from deodar.errors import WorldError
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene, SceneBox
 
 
-def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tuple[str, Any]:
+def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tuple[str, tuple[float, ...]]:
     """Move a thing or a mark; return the entry for the journal.
 
     Raises:
@@ -25,7 +24,7 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
 
 def place(
     world: World, scene: Scene, name: str, center: Sequence[float], size: Sequence[float]
-) -> tuple[str, Any]:
+) -> tuple[str, tuple[tuple[float, ...], tuple[float, ...]]]:
     """Add a thing, or replace the one of the same name; return the entry for the journal.
 
     Raises:
@@ -38,7 +37,7 @@ def place(
     return f"world.place {name}", (tuple(center), tuple(size))
 
 
-def remove(world: World, scene: Scene, name: str) -> tuple[str, Any]:
+def remove(world: World, scene: Scene, name: str) -> tuple[str, None]:
     """Remove a thing; return the entry for the journal.
 
     Raises:

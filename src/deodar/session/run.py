@@ -6,26 +6,28 @@ import dataclasses as dc
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from types import EllipsisType
 
 import jax
 import numpy as np
+from jax import Array
 from jax.stages import Compiled
 
 from deodar.compiler.arguments import ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
-from deodar.compiler.executable import Executable
+from deodar.compiler.executable import ChunkResult, Executable
 from deodar.compiler.moment import packed
 from deodar.compiler.program import Port
 from deodar.element import Arrays
 from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
 from deodar.model.limits import too_long
+from deodar.model.resolve import Node
 from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
 from deodar.session.clock import Clock
 from deodar.session.exchange import Exchange, ExchangeInstant
-from deodar.session.failure import first_steps, not_finite
+from deodar.session.failure import CopyIndex, RowSpans, first_steps, not_finite
 from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
@@ -174,7 +176,7 @@ class Run:
             if progress is not None:
                 progress(before + done)
 
-    def _chunk(self, chunk: Compiled, counts: dict[str, int], used: int) -> tuple[Any, ...]:
+    def _chunk(self, chunk: Compiled, counts: dict[str, int], used: int) -> tuple[Array, ...]:
         self.sense()
         if used:
             self.exchange.tell(self.clock.tick, self._period(), self._commands)
@@ -199,7 +201,7 @@ class Run:
             )
         return seen
 
-    def _call(self, chunk: Compiled, state: ProgramState, counts: dict[str, int]) -> Any:
+    def _call(self, chunk: Compiled, state: ProgramState, counts: dict[str, int]) -> ChunkResult:
         return self.program.call(
             chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts)
         )
@@ -328,11 +330,11 @@ class Run:
         return {copy: out[copy] for copy in copies}
 
     def _search(
-        self, before: ProgramState, used: int, copies: Sequence[Any]
-    ) -> dict[Any, tuple[int, list[str]]]:
+        self, before: ProgramState, used: int, copies: Sequence[CopyIndex]
+    ) -> dict[CopyIndex, tuple[int, list[str]]]:
         """Return for each copy the first step after which a value was not finite, and the elements.
 
-        Steps are counted from the start of a chunk. The copy `...` means all copies together.
+        Steps are counted from the start of a chunk.
         """
         chunk, _ = self.program.chunk(())
 
@@ -347,7 +349,7 @@ class Run:
             for copy, (n, rows) in found.items()
         }
 
-    def _without_state(self, copy: Any) -> list[str]:
+    def _without_state(self, copy: tuple[int, ...] | EllipsisType) -> list[str]:
         """Return the first elements without a state whose output is not finite now in a copy (`...`: in any).
 
         They are the cause of non-finite states that read them.
@@ -420,11 +422,13 @@ class Run:
         sensors, shape = list(state["world"]["now"]), self.program.batch.shape
 
         def bad(n: int) -> list[np.ndarray]:
-            now = self._call(chunk, before, {"head": n, "every": 0, "records": 0})[0]["world"]["now"]
+            after, _, _ = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
+            assert "world" in after
+            now = after["world"]["now"]
             return [~np.isfinite(now[name]).reshape(*shape, -1).all(-1, keepdims=True) for name in sensors]
 
-        def error(step: int, names: Sequence[str]) -> NotFinite:
-            clock = self.clock.after(step)
+        def error(step: int, rows: RowSpans) -> NotFinite:
+            clock, names = self.clock.after(step), [sensors[k] for k, _ in rows]
             return NotFinite(
                 f"{', '.join(names)} of the world {type(self.world).__name__} became infinite or undefined in"
                 f" step {clock.tick} (time {clock.time:g} {self.doc.time_unit})",
@@ -433,18 +437,16 @@ class Run:
                 step=clock.tick,
             )
 
+        if not self._keeps_others():
+            raise error(*first_steps(bad, 0, max(used, 1), [...])[...])
         spoilt = np.any(
             [~np.isfinite(value).reshape(*shape, -1).all(-1) for value in state["world"]["now"].values()],
             axis=0,
         )
-        copies = self._new(spoilt, self.clock.tick) if self._keeps_others() else [...]
-        found = first_steps(bad, 0, max(used, 1), copies)
-        errors = {copy: error(step, [sensors[k] for k, _ in rows]) for copy, (step, rows) in found.items()}
-        if not self._keeps_others():
-            raise errors[...]
-        self._lose(errors)
+        found = first_steps(bad, 0, max(used, 1), self._new(spoilt, self.clock.tick))
+        self._lose({copy: error(step, rows) for copy, (step, rows) in found.items()})
 
-    def _path(self, node: Any) -> str:
+    def _path(self, node: Node) -> str:
         """Return the path of a node in the present document, where it may have been renamed."""
         entry = self.doc.by_id().get(node.id)
         return entry.path if entry is not None else node.path
@@ -469,7 +471,7 @@ def require_step(doc: Document, dt: float) -> None:
             raise TimeError([problem])
 
 
-def require_duration(duration: Any, what: str) -> float:
+def require_duration(duration: float, what: str) -> float:
     """Return a duration as a float; raise TimeError unless it is finite and 0 or above."""
     given = real(duration)
     if given is None or not 0 <= given < math.inf:
@@ -477,7 +479,7 @@ def require_duration(duration: Any, what: str) -> float:
     return given
 
 
-def whole(duration: Any, dt: float, what: str) -> int:
+def whole(duration: float, dt: float, what: str) -> int:
     """Return the number of steps of dt in a duration; raise TimeError unless it is a whole number."""
     duration = require_duration(duration, what)
     n = duration / dt

@@ -205,7 +205,7 @@ class Session:
 
     def look(self, look: Look, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
         """Read many ports now, with a `Look` that was compiled for the running program."""
-        return look.arrays(self._run.look(look.reader) if look.ports else [], places)
+        return look.arrays(self._run.look(look.reader) if look.reader is not None else [], places)
 
     def require(self, document: Document) -> None:
         """Raise an error for a document that the session cannot continue with.
@@ -478,7 +478,7 @@ class Session:
         return "rebuild" if "rebuild" in costs else "live"
 
 
-def require_model(model: Any) -> Model:
+def require_model(model: Model) -> Model:
     """Return the model; raise ModelError if it is something else."""
     if not isinstance(model, Model):
         raise ModelError(
@@ -488,7 +488,7 @@ def require_model(model: Any) -> Model:
     return model
 
 
-def require_seed(seed: Any) -> int:
+def require_seed(seed: int) -> int:
     """Return the seed (or trial) as an int; raise ParameterError outside 0 to 2^32 - 1."""
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed <= LARGEST_SEED:
         raise ParameterError(f"a seed (or trial) is a whole number from 0 to 2^32 - 1, not {show(seed)}")
