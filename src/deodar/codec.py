@@ -11,10 +11,16 @@ from __future__ import annotations
 import dataclasses as dc
 import json
 import math
-from collections.abc import Callable, Mapping
-from typing import Any, cast
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias, cast
 
 from deodar.errors import DocumentError, OutputError, Problem
+
+Json: TypeAlias = "bool | int | float | str | Sequence[Json] | Mapping[str, Json] | None"
+"""A value that JSON can hold."""
+
+JsonObject: TypeAlias = dict[str, Json]
+"""An object of JSON."""
 
 DEEPEST = 64
 """Largest depth of nesting (a guess, several times that of the deepest known document)."""

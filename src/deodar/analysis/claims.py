@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
 from deodar import codec
+from deodar.codec import Json
 from deodar.errors import AnalysisError
 
 ClaimKind = Literal["required", "reported"]
@@ -72,6 +73,6 @@ def failed(claims: Sequence[Claim]) -> list[Claim]:
     return [c for c in claims if c.kind == "required" and c.holds is False]
 
 
-def results(claims: Sequence[Claim], settings: Mapping[str, Any]) -> str:
+def results(claims: Sequence[Claim], settings: Mapping[str, Json]) -> str:
     """The content of `results.json`."""
     return codec.text({"claims": [asdict(c) for c in claims], "settings": dict(settings)}) + "\n"

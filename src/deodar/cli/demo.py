@@ -6,11 +6,12 @@ import argparse
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from deodar import codec, papers
 from deodar.cli import _options, _rescue
 from deodar.cli._options import paragraph, shown, use_cores
+from deodar.codec import Json
 from deodar.errors import DeodarError, OutputError, OutputExists
 from deodar.model import output
 from deodar.recording import places
@@ -87,7 +88,7 @@ def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
     # start-up time: these bring JAX
     from deodar.analysis.claims import failed, results
 
-    settings: Mapping[str, Any] = {"demo": args.name, "seed": args.seed, **demo.settings}
+    settings: Mapping[str, Json] = {"demo": args.name, "seed": args.seed, **demo.settings}
     text = results(demo.claims, settings)
 
     def fill(folder: Path) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import codec
 from deodar.cli import _live, _long, _options, _rescue
+from deodar.codec import Json
 from deodar.errors import Interrupted, OutputError, OutputExists, RecordError, RunWarning
 from deodar.importers import examples
 
@@ -370,8 +371,8 @@ def _contents(data: xarray.Dataset) -> str:
 
 def _answer(
     out: Path, record: Path, data: xarray.Dataset, stopped: str, done: Repetition | None
-) -> dict[str, Any]:
-    answer: dict[str, Any] = {
+) -> dict[str, Json]:
+    answer: dict[str, Json] = {
         "out": str(out),
         "record": str(record),
         "model": str(out / "model.json"),

@@ -8,9 +8,10 @@ from collections.abc import Mapping
 from typing import cast
 
 from deodar import docstring, registry
+from deodar.codec import Json
 from deodar.docstring import Docstring
 from deodar.element import Element
-from deodar.kinds.parameter import Json, ParameterDescription, describe_parameter, plain
+from deodar.kinds.parameter import ParameterDescription, describe_parameter, plain
 from deodar.parameters import Parameter, Part, parameters, positional
 from deodar.worlds._base import World
 

@@ -5,17 +5,14 @@ from __future__ import annotations
 import dataclasses as dc
 import re
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
 
+from deodar.codec import Json
 from deodar.declarations import Cost, Needed, range_text
 from deodar.kinds.symbols import NAME, is_letter, symbol
 from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, Parameter, Part, ValueForm
-
-Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
-"""A value as documents write it."""
 
 QUANTITIES = ("number", "integer", "per_axis", "part", "array", "numbers")
 """Forms of parameters whose names may occur in an equation."""

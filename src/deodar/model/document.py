@@ -7,6 +7,7 @@ import functools
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
+from deodar.codec import Json
 from deodar.element import Element
 from deodar.model.paths import Index, PathNames, display
 
@@ -113,7 +114,7 @@ class Document:
     dt: float | None = None
     t0: float = 0.0
     notes: str = ""
-    layout: Mapping[str, Any] = dc.field(default_factory=dict[str, Any])
+    layout: Mapping[str, Json] = dc.field(default_factory=dict[str, Any])
     foreign: bool = dc.field(default=False, compare=False)
 
     def __getstate__(self) -> dict[str, Any]:

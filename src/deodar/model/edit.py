@@ -13,6 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from deodar import codec
+from deodar.codec import Json
 from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import get, replace
@@ -406,7 +407,7 @@ def describe(doc: Document, **values: Any) -> Document:
     return dc.replace(doc, **values)
 
 
-def arrange(doc: Document, layout: Mapping[str, Any]) -> Document:
+def arrange(doc: Document, layout: Mapping[str, Json]) -> Document:
     """Return a document with another layout (positions of boxes, panels, pinned sliders); nothing else
     changes.
     """

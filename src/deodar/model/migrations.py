@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, cast
 
+from deodar.codec import Json
 from deodar.errors import UnknownName
 from deodar.model import find
 from deodar.model.document import Document
@@ -46,7 +47,7 @@ RENAMED_AFTER_2: Mapping[str, Mapping[str, str]] = {"MovingGaussian": {"path": "
 """Parameters of versions 1 and 2 that version 3 renamed, by kind: old name to new name."""
 
 
-def migrate(data: Mapping[str, Any]) -> dict[str, Any]:
+def migrate(data: Mapping[str, Json]) -> dict[str, Json]:
     """Convert a document of an older version; a document of the present version is returned unchanged.
 
     Data of an unexpected form are not changed: the reader reports them.
@@ -68,7 +69,7 @@ def recorded(doc: Document, path: str) -> str:
     return path if port or "activation" not in find.outputs(entry) else f"{path}.output"
 
 
-def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:
+def _from_1(data: Mapping[str, Json]) -> dict[str, Json]:
     axes, elements = data.get("axes", {}), data.get("elements")
     if not isinstance(axes, dict) or not isinstance(elements, dict):
         return dict(data)
@@ -86,7 +87,7 @@ def _from_1(data: Mapping[str, Any]) -> dict[str, Any]:
     return {**data, "axes": axes, "elements": elements}
 
 
-def _from_2(data: Mapping[str, Any]) -> dict[str, Any]:
+def _from_2(data: Mapping[str, Json]) -> dict[str, Json]:
     elements = data.get("elements")
     if not isinstance(elements, dict):
         return dict(data)
@@ -99,7 +100,7 @@ def _from_2(data: Mapping[str, Any]) -> dict[str, Any]:
     return {**data, "elements": elements}
 
 
-def _key(axes: dict[str, Any], axis: AxisData) -> str:
+def _key(axes: dict[str, Json], axis: AxisData) -> str:
     """Return the key of the axis in the document; an axis that the document lacks is added."""
     name, k = axis["name"], 1
     key = name

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from deodar import registry
+from deodar.codec import Json
 from deodar.errors import WorldError, did_you_mean
 from deodar.recording import files
 from deodar.worlds._base import World
@@ -22,7 +22,7 @@ def opened(kind: type[World], argument: str) -> World:
     return kind.open(argument)
 
 
-def again(kind: type[World], described: Mapping[str, Any]) -> World:
+def again(kind: type[World], described: Mapping[str, Json]) -> World:
     """Return the world that a record describes."""
     return (
         opened(kind, str(described.get("file", ""))) if issubclass(kind, Recording) else kind.again(described)

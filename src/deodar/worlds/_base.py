@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from deodar.codec import Json
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, shape
 from deodar.worlds._scene import Scene
@@ -141,7 +142,7 @@ class World:
         """Restore the things as they were when `arrangement` returned `kept`."""
         raise WorldError(f"the world {type(self).__name__} cannot restore its objects")
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, Json]:
         """Return the description of the world that a record stores, as plain data."""
         return {"world": type(self).__name__}
 
@@ -154,7 +155,7 @@ class World:
         raise WorldError(f"the world {cls.__name__} cannot be opened from the command line")
 
     @classmethod
-    def again(cls, described: Mapping[str, Any]) -> World:
+    def again(cls, described: Mapping[str, Json]) -> World:
         """Open a world again from the description that `describe` returned."""
         file = described.get("file")
         if not isinstance(file, str) or file == "array":

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
+from deodar.codec import Json
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
 from deodar.parameters import real, show
@@ -78,7 +78,7 @@ class Camera(World):
         """Return the column and row of the picture at a position on the axes."""
         return frame(self._open().size, axes).to_pixels(axes, x, y)
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, Json]:
         return {
             "world": "Camera",
             "number": self.number,
@@ -91,7 +91,7 @@ class Camera(World):
         return cls(int(argument) if argument.isdigit() else argument)
 
     @classmethod
-    def again(cls, described: Mapping[str, Any]) -> Camera:
+    def again(cls, described: Mapping[str, Json]) -> Camera:
         raise WorldError(
             "the pictures of a camera are not stored",
             fix="Record its sensor and replay the record: --world recording:RECORD",

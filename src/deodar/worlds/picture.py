@@ -8,10 +8,10 @@ import struct
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from deodar.codec import Json
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import show
@@ -64,7 +64,7 @@ class Picture(World):
         """Return the column and row of the picture at a position on the axes."""
         return frame(self.size, axes).to_pixels(axes, x, y)
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, Json]:
         digest = hashlib.sha256(self.pixels.tobytes()).hexdigest()
         return {"world": "Picture", "file": self.name, "size": list(self.size), "sha256": digest}
 

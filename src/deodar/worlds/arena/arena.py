@@ -7,7 +7,7 @@ import hashlib
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import jax
 import jax.numpy as jnp
@@ -20,7 +20,6 @@ from deodar.element import Arrays
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
-from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal
@@ -67,6 +66,15 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
         ),
     }
     return out | {"goal": Signal("x and y of the goal", (2,), unit, each=True)} if goal else out
+
+
+class ArenaCopy(TypedDict):
+    """Arrays of one copy of an arena, as its functions read them."""
+
+    start: Array
+    goal: Array
+    windows: Array
+    keys: Arrays
 
 
 @register
@@ -319,7 +327,7 @@ class Arena(PureWorld):
 
     # ----------------------------------------------------------------------------------------------- one copy
 
-    def start(self, shared: Arrays, own: PyTree) -> Arrays:
+    def start(self, shared: Arrays, own: ArenaCopy) -> Arrays:
         zero = jnp.zeros((), shared["boxes"].dtype)
         state = {
             "position": own["start"][:2],
@@ -330,7 +338,7 @@ class Arena(PureWorld):
         tick = jnp.uint32(0)
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
 
-    def advance(self, shared: Arrays, own: PyTree, state: Arrays, motors: Arrays) -> Arrays:
+    def advance(self, shared: Arrays, own: ArenaCopy, state: Arrays, motors: Arrays) -> Arrays:
         boxes, tick = shared["boxes"], state["tick"] + jnp.uint32(1)
         deviates = self._deviates(own, tick, boxes.dtype)
         assert self.period is not None
@@ -354,7 +362,7 @@ class Arena(PureWorld):
         }
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
-    def _deviates(self, own: PyTree, tick: Array, dtype: DTypeLike) -> Arrays:
+    def _deviates(self, own: ArenaCopy, tick: Array, dtype: DTypeLike) -> Arrays:
         """Draw the standard normal deviates of a period for each noise.
 
         Every noise gets the number that the largest one needs, because one graph for all compiles faster.
@@ -364,7 +372,7 @@ class Arena(PureWorld):
         return dict(zip(self.noises, drawn, strict=True))
 
     def _sensed(
-        self, shared: Arrays, own: PyTree, body: Arrays, tick: Array, deviates: Arrays, held: Array
+        self, shared: Arrays, own: ArenaCopy, body: Arrays, tick: Array, deviates: Arrays, held: Array
     ) -> Arrays:
         """Add the readings of the noisy sensors to the state, so that one period has one reading."""
         boxes = shared["boxes"]
@@ -382,7 +390,7 @@ class Arena(PureWorld):
         infrared = readings(self.vehicle.infrared, seen, factor)
         return {**body, "tick": tick, "infrared": infrared, "place": jnp.where(fresh, place, held)}
 
-    def read(self, shared: Arrays, own: PyTree, state: Arrays, sensor: str, axes: Axes) -> Array:
+    def read(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
         if sensor in ("infrared", "heading", "encoders", "touching"):
             return state[sensor]
         if sensor in ("place", "goal"):
@@ -479,7 +487,7 @@ class Arena(PureWorld):
         return {"obstacles": plane, "above": (*plane, Axis("channel", 0, 2, 3))}.get(sensor, ())
 
 
-def _there(own: PyTree, tick: Array) -> Array:
+def _there(own: ArenaCopy, tick: Array) -> Array:
     now = tick.astype(jnp.int32)
     return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
 

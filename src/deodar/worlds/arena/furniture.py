@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar.codec import Json
 from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.worlds.arena.layout import ArenaLayout, Thing, make
 from deodar.worlds.arena.places import of, rows_of
@@ -110,7 +111,7 @@ class Furniture:
                 out[:, k] = of(trials, rows, f"windows of {thing.name}")
         return out
 
-    def to_data(self) -> list[Any]:
+    def to_data(self) -> list[Json]:
         """Return the things and their windows as plain data."""
         return [
             [t.name, *t.center, *t.size, *t.color, w.tolist()]
