@@ -82,11 +82,14 @@ def _aliases(module: ast.Module) -> dict[str, ast.expr]:
     """Names in capitals and small letters that a module assigns at its top level: aliases of types."""
     found: dict[str, ast.expr] = {}
     for node in module.body:
-        if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-            found[node.targets[0].id] = node.value
-    return {
-        name: value for name, value in found.items() if re.match(r"_?[A-Z]\w*[a-z]", name) and _is_type(value)
-    }
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value) if _is_type(value):
+                found[name] = value
+            case ast.AnnAssign(
+                target=ast.Name(id=name), annotation=ast.Name(id="TypeAlias"), value=ast.expr() as value
+            ):
+                found[name] = value
+    return {name: value for name, value in found.items() if re.match(r"_?[A-Z]\w*[a-z]", name)}
 
 
 def _is_type(value: ast.expr) -> bool:
