@@ -438,7 +438,7 @@ class _Level:
 
 
 def _move_into(found: Arrangement, block: _Block, group: GroupPath, x: float, y: float) -> None:
-    """Use a group that is laid out into the level around it."""
+    """Place a laid-out group into the level around it."""
     inside = block.inside
     assert inside is not None
     found.frames[group] = (x, y, inside.width, inside.height)

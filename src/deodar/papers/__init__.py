@@ -4,18 +4,18 @@
 A paper is a module or a package with
 
 * `HELP`: one line;
-* `about(quick)`: what makes its design, as plain data;
+* `about(quick)`: the settings of its design, as plain data;
 * `BY_CONDITION`: the entries of `about` that map names of conditions to settings; a folder with fewer
   conditions is extended;
 * `jobs(quick)`: its trials as `experiments.jobs.Job`;
-* `report(rows, quick)`: a `papers.Report` of the rows that are there;
-* `kept(row)`: a row without what no claim, figure or number reads; so it is kept in the repository;
-* `PICTURES`: pictures of the manual, and which figure each of them is.
+* `report(rows, quick)`: a `papers.Report` of the rows that exist;
+* `kept(row)`: the entries of a row that claims, figures or numbers read; they are stored in the repository;
+* `PICTURES`: pictures of the manual, each with its figure.
 
 A paper of deodar may have a file `demo.py`, its quick form, which `deodar demo NAME` runs: `HELP`,
 `arguments(parser)` and `run(args, show)`, which returns a `papers.Demonstration`.
 
-Heavy imports stand inside.
+Heavy imports are inside functions.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    """Import what reports are made of, or a paper, when it is first used."""
+    """Import a part of reports, or a paper, when it is first used."""
     if name in ("NOT_RUN", "Report"):
         return getattr(importlib.import_module("deodar.papers._report"), name)
     return files(__name__)(name)
 
 
 def files(package: str) -> Callable[[str], Any]:
-    """Make the `__getattr__` of a package that imports a file of its own when it is first used."""
+    """Return the `__getattr__` of a package that imports its files when they are first used."""
 
     def __getattr__(name: str) -> Any:
         if name.startswith("_") or importlib.util.find_spec(f"{package}.{name}") is None:
@@ -57,31 +57,31 @@ def files(package: str) -> Callable[[str], Any]:
 
 
 def names() -> list[str]:
-    """Every paper that can be reproduced: those of deodar, then those that installed packages name."""
+    """Return the names of all papers: those of deodar, then those of installed packages."""
     return [*own(), *(p.name for p in packaged() if not p.problem)]
 
 
 def own() -> list[str]:
-    """The papers that come with deodar."""
+    """Return the names of the papers of deodar."""
     return sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
 
 
 def demos() -> dict[str, ModuleType]:
-    """The demonstrations of the papers that come with deodar, by the name of the paper."""
+    """Return the demonstrations of deodar's papers, by the name of the paper."""
     found = [name for name in own() if importlib.util.find_spec(f"deodar.papers.{name}.demo")]
     return {name: importlib.import_module(f"deodar.papers.{name}.demo") for name in found}
 
 
 def packaged() -> list[Plugin]:
-    """The papers that installed packages name, without importing them."""
+    """Return the names of the papers of installed packages, without importing them."""
     return plugins.found("papers", own())
 
 
 def paper(name: str) -> ModuleType:
-    """A paper by its name.
+    """Return a paper by its name.
 
     Raises:
-        UnknownName: nothing is called so (the nearest name is suggested), or its package cannot be used.
+        UnknownName: no paper has this name (the nearest name is suggested), or its package cannot be used.
     """
     if name in own():
         return importlib.import_module(f"deodar.papers.{name}")

@@ -1,4 +1,4 @@
-"""What the quick form of a paper, `deodar demo NAME`, gives: claims, and the files that go with them."""
+"""Result of the quick form of a paper, `deodar demo NAME`: claims and files."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ if TYPE_CHECKING:
     from deodar.analysis.claims import Claim
 
 Show = Callable[[str, float], None]
-"""Called while a demonstration runs, with what it does and the share that is done."""
+"""Callback of a running demonstration, called with its present task and the completed share."""
 
 
 @dataclass(frozen=True)
 class Demonstration:
-    """A demonstration that was run.
+    """Result of a demonstration.
 
     Attributes:
-        claims: what was checked.
-        settings: what the run was given, apart from the name of the demonstration and its seed.
+        claims: the checked claims.
+        settings: arguments of the run, apart from the name of the demonstration and its seed.
         written: names of the files, in words.
         sentence: the result in one sentence.
         fill: writes the files into a folder, all but `results.json`.

@@ -1,4 +1,4 @@
-"""What the runs of a paper say: claims, figures, tables."""
+"""Report of the runs of a paper: claims, figures, tables."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ if TYPE_CHECKING:
 
 
 NOT_RUN = "(not run)"
-"""Written in place of a number where no runs are kept."""
+"""Replaces a number for which no runs are stored."""
 
 
 @dataclass(frozen=True)
 class Report:
-    """What is said of an experiment.
+    """Report of an experiment.
 
     Attributes:
         claims: figures and sentences that were checked.
         figures: by file name without its ending.
         tables: Markdown by file name without its ending.
-        numbers: what the manual says of the runs, by name: numbers as text, and tables in Markdown.
+        numbers: results that the manual states, by name: numbers as text, and tables in Markdown.
     """
 
     claims: Sequence[Claim]

@@ -103,7 +103,7 @@ FAILS = [
     (
         "slow wave",
         lambda c, k: {"wave": 200, "moved": 300, "west_ends": 600, "east_begins": 700},
-        "5.2: planning anew, motivation",
+        "5.2: planning again, motivation",
     ),
     (
         "slow wave",
@@ -156,11 +156,11 @@ FAILS = [
         lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {},
         "5.2: that run is at its fourth",
     ),
-    ("late", lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {}, "5.2: planning anew takes"),
+    ("late", lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {}, "5.2: planning again takes"),
     (
         "late",
         lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {},
-        "6.2: planning anew is shorter",
+        "6.2: planning again is shorter",
     ),
     ("all stand", lambda c, k: {"still": 100} if c.obstacle else {}, "5.2: switching takes a time"),
     (

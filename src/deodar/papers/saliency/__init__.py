@@ -1,7 +1,7 @@
 """Sandamirskaya (2014), figure 2: a colour cue selects an object in a photograph, and a motor variable turns
 to it.
 
-Three photographs on which the parameters were found, and twelve on which none was.
+The parameters were tuned on three photographs; twelve others test them.
 
 Reference:
     Sandamirskaya (2014), Dynamic neural fields as a step toward cognitive neuromorphic architectures,
@@ -26,13 +26,13 @@ BY_CONDITION = ("photographs",)
 """Entries of `about` that map names of conditions to their settings."""
 
 PICTURES: dict[str, str] = {}
-"""No picture of the manual is drawn from kept rows."""
+"""No picture of the manual is drawn from stored rows."""
 
 __getattr__ = papers.files(__name__)
 
 
 def about(quick: bool) -> dict[str, Any]:
-    """What makes the design: rows of another one are not mixed with its own."""
+    """Return the settings of the design; rows with other settings are not mixed with these."""
     # start-up time: these bring JAX
     from deodar.papers.saliency import scenes, trials
 
@@ -41,7 +41,7 @@ def about(quick: bool) -> dict[str, Any]:
 
 
 def jobs(quick: bool) -> Sequence[Job]:
-    """One job for each photograph; three photographs where it is to be quick, fifteen otherwise."""
+    """Return one job for each photograph: three with `quick`, otherwise fifteen."""
     # start-up time: these bring JAX
     from deodar.papers.saliency import trials
 
@@ -49,12 +49,12 @@ def jobs(quick: bool) -> Sequence[Job]:
 
 
 def kept(row: Row) -> Row:
-    """A row as the repository keeps it: all of it."""
+    """Return the row as the repository stores it: unchanged."""
     return row
 
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
-    """Claims and the overview of the photographs that were run."""
+    """Return claims and the overview of the photographs that were run."""
     # start-up time: these bring JAX
     from deodar.figures.cues import overview
     from deodar.papers._report import Report

@@ -1,4 +1,4 @@
-"""The demonstration: three photographs, or pictures of the user's own, with figures and records."""
+"""Demonstration on three photographs, or on pictures of the user, with figures and records."""
 
 from __future__ import annotations
 

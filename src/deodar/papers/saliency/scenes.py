@@ -1,4 +1,4 @@
-"""Scenes: photographs, videos and cameras with colour cues, and the run of all cues on one of them."""
+"""Scenes, which are photographs, videos and cameras with colour cues, and the run of all cues on a scene."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ PERIOD = 50.0
 
 NEAR = 2.0
 """Distance from a peak within which the motor variable counts as converged, in scene units: one sample of the
-fields. Ours.
+fields (a choice of deodar).
 """
 
 WHEEL = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0)
@@ -47,13 +47,13 @@ Outline = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Cue:
-    """A cued hue; for a marked picture whether such an object is in it, and where.
+    """A cued hue; for a marked picture also whether it shows such an object, and where.
 
     Attributes:
         hue: degrees.
         name: of the colour.
         expect: `present`, `absent`, or "" for a picture without marks.
-        object: what a person sees in the marked region.
+        object: the object in the marked region, as a person names it.
         outlines: of the region; an outline inside another one is a hole.
     """
 
@@ -64,16 +64,16 @@ class Cue:
     outlines: tuple[Outline, ...] = ()
 
     def holds(self, place: tuple[float, float]) -> bool:
-        """Whether a place (column, row) lies in the marked region."""
+        """Return whether a place (column, row) lies in the marked region."""
         return sum(_inside(place, outline) for outline in self.outlines) % 2 == 1
 
 
 @dataclass(frozen=True)
 class CueScene:
-    """A picture and the cues to be tried on it.
+    """A picture and its cues.
 
-    Of a video or a camera the picture is the last one, and `world` what is sensed. `tuned` says whether
-    parameters were found on the picture.
+    For a video or a camera `picture` is the last picture, and `world` provides the sensed ones. `tuned`
+    states whether parameters were tuned on the picture.
     """
 
     name: str
@@ -95,7 +95,7 @@ class Outcome:
         spatial: peaks of the spatial field, in scene units.
         gap: distance of the motor variable from the nearest peak of the spatial field, in scene units; None
             without a peak.
-        moved: distance of the motor variable from where it began, in scene units.
+        moved: distance of the motor variable from its initial value, in scene units.
     """
 
     cue: Cue
@@ -108,7 +108,7 @@ class Outcome:
 
     @property
     def right(self) -> bool:
-        """Whether the fields select what the marks ask for: one peak in each, in the region; no peak in
+        """Whether the fields select the marked object: one peak in each, in the region; no peak in
         either where the colour is absent.
         """
         if self.cue.expect == "absent":
@@ -124,9 +124,9 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Found:
-    """What is known of a scene: the largest activation before the cue, and an outcome for each cue.
+    """Result of a scene: the largest activation before the cue, and an outcome for each cue.
 
-    Before it is run `quiet` is None, and there are no outcomes.
+    Before the run `quiet` is None, and there are no outcomes.
     """
 
     scene: CueScene
@@ -136,13 +136,13 @@ class Found:
 
 @dataclass(frozen=True, kw_only=True)
 class SceneResult(Found):
-    """A scene that was run, with its record over time."""
+    """Result of a scene with its record over time."""
 
     record: xarray.Dataset
 
     @property
     def corners(self) -> tuple[float, float, float, float]:
-        """Left, right, bottom and top of the spatial field in pixels of the picture."""
+        """Return left, right, bottom and top of the spatial field in pixels of the picture."""
         x, y, _ = scene()
         to_pixels = self.scene.picture.to_pixels
         left, top = to_pixels((x, y), x.lower - x.step / 2, y.lower - y.step / 2)
@@ -151,13 +151,13 @@ class SceneResult(Found):
 
     def figure(self) -> Figure:
         """Draw the scene with one row for each cue: selected place, both fields, motor variable over time."""
-        from deodar.figures.cues import cues_figure  # matplotlib is imported where something is drawn
+        from deodar.figures.cues import cues_figure  # start-up time: matplotlib
 
         return cues_figure(self)
 
 
 def _inside(place: tuple[float, float], outline: Outline) -> bool:
-    """Whether a ray from the place to the right crosses the outline an odd number of times."""
+    """Return whether a ray from the place to the right crosses the outline an odd number of times."""
     x, y = place
     inside = False
     for (x0, y0), (x1, y1) in zip(outline, (*outline[1:], outline[0]), strict=True):
@@ -167,11 +167,11 @@ def _inside(place: tuple[float, float], outline: Outline) -> bool:
 
 
 def photographs(untuned: bool = False) -> list[CueScene]:
-    """The photographs that come with deodar, with what a person marked in them.
+    """Return the photographs of deodar with the regions that a person marked.
 
     Args:
-        untuned: the twelve that were marked before the architecture first saw them, in place of the three on
-            which its parameters were found.
+        untuned: the twelve that were marked before the architecture was run on them, instead of the three on
+            which its parameters were tuned.
     """
     folder = resources.files("deodar.papers.saliency") / "photographs"
     if untuned:
@@ -194,27 +194,27 @@ def _outlines(corners: Sequence[Sequence[Sequence[float]]]) -> tuple[Outline, ..
 
 
 def own(file: Path, hues: Sequence[float]) -> CueScene:
-    """A picture of one's own, without marks."""
+    """Return a custom picture, without marks."""
     cues = _cues(hues)
     return CueScene(file.stem, file.name, Picture(file), cues)
 
 
 def filmed(file: Path, hues: Sequence[float]) -> CueScene:
-    """A video of one's own, from its beginning; after its end its last picture stays."""
+    """Return a custom video, from its beginning; after its end its last picture stays."""
     cues, film = _cues(hues), Video(file, period=PERIOD)
     return CueScene(file.stem, file.name, Picture(film.picture(DURATION)), cues, film)
 
 
 def watched(camera: Camera, hues: Sequence[float]) -> CueScene:
-    """What a camera sees for as long as a run lasts, recorded by the wall clock, so that all cues are
-    tried on the same.
+    """Record a camera by the wall clock for the duration of a run, so that all cues are tried on the same
+    pictures.
     """
     cues, eye = _cues(hues), Model("eye", dt=PERIOD)
     eye.add(Sensor("eye", retina(), sensor="picture"))
     began: list[float] = []
 
     def wait(done: int) -> None:
-        # the first counts: before it, programs are compiled
+        # time counts from the first picture; programs are compiled before it
         began.append(time.monotonic() - done * PERIOD / 1000)
         time.sleep(max(0.0, began[0] + done * PERIOD / 1000 - time.monotonic()))
 
@@ -237,11 +237,11 @@ def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
 def look(
     scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None
 ) -> SceneResult:
-    """All cues of a scene as one batch: first half a second without a cue, then three seconds with it.
+    """Run all cues of a scene as one batch: half a second without a cue, then three seconds with it.
 
     Args:
         scene: the picture and its cues.
-        seed: of the noise.
+        seed: seed of the noise.
         step: called after each of two simulations.
         model: the architecture; none: `saliency()`.
     """

@@ -1,4 +1,4 @@
-"""What is claimed of the scenes: of each cue, and of the untuned photographs together."""
+"""Claims on the scenes: on each cue, and on all untuned photographs together."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ from deodar.papers.saliency.scenes import NEAR, Cue, Found, Outcome
 SOURCE = "Sandamirskaya (2014), Front. Neurosci. 7:276, figure 2"
 
 LEAST_RIGHT = 10
-"""Of the twelve cues for a colour that is present in an untuned photograph, how many have to be selected.
-
-Ours.
+"""Required number of selections for the twelve cues whose colour is present in an untuned photograph (a
+choice of deodar).
 """
 
 CONVERGES = "the motor variable converges to the peak"
@@ -22,11 +21,11 @@ FOUND_HERE = "parameters that were found on this photograph"
 
 
 def claims(found: Found) -> list[Claim]:
-    """One claim for the time without a cue, and for each cue of a marked picture one for the fields and one
-    for the motor variable.
+    """Return one claim for the time without a cue, and for each cue of a marked picture one for the fields
+    and one for the motor variable.
 
     Each is reported, and undecided where the scene was not run. On the photographs on which the parameters
-    were found none of them is evidence; `totals` says what is required of the others.
+    were tuned none of them is evidence; `totals` states the requirements on the others.
     """
     scene = found.scene
     assumed: dict[str, Any] = (
@@ -71,8 +70,10 @@ def _of_a_cue(name: str, cue: Cue, o: Outcome | None, marks: dict[str, Any]) -> 
 
 
 def totals(results: Sequence[Found]) -> list[Claim]:
-    """What is required of the untuned photographs together, and in how many the motor variable arrives in
-    time. The targets are ours. They are undecided until all of these photographs were run.
+    """Return the required claims on all untuned photographs, and in how many the motor variable arrives in
+    time.
+
+    The targets are choices of deodar. They are undecided until all of these photographs were run.
     """
     untuned = [r for r in results if not r.scene.tuned]
     if not untuned:
@@ -97,7 +98,7 @@ def totals(results: Sequence[Found]) -> list[Claim]:
 
 
 def sentence(results: Sequence[Found]) -> str:
-    """The outcome in one line of plain words."""
+    """Return the outcome in one line of plain words."""
     asked = [o for r in results for o in r.outcomes if o.cue.expect]
     quiet = sum(r.quiet is not None and r.quiet < 0 for r in results)
     if asked:
@@ -116,8 +117,8 @@ def sentence(results: Sequence[Found]) -> str:
 
 
 def _where(outcome: Outcome) -> str:
-    """Where the peaks of the spatial field are; of the colour-space field, where the spatial field has
-    none.
+    """Return the positions of the peaks of the spatial field, or of the colour-space field if the spatial
+    field has none.
     """
     places = outcome.spatial_places or outcome.places
     text = " and ".join(f"column {x:.0f}, row {y:.0f}" for x, y in places)

@@ -1,4 +1,4 @@
-"""The trials: all cues of a photograph as one batch, and the row that is kept of each cue."""
+"""Trials: all cues of a photograph as one batch, and the row of each cue."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from deodar.experiments.rows import Row
 from deodar.papers.saliency.scenes import CueScene, Found, Outcome, look, photographs
 
 COST = 15.0
-"""About how long a photograph takes, s."""
+"""Approximate duration of a photograph, s."""
 
 MEASURED = ("places", "spatial_places", "spatial", "motor", "gap", "moved")
 """Entries of a row that are attributes of an `Outcome`."""
 
 
 def scenes(quick: bool) -> list[CueScene]:
-    """The photographs on which the parameters were found, and, unless it is to be quick, the untuned ones."""
+    """Return the tuned photographs, and without `quick` also the untuned ones."""
     return [*photographs(), *([] if quick else photographs(untuned=True))]
 
 
 def jobs(quick: bool) -> list[Job]:
-    """One job for each photograph."""
+    """Return one job for each photograph."""
     return [Job(_keys(s), photograph, {"name": s.name, "untuned": not s.tuned}, COST) for s in scenes(quick)]
 
 
 def photograph(name: str, untuned: bool) -> Sequence[Row]:
-    """The rows of a photograph, one for each cue."""
+    """Run a photograph and return its rows, one for each cue."""
     [scene] = [s for s in photographs(untuned) if s.name == name]
     result = look(scene)
     return [
@@ -43,7 +43,7 @@ def photograph(name: str, untuned: bool) -> Sequence[Row]:
 
 
 def found(rows: Mapping[str, Row], quick: bool) -> list[Found]:
-    """What the rows say of each photograph; of one without rows nothing is known."""
+    """Return the result of each photograph from its rows; a photograph without rows has no outcomes."""
     return [_found(s, [rows[key] for key in _keys(s) if key in rows]) for s in scenes(quick)]
 
 

@@ -32,13 +32,13 @@ PICTURES = {
     "spa-routes": "figure-13-routes",
     "spa-choice": "figure-16-full",
 }
-"""Pictures of the manual, and which figure each of them is."""
+"""Pictures of the manual, each with its figure."""
 
 __getattr__ = papers.files(__name__)
 
 
 def about(quick: bool) -> dict[str, Any]:
-    """What makes the design: rows of another one are not mixed with its own."""
+    """Return the settings of the design; rows with other settings are not mixed with these."""
     # start-up time: these bring JAX
     from deodar.papers.spa import cases
 
@@ -46,7 +46,7 @@ def about(quick: bool) -> dict[str, Any]:
 
 
 def jobs(quick: bool) -> Sequence[Job]:
-    """All trials, the quick ones first."""
+    """Return all trials, the quick ones first."""
     # start-up time: these bring JAX
     from deodar.papers.spa import trials
 
@@ -54,15 +54,15 @@ def jobs(quick: bool) -> Sequence[Job]:
 
 
 def kept(row: Row) -> Row:
-    """A row as the repository keeps it.
+    """Return a row as the repository stores it.
 
-    Paths of the carrot are left out: they are the larger part, and nothing reads them.
+    Paths of the carrot are omitted: they are the larger part, and no code reads them.
     """
     return {k: v for k, v in row.items() if k != "path" or "planner" in row["condition"]}
 
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
-    """Claims, figures, tables and numbers of the trials that are there."""
+    """Return claims, figures, tables and numbers of the stored trials."""
     # start-up time: these bring JAX
     from deodar.papers._report import Report
     from deodar.papers.spa import figures, sentences, tables, targets, variations

@@ -1,4 +1,4 @@
-"""The design: which conditions there are, and what each of their trials begins with."""
+"""Design: the conditions, and the start of each of their trials."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ RUNS = 240
 """Runs of case 3 for each obstacle and level of noise."""
 
 ONSETS, DURATIONS = (30, 700), (2, 500)
-"""Between which both are drawn, in steps, without the ends (section 4)."""
+"""Interval from which both are drawn, in steps, without the ends (section 4)."""
 
 DRAW = {"full": 3, "partial": 4}
 """Seeds of the draws; both levels of noise have the same."""
@@ -49,13 +49,13 @@ OBSTACLES = {
 NARRATIVE = (336, 400)
 """Onset and duration of the full obstacle in the run of figures 10 to 12.
 
-Its duration is not printed: it is longer than the robot waits.
+The paper does not print its duration; it is longer than the robot waits.
 """
 
 MOVES, GOES = 336, (85, 20)
-"""Step at which the goal moves, and row and column where it goes.
+"""Step at which the goal moves, and its new row and column.
 
-Ours: the paper says that it may, and shows no such run.
+A choice of deodar: the paper says that the goal may move, and shows no such run.
 """
 
 CARROT = Carrot(speed=400.0, gain=400.0)
@@ -65,8 +65,8 @@ These succeed most often in the Z-maze among those of `TUNING`, whatever the con
 """
 
 WEAK = Carrot(speed=400.0, gain=50.0)
-"""A gain so weak that corners are cut by far: with it and sticking contact the large maze looks as it does in
-the paper.
+"""A gain so weak that the carrot cuts corners by far: with it and sticking contact the results in the large
+maze resemble those of the paper.
 """
 
 TUNING = tuple((speed, gain) for speed in (400.0, 800.0) for gain in (50.0, 100.0, 200.0, 400.0, 1000.0))
@@ -88,7 +88,7 @@ excluded; of 40 runs of which half succeed it is 0.35 to 0.65.
 
 @dataclass(frozen=True)
 class Condition:
-    """Runs that differ in their pairs or draws and in their noise.
+    """A condition: runs that differ in their pairs or draws and in their noise.
 
     Attributes:
         name: maze or obstacle, method, noise: keys of rows begin with it.
@@ -96,13 +96,13 @@ class Condition:
         method: planner or carrot.
         noise: none, low or high.
         trials: numbers of its runs.
-        left_out: numbers of those that are left out, because their start is their goal.
+        left_out: numbers of the omitted runs, whose start is their goal.
         obstacle: full, partial or none.
         carrot: parameters of the carrot.
         contact: slide or stick.
-        factor: on the place input; None: that of the level of noise.
-        reflection: how well walls reflect infrared light; None: as the arena has it.
-        many_starts: whether each run has a pair of its own; otherwise all have that of case 3.
+        factor: factor on the position input; None: that of the level of noise.
+        reflection: share of infrared light that walls reflect; None: that of the arena.
+        many_starts: whether each run has its own pair; otherwise all have that of case 3.
     """
 
     name: str
@@ -120,7 +120,7 @@ class Condition:
 
     @property
     def terms(self) -> dict[str, Any]:
-        """What differs from the published terms of the planner, by name."""
+        """Return the terms of the planner that differ from the published ones, by name."""
         stick = {"contact": self.contact} if self.contact != "slide" else {}
         return stick | {
             name: value
@@ -184,7 +184,7 @@ def conditions(quick: bool) -> dict[str, Condition]:
         varied += _varied(
             name, numbers if name == "z" else numbers[: VARIED_QUICK if quick else VARIED], tuple(left)
         )
-    told = tuple(range(NARRATIVE_QUICK if quick else NARRATIVE_RUNS))
+    narrated = tuple(range(NARRATIVE_QUICK if quick else NARRATIVE_RUNS))
     for noise in ("low", "high"):
         out.append(
             Condition(f"free/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False)
@@ -198,7 +198,7 @@ def conditions(quick: bool) -> dict[str, Condition]:
                 "z",
                 "planner",
                 noise,
-                told,
+                narrated,
                 obstacle="narrative",
                 many_starts=False,
             )
@@ -215,8 +215,8 @@ def conditions(quick: bool) -> dict[str, Condition]:
 
 
 def _varied(name: str, numbers: tuple[int, ...], left: tuple[int, ...]) -> list[Condition]:
-    """The planner with sticking contact, with the same place input at both levels of noise, and with walls
-    that reflect better.
+    """Return the planner with sticking contact, with the same position input at both levels of noise, and
+    with walls that reflect better.
     """
     out = [
         Condition(f"{name}/sticking-planner/{noise}", name, "planner", noise, numbers, left, contact="stick")
@@ -235,7 +235,7 @@ def _varied(name: str, numbers: tuple[int, ...], left: tuple[int, ...]) -> list[
 
 @functools.lru_cache(maxsize=4)
 def windows(obstacle: str) -> np.ndarray:
-    """Onset and duration in steps of the obstacle in each run, (runs, 2)."""
+    """Return onset and duration in steps of the obstacle in each run, (runs, 2)."""
     if obstacle == "narrative":
         return np.tile(np.asarray([NARRATIVE]), (NARRATIVE_RUNS, 1))
     draw = np.random.default_rng(DRAW[obstacle])
@@ -243,7 +243,7 @@ def windows(obstacle: str) -> np.ndarray:
 
 
 def world(condition: Condition) -> Arena:
-    """The arena of a condition, for all its trials."""
+    """Return the arena of a condition, for all its trials."""
     others: dict[str, Any] = {"contact": condition.contact}
     if condition.reflection is not None:
         others["reflection"] = condition.reflection
@@ -267,7 +267,7 @@ def world(condition: Condition) -> Arena:
 
 
 def design(quick: bool) -> dict[str, Any]:
-    """What makes the design, as plain data."""
+    """Return the settings of the design, as plain data."""
     found = conditions(quick).values()
     numbers = {
         "limit": LIMIT,

@@ -1,4 +1,4 @@
-"""The demonstration: the run of figures 10 to 12, or a maze of the user's own, with a figure and a video."""
+"""Demonstration: the run of figures 10 to 12, or a maze of the user, with a figure and a video."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     def fill(folder: Path) -> None:
         save_figure(result.figure(), folder / "spa.png")
         film(result, folder / "spa.gif")
-        # the motivation fields are as large as a video: the pictures show them
+        # the motivation fields are as large as a video, and the pictures show them
         names = ["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]
         files.save_record(result.record[names], folder / "spa.zarr")
 

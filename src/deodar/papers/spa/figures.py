@@ -1,4 +1,4 @@
-"""What the figures show: success and Lp / Lo, example paths, path choice, velocity."""
+"""Figures: success and Lp / Lo, example paths, path choice, velocity."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ WAYS: dict[str, str] = dict(zip((NORTH, SOUTH, SWITCH, NONE), ROUTES, strict=Tru
 LABELS = ("planner\nlow", "planner\nhigh", "carrot\nnone", "carrot\nlow", "carrot\nhigh")
 EXAMPLES = 6
 WINDOW = 10
-"""Steps over which a velocity is taken."""
+"""Number of steps over which a velocity is computed."""
 
 MOMENTS = (
     ("early planning", (30, 130)),
@@ -46,7 +46,7 @@ MOMENTS = (
 
 
 def draw(runs: Runs) -> dict[str, Figure]:
-    """Each figure of which there is something to show, by the name of the paper's."""
+    """Draw each figure that has data, by the name of the paper's figure."""
     made: dict[str, Callable[[Runs], Figure | None]] = {
         "figure-7-success": success,
         "figure-8-divergence": divergence,
@@ -61,7 +61,7 @@ def draw(runs: Runs) -> dict[str, Figure]:
 
 
 def success(runs: Runs) -> Figure | None:
-    """Share of successful runs with 95 % intervals, for both mazes."""
+    """Draw the share of successful runs with 95 % intervals, for both mazes."""
     counts = {
         title: [count(runs.of(f"{m}/{method}/{noise}"), lambda r: r["success"]) for method, noise in METHODS]
         for m, title in MAZE.items()
@@ -72,7 +72,7 @@ def success(runs: Runs) -> Figure | None:
 
 
 def divergence(runs: Runs) -> Figure | None:
-    """Lp / Lo of all runs that succeed, for both mazes."""
+    """Draw Lp / Lo of all successful runs, for both mazes."""
     values = {
         title: [runs.divergences(f"{m}/{method}/{noise}") for method, noise in METHODS]
         for m, title in MAZE.items()
@@ -83,7 +83,7 @@ def divergence(runs: Runs) -> Figure | None:
 
 
 def paths(runs: Runs) -> Figure | None:
-    """Six pairs of the large maze, each with low (full line) and high noise (dashed)."""
+    """Draw six pairs of the large maze, each with low (full line) and high noise (dashed)."""
     rows = [{r["trial"]: r for r in runs.of(f"large/planner/{noise}")} for noise in ("low", "high")]
     both = [k for k in sorted(rows[0]) if k in rows[1]][:EXAMPLES]
     courses = [
@@ -95,7 +95,7 @@ def paths(runs: Runs) -> Figure | None:
 
 
 def routes(runs: Runs) -> Figure | None:
-    """All paths of case 3 by the route that they took."""
+    """Draw all paths of case 3 by their route."""
     if not any(runs.of(f"{o}/planner/{n}") for o in ("partial", "full") for n in ("low", "high")):
         return None
     panels = [_routes(runs, obstacle, noise) for noise in ("high", "low") for obstacle in ("partial", "full")]
@@ -113,8 +113,8 @@ def _routes(runs: Runs, obstacle: str, noise: str) -> Panel:
 
 
 def velocity(runs: Runs) -> Figure | None:
-    """Velocity over time of the first run of each obstacle that appears at four moments; grey: while it is
-    there; full line: low noise, dashed: high noise.
+    """Draw the velocity over time of the first run of each obstacle that appears at four moments; grey: while
+    the obstacle is present; full line: low noise, dashed: high noise.
     """
     panels = [
         _velocity(runs, obstacle, words, window)
@@ -136,7 +136,7 @@ def _velocity(runs: Runs, obstacle: str, words: str, window: tuple[int, int]) ->
 
 
 def _speed(row: Row) -> tuple[np.ndarray, np.ndarray]:
-    """Steps and cm a step."""
+    """Return steps and cm a step."""
     course, over = np.asarray(row["path"]), WINDOW // KEPT
     return KEPT * np.arange(over, len(course)), np.linalg.norm(
         course[over:] - course[:-over], axis=1
@@ -144,7 +144,7 @@ def _speed(row: Row) -> tuple[np.ndarray, np.ndarray]:
 
 
 def choice(runs: Runs, obstacle: str) -> Figure | None:
-    """Onset and duration of each run of an obstacle at low noise; colour: route, size: path length."""
+    """Draw onset and duration of each run of an obstacle at low noise; colour: route, size: path length."""
     rows = runs.kept(obstacle, "low")
     if not rows:
         return None
@@ -157,6 +157,6 @@ def choice(runs: Runs, obstacle: str) -> Figure | None:
 
 
 def _first(runs: Runs, obstacle: str, noise: str, window: tuple[int, int]) -> Row | None:
-    """The first run whose obstacle came in the window and lasted for 150 steps or more."""
+    """Return the first run whose obstacle came in the window and lasted for 150 steps or more."""
     found = between(runs.kept(obstacle, noise), window, (150, 1000))
     return found[0] if found else None

@@ -1,5 +1,5 @@
-"""The run of figures 10 to 12: a robot plans its way through a maze and drives it; an obstacle comes, and the
-robot plans again on the way. Or a run in any other maze.
+"""Run of figures 10 to 12: a robot plans its way through a maze and drives it; an obstacle appears, and the
+robot plans again on the way. Other mazes can be run too.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ if TYPE_CHECKING:
 SOURCE = "Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), section 5.2"
 
 DURATION = 1400
-"""Steps of 64 ms that are run."""
+"""Number of steps of 64 ms."""
 
 EVERY = 2
-"""Steps between two records: the robot receives its place as often."""
+"""Steps between two records, as between two readings of the robot's position."""
 
 LONGEST = 3000
-"""Steps that are run in a maze of one's own; more than any published run takes."""
+"""Number of steps in a custom maze; more than any published run takes."""
 
 MEMORY = 400e6
-"""Bytes that the motivation fields of a record may take; in a large maze records are further apart for it."""
+"""Largest size of the recorded motivation fields in bytes; in a large maze records are further apart."""
 
 SOON = 50
 """Steps after the plan is complete within which the robot leaves.
 
-Ours: the paper has it start to move when the plan is complete.
+A choice of deodar: in the paper it starts to move when the plan is complete.
 """
 
 START = "the start of case 3, which the paper does not print"
-"""It was inferred from the plan, the wave and the route of this very run, so these are no evidence."""
+"""The start was inferred from the plan, the wave and the route of this run, so they are no evidence."""
 
-PLACES = f"{START}, and its second location, which was read off a run of ours"
+PLACES = f"{START}, and its second location, which was read off a run of deodar"
 
 COMES = 336
-"""Step at which the obstacle comes, as in figure 11; it stays."""
+"""Step at which the obstacle appears, as in figure 11; it stays."""
 
 PLANNED, ARRIVES = 210, 1250
 """Steps at which the plan is complete and the robot at its goal, as the paper reports of this run (figures 10
@@ -64,7 +64,7 @@ LEFT = 2.5
 
 INTENDED = 0.5
 NORTH, SOUTH = place(30, 0)[1], place(50, 0)[1]
-"""Beyond which y, cm, it is on the northern and on the southern route (published simulator)."""
+"""Values of y, in cm, beyond which it is on the northern and on the southern route (published simulator)."""
 
 RECORDED = [
     "pose.output",
@@ -72,21 +72,21 @@ RECORDED = [
     *(f"{name}.motivation.activation" for name in DIRECTIONS),
 ]
 SITES = (0, 500, 850, 1250)
-"""Steps at which the robot is at the places that the paper calls location 1 to 4."""
+"""Steps at which the robot is at the positions that the paper calls location 1 to 4."""
 
 
 @dataclass(frozen=True)
 class Narrative:
-    """One run, and what happened when, in steps; None: it did not.
+    """One run and the times of its events, in steps; None: the event did not occur.
 
     Attributes:
-        record: pose, what the four behaviours intend, and their motivation fields over time.
-        arena: where it was, with the obstacle as it stood at the end.
-        planned: from when on there was an intention until the robot moved.
-        left: it moved.
+        record: pose, intentions of the four behaviours, and their motivation fields over time.
+        arena: the arena, with the obstacle as at the end.
+        planned: start of the intention that lasted until the robot moved.
+        left: the robot began to move.
         north, south: it was first on either route after it had moved; south after north.
         arrived: it came within NEAR of the goal.
-        told: whether it is the run that the paper describes, with the obstacle that comes.
+        published: whether it is the run that the paper describes, with the obstacle that appears.
     """
 
     record: xarray.Dataset
@@ -96,12 +96,12 @@ class Narrative:
     north: int | None
     south: int | None
     arrived: int | None
-    told: bool = True
+    published: bool = True
 
     @property
     def obstacle_at(self) -> int | None:
-        """Step at which the obstacle comes; None: nothing comes."""
-        return COMES if self.told else None
+        """Step at which the obstacle appears; None: no obstacle appears."""
+        return COMES if self.published else None
 
     @property
     def every(self) -> int:
@@ -111,15 +111,15 @@ class Narrative:
 
     @property
     def goal(self) -> np.ndarray:
-        """Where the goal is, x and y in cm."""
+        """Position of the goal, x and y in cm."""
         assert self.arena.goals is not None
         return self.arena.goals[0] / self.arena.scale
 
     @property
     def sites(self) -> list[tuple[float, float]]:
-        """Locations 1 to 4, as far as the record goes: x and y in cm."""
+        """Locations 1 to 4 that the record contains: x and y in cm."""
         poses = self.record["pose.output"]
-        sites = SITES if self.told else ()
+        sites = SITES if self.published else ()
         return [
             (float(x), float(y))
             for step in sites
@@ -135,13 +135,13 @@ class Narrative:
 
     def figure(self) -> Figure:
         """Draw the path, the motivation fields at two moments, and activation at the sites over time."""
-        from deodar.figures.plan import plan_figure  # matplotlib is imported where something is drawn
+        from deodar.figures.plan import plan_figure  # start-up time: matplotlib
 
         return plan_figure(self)
 
 
 def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Narrative:
-    """Case 3 of the paper with the obstacle that closes the northern route, at low noise."""
+    """Run case 3 of the paper with the obstacle that closes the northern route, at low noise."""
     arena = maze("z")
     center, size = OBSTACLES["full"]
     arena.place("obstacle", center, size, windows=(COMES * STEP_MS, 1e9))
@@ -158,7 +158,7 @@ def drive(
     duration: int = LONGEST,
     done: Callable[[int], None] = lambda _: None,
 ) -> Narrative:
-    """A run in any maze, which is made by `dd.architectures.maze`; nothing comes on the way."""
+    """Run any maze made by `dd.architectures.maze`, without obstacles that appear."""
     if arena.goals is None:
         raise WorldError("the maze has no goal", where=arena.source, fix="Give one: --goal X Y, in cm")
     model = spa(arena, noise)
@@ -167,11 +167,11 @@ def drive(
     found = read(
         simulate(model, duration, seed=seed, record=RECORDED, every=every, world=arena, progress=done), arena
     )
-    return dc.replace(found, told=False)
+    return dc.replace(found, published=False)
 
 
 def read(record: xarray.Dataset, arena: Arena) -> Narrative:
-    """What happened in a record, and when."""
+    """Find the events of a record."""
     pose, times = record["pose.output"].values, record["time"].values
     assert arena.goals is not None
     moved = np.linalg.norm(pose[:, :2] - pose[0, :2], axis=1) > LEFT
@@ -196,9 +196,9 @@ def _first(holds: np.ndarray) -> int | None:
 
 
 def claims(result: Narrative) -> list[Claim]:
-    """What is claimed of the run, computed from it. Of a maze of one's own nothing is required."""
+    """Return the claims on the run, computed from it; those on a custom maze are not required."""
     r = result
-    if not r.told:
+    if not r.published:
         return _reported(r)
     switched = (
         r.north is not None
@@ -275,13 +275,13 @@ def _within(value: int | None, target: float, share: float) -> bool:
 
 
 def sentence(result: Narrative) -> str:
-    """The outcome in one line of plain words."""
+    """Return the outcome in one line of plain words."""
     said: Sequence[tuple[str, int | None]] = (
         ("planned", result.planned),
         ("left", result.left),
         *(
             (("on the north route", result.north), ("on the south route", result.south))
-            if result.told
+            if result.published
             else ()
         ),
         ("at the goal", result.arrived),

@@ -27,8 +27,8 @@ LEAST_CLEARANCE = 4.0
 
 @functools.lru_cache(maxsize=2)
 def reference(name: str) -> Grid:
-    """The grid of the reference paths of a maze: cells of 1 cm, a clearance of 4 cm, things that come and go
-    left out.
+    """Return the grid of the reference paths of a maze: cells of 1 cm, a clearance of 4 cm, without timed
+    obstacles.
     """
     arena = maze(name, "none")
     boxes = np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale
@@ -37,21 +37,22 @@ def reference(name: str) -> Grid:
 
 @functools.lru_cache(maxsize=2)
 def pairs(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Starts (100, 3) with heading, and goals (100, 2), of a maze: z or large."""
+    """Return starts (100, 3) with heading, and goals (100, 2), of a maze: z or large."""
     starts, goals = _published() if name == "z" else _drawn(name)
     return np.concatenate([starts, np.full((len(starts), 1), HEADINGS[name])], axis=1), goals
 
 
 def same(name: str) -> list[int]:
-    """The pairs whose start is their goal: four of the published ones. They are left out."""
+    """Return the pairs whose start is their goal: four of the published ones. They are omitted."""
     starts, goals = pairs(name)
     return [k for k in range(len(starts)) if np.array_equal(starts[k, :2], goals[k])]
 
 
 def _published() -> tuple[np.ndarray, np.ndarray]:
-    """The published lists, which came with the simulator under the BSD licence that lies beside them.
+    """Return the published lists, which came with the simulator under the BSD licence in this folder.
 
-    Of a start the columns are row, nothing, column of the published fields; of a goal row and column.
+    The columns of a start are row, unused, column of the published fields; those of a goal are row and
+    column.
     """
     folder = resources.files("deodar.papers.spa") / "pairs"
     lists = [
@@ -64,8 +65,8 @@ def _published() -> tuple[np.ndarray, np.ndarray]:
 
 
 def _drawn(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs by the rule of section 4: cells of 1 cm with 4 cm to all walls, drawn uniformly, kept if one can
-    be reached from the other.
+    """Draw pairs by the rule of section 4: cells of 1 cm with 4 cm to all walls, drawn uniformly, kept if one
+    can be reached from the other.
     """
     on = reference(name)
     cells, regions, draw = np.argwhere(on.free), on.regions(), np.random.default_rng(DRAW)

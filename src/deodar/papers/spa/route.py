@@ -1,4 +1,4 @@
-"""The route of a run of case 3, whether the obstacle hit the robot, and how long the robot did not move."""
+"""Route of a run of case 3, whether the obstacle hit the robot, and how long the robot did not move."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ scripts).
 """
 
 SLOW = 0.05
-"""cm a step below which the robot counts as standing still; in the free it drives 0.2 to 0.4."""
+"""Speed in cm a step below which the robot counts as at rest; without obstacles it drives 0.2 to 0.4."""
 
 OVER = 10
-"""Steps over which its speed is taken."""
+"""Number of steps over which its speed is computed."""
 
 ON_ROBOT: dict[str, tuple[tuple[tuple[float, float], ...], float]] = {
     "full": (((10, 40), (15, 40), (20, 40)), 4.0),
@@ -29,7 +29,7 @@ ON_ROBOT: dict[str, tuple[tuple[tuple[float, float], ...], float]] = {
 
 
 def route(path: np.ndarray) -> str:
-    """`north`, `south`, `switch` (first north, then south), or `none` of them."""
+    """Return the route: `north`, `south`, `switch` (first north, then south), or `none`."""
     line = points(path)
     rows = place(0, 0)[1] - line[:, 1]
     north, south = np.flatnonzero(rows < NORTH_OF), np.flatnonzero(rows > SOUTH_OF)
@@ -39,10 +39,10 @@ def route(path: np.ndarray) -> str:
 
 
 def covered(path: np.ndarray, obstacle: str) -> bool:
-    """Whether the robot was where the obstacle stands, on the part of its path that it drove while the
-    obstacle was there.
+    """Return whether the robot was inside the obstacle, on the part of its path that it drove while the
+    obstacle was present.
 
-    Such runs are left out and counted, as the authors did.
+    Such runs are excluded and counted, as in the paper.
     """
     line = np.asarray(path, float)
     if not len(line):

@@ -1,4 +1,4 @@
-"""The rows of the experiment, by condition, with those that count."""
+"""Rows of the experiment by condition, and the rows that claims use."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from deodar.papers.spa import cases
 
 SOURCE = "Billing, Lowe & Sandamirskaya (2015)"
 LONG = 12.0
-"""Reference paths that are not longer, in cm, are left out of Lp / Lo: the radius of the goal takes most of
+"""Reference paths up to this length, in cm, are excluded from Lp / Lo: the radius of the goal is most of
 them.
 """
 
 METHODS = (("planner", "low"), ("planner", "high"), ("carrot", "none"), ("carrot", "low"), ("carrot", "high"))
-"""The five conditions of cases 1 and 2, in the order of figures 7 and 8."""
+"""Conditions of cases 1 and 2, in the order of figures 7 and 8."""
 
 
 class Runs:
-    """What was run so far.
+    """The completed runs.
 
     Args:
         rows: all rows by their keys.
@@ -37,34 +37,34 @@ class Runs:
             found.sort(key=lambda row: row["trial"])
 
     def of(self, condition: str) -> list[Row]:
-        """All rows of a condition, by the number of the trial."""
+        """Return all rows of a condition, by the number of the trial."""
         return self._by[condition]
 
     def complete(self, condition: str) -> bool:
-        """Whether all its runs are there."""
+        """Return whether all its runs are complete."""
         return len(self.of(condition)) == len(cases.conditions(self.quick)[condition].trials)
 
     def kept(self, obstacle: str, noise: str) -> list[Row]:
-        """Runs of case 3 but those whose obstacle came down on the robot."""
+        """Return the runs of case 3 except those whose obstacle appeared on the robot."""
         return [r for r in self.of(f"{obstacle}/planner/{noise}") if not r["on_robot"]]
 
     def left_out(self, obstacle: str, noise: str) -> int:
-        """How many runs those are."""
+        """Return the number of these excluded runs."""
         rows = self.of(f"{obstacle}/planner/{noise}")
         return len(rows) - len(self.kept(obstacle, noise))
 
     def divergences(self, condition: str) -> np.ndarray:
-        """Lp / Lo of the runs that reached the goal and whose reference path is long enough."""
+        """Return Lp / Lo of the runs that reached the goal and whose reference path is long enough."""
         return np.asarray([r["divergence"] for r in self._long(condition)])
 
     def both(self, first: str, second: str) -> tuple[np.ndarray, np.ndarray]:
-        """Lp / Lo of two conditions, of the pairs of start and goal that have one in both."""
+        """Return Lp / Lo of two conditions, for the pairs of start and goal that have it in both."""
         found = [{r["trial"]: r["divergence"] for r in self._long(name)} for name in (first, second)]
         trials = [k for k in found[0] if k in found[1]]
         return np.asarray([found[0][k] for k in trials]), np.asarray([found[1][k] for k in trials])
 
     def like(self, condition: str, other: str) -> list[Row]:
-        """The rows of a condition whose trials the other one has too."""
+        """Return the rows of a condition whose trials the other condition has too."""
         trials = {r["trial"] for r in self.of(other)}
         return [r for r in self.of(condition) if r["trial"] in trials]
 
@@ -82,8 +82,8 @@ def between(
     duration: tuple[float, float] = (-1, 1e9),
     **equal: Any,
 ) -> list[Row]:
-    """Rows whose obstacle came between two times, ends included, and lasted so long; and whose other entries
-    are as given.
+    """Return the rows whose obstacle has an onset and a duration in the given intervals, ends included, and
+    whose other entries have the given values.
     """
     inside = [
         r for r in rows if onset[0] <= r["onset"] <= onset[1] and duration[0] <= r["duration"] <= duration[1]
@@ -92,10 +92,10 @@ def between(
 
 
 def count(rows: Sequence[Row], true: Callable[[Row], bool]) -> tuple[int, int]:
-    """Of how many rows something is true, and how many there are."""
+    """Return the number of rows with a property, and the number of all rows."""
     return sum(true(r) for r in rows), len(rows)
 
 
 def numbers(rows: Sequence[Row], name: str) -> np.ndarray:
-    """An entry of those rows that have it."""
+    """Return an entry of the rows that have it."""
     return np.asarray([r[name] for r in rows if r.get(name) is not None], float)

@@ -1,5 +1,5 @@
-"""A sentence that is judged: its words, its target and what it assumes; the values of the runs make a claim
-of it.
+"""Sentence that the runs test: its text, its target and its assumptions; the values of the runs make it a
+claim.
 """
 
 from __future__ import annotations
@@ -17,31 +17,31 @@ from deodar.numerics.intervals import Interval
 from deodar.papers.spa.runs import SOURCE, count
 
 START = "the start of case 3, which the paper does not print"
-PLACES = f"{START}, and its second location, which was read off a run of ours"
+PLACES = f"{START}, and its second location, which was read off a run of deodar"
 REFLECTION = (
     "walls reflect 0.6 of the infrared light, which was fitted so that the planner passes the gaps of the"
     " large maze"
 )
 
 EFFECT = 0.1
-"""Smallest difference of two shares of runs that counts. Ours."""
+"""Smallest difference of two shares of runs that counts (a choice of deodar)."""
 
 ALIKE = 0.05
-"""By how much Lp / Lo, or a ratio of medians of it, may differ and still be called equal: 5 % of the shortest
-path. Ours.
+"""Largest difference of Lp / Lo, or of a ratio of its medians, that counts as equal: 5 % of the shortest
+path (a choice of deodar).
 """
 
 
 @dataclass(frozen=True)
 class Sentence:
-    """What is judged.
+    """A sentence to test.
 
     Attributes:
         section: section of the paper; empty: a statement of deodar.
         text: the sentence.
         origin: where the target comes from.
         assumes, inferred, kind: see `Claim`.
-        source: where the sentence stands, if not in the section.
+        source: where the paper has the sentence, if not in the section.
     """
 
     section: str
@@ -55,7 +55,7 @@ class Sentence:
     def judged(
         self, value: float | None, target: str, holds: bool | None, n: int, interval: Interval | None = None
     ) -> Claim:
-        """The claim, with a decision that was made elsewhere."""
+        """Return the claim, with a decision that was made elsewhere."""
         name = f"{self.section}: {self.text}" if self.section and self.kind == "reported" else self.text
         own = f"{SOURCE}, section {self.section}" if self.section else "no sentence of the paper"
         shown = None if value is None else round(float(value), 4)
@@ -72,7 +72,7 @@ class Sentence:
         )
 
     def value(self, value: float | None, n: int) -> Claim:
-        """A number without a target."""
+        """Return a claim on a number without a target."""
         return Sentence(self.section, self.text, "none", self.assumes, source=self.source).judged(
             value, "none", None, n
         )
@@ -86,16 +86,16 @@ class Sentence:
         interval: Interval | None = None,
         quick: bool = False,
     ) -> Claim:
-        """A number that lies between two bounds. Where so few runs cannot decide it is open."""
+        """Return a claim that a number lies between two bounds; undecided if the runs are too few."""
         return self.judged(value, target, statistics.decided(value, interval, n, *within, quick), n, interval)
 
     def median(self, values: np.ndarray, low: float, high: float, target: str, quick: bool = False) -> Claim:
-        """A median that lies between two bounds."""
+        """Return a claim that a median lies between two bounds."""
         value = float(np.median(values)) if len(values) else None
         return self.bounds(value, len(values), (low, high), target, statistics.median_interval(values), quick)
 
     def share(self, rows: Sequence[Row], true: Callable[[Row], bool], least: float, quick: bool) -> Claim:
-        """Something that is true of at least a share of the runs."""
+        """Return a claim that at least a share of the runs have a property."""
         hits, n = count(rows, true)
         return self.bounds(
             hits / n if n else None, n, (least, 1.0), f">= {least:g}", statistics.wilson(hits, n), quick
@@ -104,7 +104,7 @@ class Sentence:
     def larger(
         self, value: float | None, interval: Interval | None, n: int, than: float = 0.0, by: float = EFFECT
     ) -> Claim:
-        """A number that is larger than another, by an amount that counts."""
+        """Return a claim that a number is larger than another by an amount that counts."""
         return self.judged(
             value,
             f">= {than + by:g}, interval above {than:g}",
@@ -116,7 +116,7 @@ class Sentence:
     def smaller(
         self, value: float | None, interval: Interval | None, n: int, than: float = 1.0, by: float = ALIKE
     ) -> Claim:
-        """A number that is smaller than another, by an amount that counts."""
+        """Return a claim that a number is smaller than another by an amount that counts."""
         return self.judged(
             value,
             f"<= {than - by:g}, interval below {than:g}",
@@ -126,17 +126,17 @@ class Sentence:
         )
 
     def more_often(self, first: tuple[int, int], second: tuple[int, int], by: float = EFFECT) -> Claim:
-        """Something that is true of more runs (hits, n) of the first kind than of the second."""
+        """Return a claim that more runs (hits, n) of the first kind than of the second have a property."""
         value, interval = statistics.share_difference(first, second)
         return self.larger(value, interval, min(first[1], second[1]), 0.0, by)
 
     def as_often(self, first: tuple[int, int], second: tuple[int, int], margin: float = EFFECT) -> Claim:
-        """Something that is true of equally many runs (hits, n) of both kinds."""
+        """Return a claim that an equal share of the runs (hits, n) of both kinds have a property."""
         value, interval = statistics.share_difference(first, second)
         return self.equal(value, interval, min(first[1], second[1]), -margin, margin)
 
     def equal(self, value: float | None, interval: Interval | None, n: int, low: float, high: float) -> Claim:
-        """A difference or ratio whose whole interval lies inside a margin."""
+        """Return a claim that the interval of a difference or ratio lies inside a margin."""
         return self.judged(
             value,
             f"interval inside {low:g} to {high:g}",

@@ -1,5 +1,5 @@
-"""The reported claims: sentences of the paper's results and discussion, each with its number, and what our
-own settings make of them.
+"""Reported claims: sentences of the paper's results and discussion, each with its number, and the influence
+of deodar's own settings on them.
 """
 
 from __future__ import annotations
@@ -25,16 +25,18 @@ Said = Callable[[Runs], Sequence[Claim]]
 NOISES = ("low", "high")
 
 FEWER = 0.02
-"""By how much the share of unsuccessful runs has to fall to be called reduced: 4 of 200 runs. Ours."""
+"""Smallest fall of the share of unsuccessful runs that counts as reduced: 4 of 200 runs (a choice of
+deodar).
+"""
 
 OCCASIONS = 300
 """Runs from which on "a few occasions" is decided: where one run in a hundred is stuck, 300 runs show none in
-5 of 100 experiments. Ours.
+5 of 100 experiments (a choice of deodar).
 """
 
 
 def claims(runs: Runs) -> list[Claim]:
-    """All of them, by section."""
+    """Return all reported claims, by section."""
     said: tuple[Said, ...] = (
         _section_3,
         _section_5_1,
@@ -102,7 +104,7 @@ def _section_5_1(runs: Runs) -> list[Claim]:
         )
         out.append(_all_equal(Sentence("5.1", text, "ours", assumes), groups))
     rows = _planned(runs)
-    # a run that does not arrive took the limit: otherwise the latest of those that arrive would look early
+    # a run that does not arrive counts with the limit: otherwise the latest that arrive would look early
     arrivals = [r["arrival"] if r["success"] else cases.LIMIT for r in rows]
     text = (
         f"{cases.LIMIT} steps are well above the time necessary even for the longest paths: latest arrival,"
@@ -119,7 +121,7 @@ def _section_5_1(runs: Runs) -> list[Claim]:
         if name.startswith("z/tuning/")
     }
     if all(n for _, n in best.values()):
-        # the gain must do with either contact: the smaller of both counts
+        # the gain must suit either contact: the smaller share counts
         tuned = dict.fromkeys(name.rpartition("-")[0] for name in best)
         pairs = {name: min(best[f"{name}-{contact}"][0] for contact in ("slide", "stick")) for name in tuned}
         mine = f"z/tuning/{cases.CARROT.speed:g}-{cases.CARROT.gain:g}"
@@ -135,7 +137,7 @@ def _section_5_1(runs: Runs) -> list[Claim]:
 
 
 def _refuted(said: Sentence, p: float | None, n: int) -> Claim:
-    """A test that found no difference.
+    """Return a claim that a test found no difference.
 
     A small p here refutes it; a large one shows nothing, so it stays open.
     """
@@ -145,8 +147,8 @@ def _refuted(said: Sentence, p: float | None, n: int) -> Claim:
 
 
 def _all_equal(said: Sentence, groups: Sequence[np.ndarray]) -> Claim:
-    """Means of groups that are all equal: the interval of the difference of every two lies inside the
-    margin.
+    """Return a claim that the means of groups are equal: the interval of the difference of every two lies
+    inside the margin.
     """
     twos = [
         (float(a.mean() - b.mean()), difference_interval(a, b))
@@ -167,8 +169,8 @@ def _narrative(runs: Runs) -> list[Claim]:
     free = runs.of("free/planner/low")
 
     def seen(text: str, assumes: str = START, origin: Origin = "printed") -> Sentence:
-        """A time or place of the run that the paper tells of, from which the start (and the second location)
-        was inferred.
+        """Return a claim on a time or place that the paper reports of the run, from which the start (and the
+        second location) was inferred.
         """
         return Sentence("5.2", text, origin, assumes, inferred=True)
 
@@ -196,46 +198,48 @@ def _narrative(runs: Runs) -> list[Claim]:
                 rows, lambda r: _in_order(r, "north", "west", "south", "east"), 0.9, runs.quick
             )
         )
-    told = runs.of("narrative/planner/low")
+    narrated = runs.of("narrative/planner/low")
     text = (
-        "planning anew, motivation to go west at the second location dies away between 350 and 550: it"
-        " ends at"
+        "planning again, motivation to go west at the second location decays between 350 and 550: it ends at"
     )
-    out.append(seen(text, PLACES).median(numbers(told, "west_ends"), 350, 550, "350 to 550"))
+    out.append(seen(text, PLACES).median(numbers(narrated, "west_ends"), 350, 550, "350 to 550"))
     text = "motivation to go east is there from around t = 550 on"
-    out.append(seen(text, PLACES).median(numbers(told, "east_begins"), 495, 605, "550 +- 10 %"))
-    # what follows was not looked at when the start was inferred, but depends on it
-    text = "a full obstacle at t = 336 makes it plan anew and go south"
+    out.append(seen(text, PLACES).median(numbers(narrated, "east_begins"), 495, 605, "550 +- 10 %"))
+    # the following results were not used to infer the start, but depend on it
+    text = "a full obstacle at t = 336 makes it plan again and go south"
     out.append(
-        Sentence("5.2", text, assumes=START).share(told, lambda r: r["route"] == SWITCH, 0.7, runs.quick)
+        Sentence("5.2", text, assumes=START).share(narrated, lambda r: r["route"] == SWITCH, 0.7, runs.quick)
     )
     text = "it then goes east, south, west and, finally, north"
     out.append(
         Sentence("5.2", text, assumes=START).share(
-            told, lambda r: _in_order(r, "east", "south", "west", "north"), 0.7, runs.quick
+            narrated, lambda r: _in_order(r, "east", "south", "west", "north"), 0.7, runs.quick
         )
     )
     text = "that run is at its fourth location at t = 1250: arrival"
     out.append(
-        Sentence("5.2", text, "printed", START).median(numbers(told, "arrival"), 1125, 1375, "1250 +- 10 %")
+        Sentence("5.2", text, "printed", START).median(
+            numbers(narrated, "arrival"), 1125, 1375, "1250 +- 10 %"
+        )
     )
-    text = "planning anew takes from 350 to 550: time of standing still"
+    text = "planning again takes from 350 to 550: time without motion"
     out.append(
-        Sentence("5.2", text, "printed", START).median(numbers(told, "still"), 100, 300, "200 +- 50 %")
+        Sentence("5.2", text, "printed", START).median(numbers(narrated, "still"), 100, 300, "200 +- 50 %")
     )
     return out
 
 
 def _in_order(row: Row, *names: str) -> bool:
-    """Whether these behaviours come one after another in a run, others between them allowed."""
+    """Return whether these behaviours follow one another in a run; others may lie between them."""
     rest = iter(row["behaviours"])
     return all(name in rest for name in names)
 
 
 def _passage(row: Row) -> float | None:
-    """Mean speed beside the partial obstacle, on the north route, while it is there; in cm a step.
+    """Return the mean speed beside the partial obstacle, on the north route, while it is present; in cm a
+    step.
 
-    Without one: in the same place.
+    Without an obstacle: at the same position.
     """
     path, (x, y) = np.asarray(row["path"]), place(*cases.OBSTACLES["partial"][1])
     times = KEPT * np.arange(len(path))
@@ -351,7 +355,7 @@ def _section_6_2(runs: Runs) -> list[Claim]:
         out.append(Sentence("6.2", text).bounds(rest, len(far), (0.9, 1.0), ">= 0.9"))
         out.append(Sentence("6.2", "speed of the wave, cm a step").value(1 / slope, len(far)))
     switched = [r for noise in NOISES for r in between(runs.kept("full", noise), route=SWITCH)]
-    text = "planning anew is shorter than planning: standing still over the time of the first plan"
+    text = "planning again is shorter than planning: time without motion over the time of the first plan"
     out.append(
         _ratio(
             Sentence("6.2", text, assumes=START),
@@ -409,7 +413,7 @@ def _section_6_2(runs: Runs) -> list[Claim]:
 
 
 def _ratio(said: Sentence, above: np.ndarray, below: np.ndarray, more: bool) -> Claim:
-    """The ratio of two medians, which is above (`more`) or below 1 by an amount that counts."""
+    """Return a claim that the ratio of two medians is above (`more`) or below 1 by an amount that counts."""
     n = min(len(above), len(below))
     value, interval = (
         (float(np.median(above) / np.median(below)), ratio_interval(above, below)) if n else (None, None)
@@ -503,7 +507,7 @@ def _section_7(runs: Runs) -> list[Claim]:
     for noise in NOISES:
         short = between(runs.kept("full", noise), (201, 1000), (0, 100))
         text = (
-            "transient blockages do not result in planning anew: full obstacles of up to 100 steps after t ="
+            "transient blockages do not result in planning again: full obstacles of up to 100 steps after t ="
             f" 200, {noise} noise"
         )
         out.append(

@@ -1,5 +1,5 @@
-"""The table of the experiment, one line for each condition, and the numbers that the manual takes from the
-runs.
+"""Table of the experiment, one line for each condition, and the numbers of the runs that the manual
+states.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ SHORT = 8
 
 
 def write(runs: Runs) -> dict[str, str]:
-    """Markdown by file name."""
+    """Return tables in Markdown by file name."""
     return {"conditions": _table(runs, cases.conditions(runs.quick), len(HEAD))}
 
 
 def numbers(runs: Runs) -> dict[str, str]:
-    """What the manual says of the runs, by name: `success:CONDITION`, `ratio:CONDITION`, `arrival:CONDITION`,
-    and tables.
+    """Return the results that the manual states, by name: `success:CONDITION`, `ratio:CONDITION`,
+    `arrival:CONDITION`, and tables.
     """
     found = cases.conditions(runs.quick)
     out = {
@@ -87,7 +87,7 @@ def numbers(runs: Runs) -> dict[str, str]:
 
 
 def _table(runs: Runs, names: Iterable[str], columns: int) -> str:
-    """One line for each of these conditions that has runs."""
+    """Return one line for each of these conditions that has runs."""
     lines = [f"| {' | '.join(HEAD[:columns])} |", f"|{'---|' * columns}"]
     for c in (cases.conditions(runs.quick)[name] for name in names):
         rows = runs.of(c.name)

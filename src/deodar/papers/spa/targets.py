@@ -1,6 +1,4 @@
-"""The required claims: what a faithful run of the three cases gives, as far as nothing was inferred from that
-very result.
-"""
+"""Required claims: results of a faithful run of the three cases from which no setting was inferred."""
 
 from __future__ import annotations
 
@@ -15,18 +13,18 @@ from deodar.papers.spa.sentence import ALIKE, REFLECTION, START, Sentence
 SUCCESS = {("z", "low"): 0.95, ("z", "high"): 0.95, ("large", "low"): 0.90, ("large", "high"): 0.85}
 """Least shares of successful runs.
 
-Ours: figure 7 holds the only numbers of the paper, and they are not in its text.
+A choice of deodar: the only numbers of the paper are in figure 7, not in its text.
 """
 
 DIVERGENCE = (1.05, 1.2)
-"""Bounds of the mean Lp / Lo. Ours, from a prototype: figure 8 holds the only numbers of the paper."""
+"""Bounds of the mean Lp / Lo, from a prototype: the only numbers of the paper are in figure 8."""
 
 MAZE = {"z": "Z-maze", "large": "large maze"}
 EARLY, MIDDLE, LATE = (0, 129), (200, 450), (501, 1000)
 """Onsets.
 
-Those of the paper are narrowed to where a prototype chose one route clearly; `sentences` has those of the
-paper.
+Those of the paper, narrowed to the range in which a prototype clearly chose one route; `sentences` has those
+of the paper.
 """
 
 ROUTES = (
@@ -72,7 +70,7 @@ ROUTES = (
 
 
 def claims(runs: Runs) -> list[Claim]:
-    """One claim for each maze, obstacle and level of noise.
+    """Return one claim for each maze, obstacle and level of noise.
 
     Success in the large maze is reported only: `reflection` was fitted to it.
     """

@@ -1,4 +1,4 @@
-"""The trials: what is run, and the row that is kept of each."""
+"""Trials and the row of each."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MOVED = 2.5
 """Distance from the start beyond which the robot has left it, cm."""
 
 STRONG = 0.5
-"""Output of an intention field from which on it is there."""
+"""Output of an intention field from which on it counts as active."""
 
 KEPT = 2
 """Number of steps between two positions of the path that a row stores."""
@@ -40,21 +40,21 @@ LASTS = 20
 LOCATION_2 = (15, 57)
 """Row and column of the second location of figures 10 and 11: where the robot of that run is at t = 500.
 
-Read from a run, not printed.
+Read from a run of deodar; the paper does not print it.
 """
 
 POSE, TOUCHING = "pose.output", "touching.output"
-"""True place and heading, and whether it touches something, through the model's own sensors."""
+"""Return the true pose, and whether the robot touches something, from the model's own sensors."""
 
 STRONGEST = {name: f"{name}.strongest.output" for name in DIRECTIONS}
 COST = {"z": 6.0, "large": 80.0}
-"""About how long a run of the planner takes, s; of the carrot all runs of a condition take CARROT_COST."""
+"""Approximate duration of a run of the planner, s; all runs of a condition of the carrot take CARROT_COST."""
 
 CARROT_COST = 10.0
 
 
 def jobs(quick: bool) -> list[Job]:
-    """One job for each run of the planner, one for each condition of the carrot."""
+    """Return one job for each run of the planner, and one for each condition of the carrot."""
     out: list[Job] = []
     for c in cases.conditions(quick).values():
         given = {"name": c.name, "quick": quick}
@@ -66,7 +66,7 @@ def jobs(quick: bool) -> list[Job]:
 
 
 def carrot(name: str, quick: bool) -> Sequence[Row]:
-    """The rows of a condition in which the carrot is followed, run as one batch."""
+    """Run a condition of following the carrot as one batch, and return its rows."""
     c = cases.conditions(quick)[name]
     arena, (starts, goals), on = cases.world(c), pairs(c.maze), reference(c.maze)
     paths = [shortest_path(on, starts[k, :2], goals[k]) for k in c.trials]
@@ -80,7 +80,7 @@ def carrot(name: str, quick: bool) -> Sequence[Row]:
 
 
 def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
-    """The row of one run of the planner."""
+    """Run the planner once, and return the row."""
     c = cases.conditions(quick)[name]
     arena, model = _bench(name, quick)
     watch = [*STRONGEST.values(), POSE, TOUCHING]
@@ -88,7 +88,7 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
     motivated = {side: f"{side}.motivation.activation" for side in ("west", "east")} if narrated else {}
     events = [Within("done", RADIUS, POSE, "goal.output", STAY), Leaves("moved", MOVED, POSE)]
     moves = c.name.startswith("moved")
-    if moves:  # by hand, so beside the step
+    if moves:  # exchanged outside the step
         actions = [Move(cases.MOVES, "goal", place(*cases.GOES))]
         course = run_trial(model, LIMIT, arena, trial=trial, watch=watch, events=events, actions=actions)
     else:
@@ -114,14 +114,14 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
         intentions[: int(moved if moved is not None else len(intentions))].max(axis=1) <= STRONG
     )
     both = (intentions[:, 0:2].min(axis=1) > STRONG) | (intentions[:, 2:4].min(axis=1) > STRONG)
-    # the first step after which an intention stays until the robot has left; None where it never leaves
+    # first step of the intention that lasts until the robot has left; None if it never leaves
     row |= {
         "moved": moved,
         "plan": None if moved is None else int(weak[-1]) + 1 if len(weak) else 0,
         "opposed": round(float(both.mean()), 4),
     }
     row["behaviours"] = _order(intentions)
-    # between leaving and arriving: at first it stands because it plans, in the end because it is there
+    # between leaving and arriving: before it rests because it plans, afterwards because it has arrived
     if c.obstacle:
         begin = max(row["onset"], int(moved) if moved is not None else LIMIT)
         row["still"] = stillness(course.values[POSE][begin : row["arrival"]])
@@ -152,7 +152,7 @@ def _row(
     best: np.ndarray | None,
     arena: Arena,
 ) -> Row:
-    """What is kept of every run. Lengths in cm, times in steps."""
+    """Return the entries that all rows have. Lengths in cm, times in steps."""
     line, aim = np.asarray(pose, float)[:, :2], np.asarray(goal, float)
     near = np.linalg.norm(line - aim, axis=1) <= RADIUS
     boxes, border = _walls(arena)
@@ -194,8 +194,8 @@ def _walls(arena: Arena) -> tuple[np.ndarray, list[float]]:
 
 
 def _order(intentions: np.ndarray) -> list[str]:
-    """The behaviours in the order in which their intentions rose, as often as they did; what is short is left
-    out.
+    """Return the behaviours in the order in which their intentions rose, with repetitions; short ones are
+    omitted.
     """
     found: list[tuple[int, str]] = []
     for name, there in zip(STRONGEST, (intentions > STRONG).T, strict=True):
@@ -209,7 +209,7 @@ def _order(intentions: np.ndarray) -> list[str]:
 
 
 def _at(model: Model, path: str, values: np.ndarray) -> np.ndarray:
-    """A field over time at the second location."""
+    """Return a field over time at the second location."""
     axes = model[path.rpartition(".")[0]].element.axes  # type: ignore[attr-defined]
     at = [int(np.argmin(np.abs(axis.points - v))) for axis, v in zip(axes, place(*LOCATION_2), strict=True)]
     return values[:, at[0], at[1]]

@@ -1,8 +1,8 @@
-"""What settings decide that the paper does not give: contact, the factor on the place input at high noise,
-how well walls reflect infrared light.
+"""Influence of settings that the paper does not state: contact, the factor on the position input at high
+noise, and the reflection of infrared light by walls.
 
-None of these claims is a sentence of the paper. Each says that a setting does not matter, so that it fails
-where the setting decides.
+These claims are not sentences of the paper. Each states that a setting has no influence, and fails if it has
+one.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from deodar.papers.spa.targets import MAZE
 
 
 def claims(runs: Runs) -> list[Claim]:
-    """Two claims for each condition that differs from the planner's own in one setting: success, and Lp / Lo
+    """Return two claims for each condition that differs from the planner in one setting: success, and Lp / Lo
     pair by pair.
     """
     return [
