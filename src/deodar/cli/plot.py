@@ -164,21 +164,21 @@ def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View])
     return path.path_figure(variable, world, trial=trial, where=where)
 
 
-def _variables(data: xarray.Dataset, wished: list[str]) -> list[str]:
+def _variables(data: xarray.Dataset, names: list[str]) -> list[str]:
 
     known = list(map(str, data.data_vars))
     if not known:
         raise RecordError("the record holds no variable")
     found: list[str] = []
-    for wish in wished:
-        if wish not in known:
-            of = [n for n in known if n.startswith(f"{wish}.")]
+    for name in names:
+        if name not in known:
+            of = [n for n in known if n.startswith(f"{name}.")]
             if not of:
-                raise RecordError(f"the record holds no variable {wish!r}", fix=did_you_mean(wish, known))
+                raise RecordError(f"the record holds no variable {name!r}", fix=did_you_mean(name, known))
             found += of
         else:
-            found.append(wish)
-    return list(dict.fromkeys(found)) if wished else known
+            found.append(name)
+    return list(dict.fromkeys(found)) if names else known
 
 
 def _number(args: argparse.Namespace, text: str) -> float:

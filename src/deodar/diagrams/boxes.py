@@ -28,7 +28,7 @@ BLUE = "#0072b2"
 NAME, SMALL, PORT = 7.5, 6.0, 5.5
 LINE, SMALL_LINE = 8.8, 7.2
 ROOM = 92.0
-"""Names wider than this are broken into lines."""
+"""Width above which names are broken into lines."""
 
 LOOP = 15.0
 """Height of the loops above a box."""
@@ -38,7 +38,7 @@ NODE = 11.0
 """Radius of a node without many connections."""
 
 CLOSEST = 4.5
-"""Least distance of connections at one side of a box; more of them make it higher."""
+"""Smallest distance of connections at one side of a box; more connections make it higher."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Loop:
 
     @property
     def width(self) -> float:
-        """Room along the upper edge."""
+        """Space along the upper edge."""
         return max(15.0, text.widest(self.captions, SMALL) + 5)
 
 
@@ -77,8 +77,8 @@ def prepare(
         item: the item.
         inputs: names of input ports at which wires end, other than the default one.
         outputs: names of output ports where wires begin, other than the default one.
-        loops: its connections with itself.
-        most: how many wires end at its fuller side.
+        loops: connections of the item with itself.
+        most: number of wires at the side with more wires.
     """
     room = 58.0 if item.form == "coupling" else ROOM
     lines = tuple(text.wrap(item.name, NAME, room, 3, bold=_bold(item)))
@@ -107,7 +107,7 @@ def prepare(
 
 
 def paint(drawn: SizedItem, x: float, y: float) -> list[Shape | TextLine]:
-    """The shapes of an item, given its upper left corner. Its loops are wires and not included."""
+    """Return the shapes of an item, given its upper left corner. Its loops are wires and not included."""
     item, box = drawn.item, drawn.box
     top, middle = y + box.top, x + box.width / 2
     dash = (2.0, 1.5) if item.form == "missing" else ()
@@ -142,7 +142,9 @@ def paint(drawn: SizedItem, x: float, y: float) -> list[Shape | TextLine]:
 
 
 def reach(drawn: SizedItem, dy: float) -> float:
-    """How far inside its box the outline stands, at a height `dy` above or below the middle of its body."""
+    """Return the distance of the outline from the box at a height `dy` above or below the middle of its
+    body.
+    """
     box, form = drawn.box, drawn.item.form
     if form == "node":
         radius = box.body / 2
@@ -153,7 +155,9 @@ def reach(drawn: SizedItem, dy: float) -> float:
 
 
 def height_at(drawn: SizedItem, dx: float) -> float:
-    """How far below the upper edge of the body the outline stands, at a distance `dx` from its middle."""
+    """Return the distance of the outline from the upper edge of the body at a distance `dx` from its
+    middle.
+    """
     if drawn.item.form != "node":
         return 0.0
     radius = drawn.box.body / 2
@@ -174,7 +178,7 @@ def _pictured(item: Item) -> bool:
 def _small(item: Item) -> list[str]:
     out = [item.kind] if item.kind else []
     if item.form in ("field", "source", "sensor", "motor"):
-        out += [_axis(axis) for axis in item.axes] if item.told else []
+        out += [_axis(axis) for axis in item.axes] if item.axes_shown else []
     if item.every > 1:
         out.append(f"every {item.every} steps")
     return [line for one in out for line in text.wrap(one, SMALL, ROOM + 24, 2)]
@@ -238,7 +242,7 @@ def _node_picture(x: float, y: float, r: float) -> list[Shape | TextLine]:
 
 
 def _picture(item: Item, x: float, y: float) -> list[Shape | TextLine]:
-    """The glyph of a field by its number of dimensions: a line, a plane or a volume with a peak."""
+    """Draw the glyph of a field by its number of dimensions: a line, a plane or a volume with a peak."""
     w, h = PICTURE
     dims = len(item.axes)
     if dims == 1:

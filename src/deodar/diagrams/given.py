@@ -1,4 +1,4 @@
-"""Layout of a graph whose items have positions."""
+"""Layout of a graph whose items have given positions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Mapping
 
 from deodar.diagrams.graph import Graph, GroupPath
-from deodar.diagrams.layout import FRAME, HEAD, LEFT, RIGHT, SPACING, Arrangement, ItemSize, Stretch
+from deodar.diagrams.layout import FRAME, HEAD, LEFT, RIGHT, SPACING, Arrangement, ItemSize, Segment
 
 GIVEN = 0.7
 """Points per unit of the positions in a document; the studio's boxes are larger than those of pictures."""
@@ -18,7 +18,7 @@ def placed(
     labels: Mapping[int, tuple[float, float]],
     names: Mapping[GroupPath, float],
 ) -> Arrangement:
-    """Lay out a graph with the given positions.
+    """Lay out a graph at the given positions.
 
     Connections then run straight from side to side, without avoiding boxes.
     """
@@ -46,14 +46,14 @@ def placed(
         found.backwards[w] = a > b
         ends[wire.source, LEFT if a > b else RIGHT].append(w)
         ends[wire.target, RIGHT if a > b else LEFT].append(w)
-    at: dict[tuple[str, int], Stretch] = {}
+    at: dict[tuple[str, int], Segment] = {}
     for (ident, side), wires in ends.items():
         box, (x, y) = boxes[ident], found.boxes[ident]
         wires.sort(key=lambda w, me=ident: (found.boxes[_other(graph, w, me)][1], w))
         step = min(SPACING, (box.body - 6) / max(1, len(wires) - 1))
         for k, w in enumerate(wires):
             edge = x if side == LEFT else x + box.width
-            at[ident, w] = Stretch(edge, edge, y + box.top + box.body / 2 + step * (k - (len(wires) - 1) / 2))
+            at[ident, w] = Segment(edge, edge, y + box.top + box.body / 2 + step * (k - (len(wires) - 1) / 2))
     for w, wire in enumerate(graph.wires):
         if wire.source != wire.target:
             a, b = at[wire.source, w], at[wire.target, w]
@@ -87,5 +87,5 @@ def _to_origin(
     moved.boxes = {i: (bx - x, by - y) for i, (bx, by) in found.boxes.items()}
     moved.frames = {g: (fx - x, fy - y, w, h) for g, (fx, fy, w, h) in found.frames.items()}
     moved.captions = {w: (cx - x, cy - y) for w, (cx, cy) in found.captions.items()}
-    moved.runs = {w: [Stretch(r.x0 - x, r.x1 - x, r.y - y) for r in runs] for w, runs in found.runs.items()}
+    moved.runs = {w: [Segment(r.x0 - x, r.x1 - x, r.y - y) for r in runs] for w, runs in found.runs.items()}
     return moved

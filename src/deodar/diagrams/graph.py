@@ -1,4 +1,4 @@
-"""The graph that is drawn: items, wires between them, and frames around groups, as plain data."""
+"""Graph of a picture: items, wires between them, and frames around groups, as plain data."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ class Item:
     """One element, or a group that is drawn as one box.
 
     Attributes:
-        id: what wires name.
-        form: the shape it is drawn in.
+        id: its id, which wires name.
+        form: its shape.
         name: its name.
-        kind: what it is, in words; empty where the form says it.
-        axes: the axes it is defined over.
+        kind: its kind in words; empty if the form shows it.
+        axes: the axes over which it is defined.
         recurrence: signs of its interactions with itself, drawn as loops.
         group: names of the groups around it.
         every: ticks of its own step.
-        told: whether its axes are written; not if all connected items have the same axes.
+        axes_shown: whether its axes are written; not if all connected items have the same axes.
     """
 
     id: str
@@ -37,7 +37,7 @@ class Item:
     recurrence: tuple[Sign, ...] = ()
     group: GroupPath = ()
     every: int = 1
-    told: bool = True
+    axes_shown: bool = True
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Wire:
 
 @dataclass(frozen=True)
 class Graph:
-    """What is drawn.
+    """The graph of a picture.
 
     Attributes:
         name: title of the picture, for readers of the screen.

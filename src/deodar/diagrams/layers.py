@@ -11,7 +11,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 
 SWEEPS = 10
-"""Sweeps of the ordering; after these few more gain hardly anything (a guess, from the examples)."""
+"""Number of sweeps of the ordering; more have little effect (a guess, from the examples)."""
 
 
 def forward(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, int]:
@@ -49,7 +49,7 @@ def forward(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str,
 
 
 def ranks(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, int]:
-    """The column of each node: after all that it reads, and as near as possible to what reads it.
+    """Return the column of each node: after all nodes that it reads, and as near as possible to its readers.
 
     Edges run forwards.
     """
@@ -60,7 +60,7 @@ def ranks(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, i
         outs[a].append(b)
     waits = {n: len(found) for n, found in ins.items()}
     order = [n for n in nodes if not waits[n]]
-    for n in order:  # grows while it is read
+    for n in order:  # grows during the iteration
         for m in outs[n]:
             waits[m] -= 1
             if not waits[m]:
@@ -77,7 +77,7 @@ def ranks(nodes: Sequence[str], edges: Sequence[tuple[str, str]]) -> dict[str, i
 def order(
     columns: list[list[str]], after: Mapping[str, Sequence[str]], before: Mapping[str, Sequence[str]]
 ) -> list[list[str]]:
-    """The nodes of each column in an order with few crossings; edges join neighbouring columns."""
+    """Return the nodes of each column in an order with few crossings; edges join neighbouring columns."""
     best, least = columns, crossings(columns, after)
     now = [list(column) for column in columns]
     for sweep in range(SWEEPS):

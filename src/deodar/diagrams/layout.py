@@ -1,5 +1,5 @@
-"""Layout: every group from inside out, as a block in the group around it; a lane in each column for every
-connection that passes.
+"""Layout of groups from inside out, each as a block in the group around it, with a lane in each column for
+every connection that passes.
 
 Connections run through lanes of their own and through the spaces between columns, so that none runs through a
 box.
@@ -20,30 +20,30 @@ ROUNDS = 24
 LEFT, RIGHT = "left", "right"
 
 GAP = 13.0
-"""Space between two columns; between elements lie two of them, and the lane of the label."""
+"""Space between two columns; between elements lie two spaces and the lane of the label."""
 
 STEEPEST = 0.09
-"""A space between columns grows by this share of the longest climb in it."""
+"""Share of the longest climb of a connection by which the space between columns grows."""
 
 WIDEST_GAP = 42.0
 APART = {(True, True): 13.0, (True, False): 8.0, (False, True): 8.0, (False, False): 6.5}
-"""Least distance between neighbours of a column: boxes, and lanes."""
+"""Smallest distances between neighbours of a column: boxes, and lanes."""
 
 FRAME = 9.0
 HEAD = 13.0
-"""Space inside a frame, and what its name needs above."""
+"""Space inside a frame, and the space above it for its name."""
 
 SPACING = 9.0
-"""Distance of connections at one side of a box, where it is high enough."""
+"""Distance of connections at one side of a box that is high enough."""
 
 
 @dataclass
 class ItemSize:
-    """What an item needs.
+    """Size of an item.
 
     Attributes:
         width, height: of the whole.
-        top: how far below the upper edge the part begins where connections end.
+        top: distance from the upper edge to the part where connections end.
         body: height of that part.
     """
 
@@ -54,8 +54,8 @@ class ItemSize:
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """A level stretch of a connection, from left to right."""
+class Segment:
+    """A horizontal segment of a connection, from left to right."""
 
     x0: float
     x1: float
@@ -64,13 +64,13 @@ class Stretch:
 
 @dataclass
 class Arrangement:
-    """The positions of all items, groups and connections.
+    """Positions of all items, groups and connections.
 
     Attributes:
         boxes: upper left corner of each item.
         frames: x, y, width and height of each group.
-        runs: for each wire its level stretches from left to right; empty for one that ends where it begins.
-        backwards: for each wire whether its target is at the left.
+        runs: horizontal segments of each wire from left to right; empty for one that ends where it begins.
+        backwards: whether the target of each wire is at its left.
         captions: middle of the text of each wire that has one.
     """
 
@@ -78,7 +78,7 @@ class Arrangement:
     frames: dict[GroupPath, tuple[float, float, float, float]] = field(
         default_factory=dict[GroupPath, tuple[float, float, float, float]]
     )
-    runs: dict[int, list[Stretch]] = field(default_factory=dict[int, list[Stretch]])
+    runs: dict[int, list[Segment]] = field(default_factory=dict[int, list[Segment]])
     backwards: dict[int, bool] = field(default_factory=dict[int, bool])
     captions: dict[int, tuple[float, float]] = field(default_factory=dict[int, tuple[float, float]])
     width: float = 0.0
@@ -87,7 +87,7 @@ class Arrangement:
 
 @dataclass
 class _Block:
-    """A group that is laid out, its corner at the origin, or an item."""
+    """An item, or a group that is laid out with its corner at the origin."""
 
     box: ItemSize
     inside: Arrangement | None = None
@@ -96,7 +96,7 @@ class _Block:
 
 @dataclass(frozen=True)
 class _Edge:
-    """An edge of one level: names of its left and right ends, and the wire."""
+    """An edge inside a group: names of its left and right ends, and the wire."""
 
     left: str
     right: str
@@ -112,8 +112,8 @@ def arrange(
     """Lay out a graph.
 
     Args:
-        graph: what is drawn.
-        boxes: what each item needs.
+        graph: the graph to lay out.
+        boxes: size of each item.
         labels: width and height of the text on each wire that has one.
         names: width of the name of each group.
     """
@@ -152,7 +152,7 @@ class _Arranger:
     # ------------------------------------------------------------------- from outside in: which way wires run
 
     def _child(self, ident: str, level: GroupPath) -> str | GroupPath | None:
-        """The child of a level that holds an item; None where the item is outside."""
+        """Return the child of a group that contains an item; None if the item is outside."""
         group = self.group[ident]
         if group[: len(level)] != level:
             return None
@@ -221,7 +221,7 @@ class _Arranger:
 
 
 class _Level:
-    """One group: its children in columns."""
+    """Lay out one group: its children in columns."""
 
     def __init__(
         self, level: GroupPath, blocks: dict[str, _Block], rank: dict[str, int], edges: list[_Edge],
@@ -286,7 +286,9 @@ class _Level:
         return columns
 
     def _attach(self, columns: Sequence[Sequence[str]]) -> None:
-        """How far below the upper edge of a block each wire ends: in the order of where they go."""
+        """Return the distance of the end of each wire from the upper edge of a block, in the order of the
+        other ends.
+        """
         at = {n: k for column in columns for k, n in enumerate(column)}
         for side, end, near in ((LEFT, -1, -2), (RIGHT, 0, 1)):
             found: dict[str, list[int]] = defaultdict(list)
@@ -307,7 +309,7 @@ class _Level:
                     self.offset[n + side, w] = first + k * step
 
     def _heights(self, columns: Sequence[Sequence[str]]) -> dict[str, float]:
-        """The upper edge of every node and lane."""
+        """Return the upper edge of every node and lane."""
         y: dict[str, float] = {}
         gaps: list[list[float]] = []
         for column in columns:
@@ -335,8 +337,8 @@ class _Level:
         return y
 
     def _pulls(self) -> dict[str, list[tuple[str, float, float]]]:
-        """For each node what it would be level with: (other, by how much its upper edge differs then, how
-        strongly).
+        """Return for each node its alignments: (other node, difference of the upper edges when aligned,
+        weight).
         """
         pulls: dict[str, list[tuple[str, float, float]]] = defaultdict(list)
         for w, path in self.path.items():
@@ -379,7 +381,7 @@ class _Level:
         shift = max(0.0, shift)
         lefts = [left + shift for left in lefts]
         right += shift
-        spare = max(0.0, self.least - right)  # the name of a group is wider than what it holds
+        spare = max(0.0, self.least - right)  # the name of a group is wider than its content
         lefts, right = [left + spare / 2 for left in lefts], right + spare
         lefts[0], lefts[self.last] = 0.0, right
         top = min((y[n] for column in columns for n in column), default=0.0)
@@ -415,25 +417,25 @@ class _Level:
         place: Mapping[str, tuple[float, float]],
         lefts: Sequence[float],
         widths: Sequence[float],
-    ) -> list[Stretch]:
-        runs: list[Stretch] = []
+    ) -> list[Segment]:
+        runs: list[Segment] = []
         for k, n in enumerate(path):
             x, y = place[n]
             c = self.column[n]
             if n.startswith("lane ") and not widths[c]:
                 continue  # this column has no box: one smooth curve to the next
             if n not in self.blocks:
-                runs.append(Stretch(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
+                runs.append(Segment(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
             elif k == 0:
                 runs.append(
-                    Stretch(
+                    Segment(
                         x + self.size[n][0],
                         max(x + self.size[n][0], lefts[c] + widths[c]),
                         y + self.offset[n + RIGHT, w],
                     )
                 )
             else:
-                runs.append(Stretch(lefts[c], x, y + self.offset[n + LEFT, w]))
+                runs.append(Segment(lefts[c], x, y + self.offset[n + LEFT, w]))
         return runs
 
 
@@ -446,7 +448,7 @@ def _move_into(found: Arrangement, block: _Block, group: GroupPath, x: float, y:
     found.boxes.update({i: (bx + x, by + y) for i, (bx, by) in inside.boxes.items()})
     found.captions.update({w: (cx + x, cy + y) for w, (cx, cy) in inside.captions.items()})
     for w, runs in inside.runs.items():
-        moved = [Stretch(r.x0 + x, r.x1 + x, r.y + y) for r in runs]
+        moved = [Segment(r.x0 + x, r.x1 + x, r.y + y) for r in runs]
         outside = found.runs.get(w, [])
         found.runs[w] = sorted([*outside, *moved], key=lambda r: (r.x0, r.x1))
 

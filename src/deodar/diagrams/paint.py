@@ -1,4 +1,4 @@
-"""Painting: a graph becomes a scene."""
+"""Painting of a graph as a scene."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from deodar.diagrams import boxes, given, layout, wires
 from deodar.diagrams import text as texts
 from deodar.diagrams.boxes import INK, NAME, PORT, SMALL, SMALL_LINE, SOFT, Loop, SizedItem
 from deodar.diagrams.graph import Graph, GroupPath, Wire
-from deodar.diagrams.layout import Arrangement, Stretch
+from deodar.diagrams.layout import Arrangement, Segment
 from deodar.diagrams.scene import Drawing, SceneItem, Shape, TextLine, rectangle
 from deodar.numerics.signs import Sign
 
 MARGIN = 6.0
 CAPTION = 70.0
-"""Text on a connection is broken into lines where it is wider."""
+"""Width above which text on a connection is broken into lines."""
 
 WIDEST_NAME = 140.0
-"""The name of a group is cut where it is wider."""
+"""Width at which the name of a group is cut."""
 
 MOST_LINES = 4
 LEGEND: dict[Sign, str] = {"+": "excitation", "-": "inhibition", "±": "both"}
@@ -42,7 +42,7 @@ def paint(graph: Graph, legend: bool = True) -> Drawing:
 
 
 def lay_out(graph: Graph) -> tuple[dict[str, SizedItem], Arrangement, dict[int, tuple[float, float]]]:
-    """Every item with its size, where all stands, and the size of the text on each connection that has
+    """Return every item with its size, all positions, and the size of the text on each connection that has
     one.
     """
     sides: dict[tuple[str, str], list[str]] = defaultdict(list)
@@ -75,7 +75,7 @@ def lay_out(graph: Graph) -> tuple[dict[str, SizedItem], Arrangement, dict[int, 
 
 
 def caption(wire: Wire) -> tuple[str, ...]:
-    """The lines of text on a connection: one or more for each coupling."""
+    """Return the lines of text on a connection: one or more for each coupling."""
     lines = [line for one in wire.captions for line in texts.wrap(one, SMALL, CAPTION, 2)]
     if len(lines) > MOST_LINES:
         lines = [*lines[: MOST_LINES - 1], f"{lines[MOST_LINES - 1]} {texts.CUT}"]
@@ -152,7 +152,7 @@ def _wire(graph: Graph, w: int, found: Arrangement, drawn: dict[str, SizedItem])
         inset = boxes.reach(one, run.y - found.boxes[ident][1] - one.box.top - one.box.body / 2)
         if one.item.form == "sensor":
             inset = inset if k == 0 else 6.0 - inset
-        runs[k] = Stretch(run.x0 - inset, run.x1, run.y) if k == 0 else Stretch(run.x0, run.x1 + inset, run.y)
+        runs[k] = Segment(run.x0 - inset, run.x1, run.y) if k == 0 else Segment(run.x0, run.x1 + inset, run.y)
     content: list[Shape | TextLine] = []
     line, *marks = wires.path(runs, backwards, wire.sign)
     content += [dc.replace(line, dash=wires.DELAYED) if wire.delayed else line, *marks]
@@ -187,7 +187,7 @@ def _chip(
 
 
 def _legend(scene: Drawing, graph: Graph) -> None:
-    """The marks that occur, below the picture, where there are several."""
+    """Draw a legend of the marks that occur below the picture, if there are several."""
     signs = {wire.sign for wire in graph.wires}.union(*(item.recurrence for item in graph.items))
     if len(signs) < 2:
         return
@@ -195,7 +195,7 @@ def _legend(scene: Drawing, graph: Graph) -> None:
     for sign, meaning in LEGEND.items():
         if sign not in signs:
             continue
-        content = wires.path([Stretch(x, x + 20, y)], False, sign)
+        content = wires.path([Segment(x, x + 20, y)], False, sign)
         part.content += [*content, TextLine(meaning, x + 24, y + 2.1, SMALL, "start", color=SOFT)]
         x += 24 + texts.width(meaning, SMALL) + 12
     scene.parts.append(part)
@@ -204,7 +204,7 @@ def _legend(scene: Drawing, graph: Graph) -> None:
 
 
 def _framed(scene: Drawing) -> Drawing:
-    """The same with a margin."""
+    """Return the scene with a margin."""
 
     def moved(one: Shape | TextLine) -> Shape | TextLine:
         if isinstance(one, TextLine):

@@ -1,4 +1,4 @@
-"""A scene as a matplotlib figure, for PDF and PNG."""
+"""Drawing of a scene as a matplotlib figure, for PDF and PNG."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INCH = 72.0
-"""Points of an inch."""
+"""Points per inch."""
 
 
 def figure(scene: Drawing, width: float | None = None) -> Figure:
-    """A figure of the scene; `width` in inches, none: its own size."""
+    """Return a figure of the scene; `width` is in inches, None: the size of the scene."""
     # start-up time: matplotlib is needed for figures only
     from matplotlib.figure import Figure
     from matplotlib.patches import PathPatch
@@ -68,14 +68,14 @@ def figure(scene: Drawing, width: float | None = None) -> Figure:
 
 
 def content(scene: Drawing, format: str, width: float | None = None) -> bytes:
-    """The picture as pdf or png; the same picture gives the same bytes."""
+    """Return the picture as pdf or png; equal pictures have equal bytes."""
     # start-up time: matplotlib is needed for figures only
     import matplotlib
 
     about: Any = {"CreationDate": None} if format == "pdf" else {}
     out = io.BytesIO()
     with matplotlib.rc_context({"pdf.fonttype": 42}), warnings.catch_warnings():
-        # a name in a script that the font lacks
+        # the font lacks characters of a name
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         figure(scene, width).savefig(out, format=format, metadata=about)
     return out.getvalue()

@@ -1,4 +1,4 @@
-"""The scene: shapes and text at their places, before they are written in any format."""
+"""Scene: shapes and text with positions, independent of any file format."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ PathCommand = tuple[str, *tuple[float, ...]]
 
 @dataclass(frozen=True)
 class Shape:
-    """A path. Colours are empty where nothing is filled or stroked."""
+    """A path. An empty colour means no fill or no stroke."""
 
     path: tuple[PathCommand, ...]
     stroke: str = ""
@@ -37,9 +37,7 @@ class TextLine:
 
 @dataclass
 class SceneItem:
-    """What belongs to one element or connection: drawn together, with a title that a browser shows under the
-    pointer.
-    """
+    """Shapes of one element or connection, with a title that a browser shows as a tooltip."""
 
     role: str
     title: str
@@ -61,7 +59,7 @@ class Drawing:
 
 
 def rectangle(x: float, y: float, w: float, h: float, r: float = 0.0) -> tuple[PathCommand, ...]:
-    """A rectangle with round corners."""
+    """Return a rectangle with round corners."""
     if r <= 0:
         return (("M", x, y), ("L", x + w, y), ("L", x + w, y + h), ("L", x, y + h), ("Z",))
     k = r * 0.4477
@@ -74,7 +72,7 @@ def rectangle(x: float, y: float, w: float, h: float, r: float = 0.0) -> tuple[P
 
 
 def circle(x: float, y: float, r: float) -> tuple[PathCommand, ...]:
-    """A circle, as four curves."""
+    """Return a circle, as four curves."""
     k = 0.5523 * r
     return (
         ("M", x + r, y),
@@ -87,10 +85,10 @@ def circle(x: float, y: float, r: float) -> tuple[PathCommand, ...]:
 
 
 def polygon(*points: Point) -> tuple[PathCommand, ...]:
-    """A closed line through points."""
+    """Return a closed line through points."""
     return (("M", *points[0]), *(("L", *p) for p in points[1:]), ("Z",))
 
 
 def line(*points: Point) -> tuple[PathCommand, ...]:
-    """An open line through points."""
+    """Return an open line through points."""
     return (("M", *points[0]), *(("L", *p) for p in points[1:]))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 
-def settle(wishes: Sequence[float], weights: Sequence[float], gaps: Sequence[float]) -> list[float]:
+def settle(requests: Sequence[float], weights: Sequence[float], gaps: Sequence[float]) -> list[float]:
     """Return the positions nearest to the requested ones, by weighted least squares, at least `gaps` apart.
 
     Args:
-        wishes: requested position of each item.
+        requests: requested position of each item.
         weights: weight of each request.
         gaps: smallest distance between each item and the next; one entry fewer than items.
 
@@ -19,9 +19,9 @@ def settle(wishes: Sequence[float], weights: Sequence[float], gaps: Sequence[flo
     shift = [0.0]
     for gap in gaps:
         shift.append(shift[-1] + gap)
-    blocks: list[tuple[float, float, int]] = []  # mean, weight, how many
-    for wish, weight, by in zip(wishes, weights, shift, strict=False):
-        blocks.append((wish - by, weight, 1))
+    blocks: list[tuple[float, float, int]] = []  # mean, weight, number of items
+    for request, weight, by in zip(requests, weights, shift, strict=False):
+        blocks.append((request - by, weight, 1))
         while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
             (m1, w1, n1), (m2, w2, n2) = blocks[-2], blocks[-1]
             blocks[-2:] = [((m1 * w1 + m2 * w2) / (w1 + w2), w1 + w2, n1 + n2)]

@@ -1,4 +1,4 @@
-"""A scene as SVG."""
+"""Writing of a scene as SVG."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ FONTS = "'DejaVu Sans', Arial, Helvetica, sans-serif"
 
 
 def write(scene: Drawing, width: float | None = None) -> str:
-    """The picture as text; names are escaped, and text stays text.
+    """Return the picture as SVG; names are escaped, and text remains text.
 
-    `width` is in points, none: the scene's own.
+    `width` is in points, None: the width of the scene.
     """
     w, h, scale = _n(scene.width), _n(scene.height), 1.0 if width is None else width / scene.width
     out = [

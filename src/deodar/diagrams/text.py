@@ -1,4 +1,4 @@
-"""Widths of text, and breaking it into lines."""
+"""Width of text, and line breaks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Sequence
 
 FAMILY = "DejaVu Sans"
-"""The font that widths are measured in.
+"""Font of the measured widths.
 
 It is wider than the fonts that replace it, so that text fits in these too.
 """
@@ -30,7 +30,7 @@ def _font(bold: bool):
 
 @functools.cache
 def _advance(char: str, bold: bool) -> float:
-    """Width of one character, for a font of size 1."""
+    """Return the width of one character, for a font of size 1."""
     font, known = _font(bold)
     if ord(char) not in known:
         return (
@@ -41,7 +41,7 @@ def _advance(char: str, bold: bool) -> float:
 
 
 def width(text: str, size: float, bold: bool = False) -> float:
-    """Width of one line of text."""
+    """Return the width of one line of text."""
     return size * sum(_advance(c, bold) for c in text)
 
 
@@ -78,7 +78,7 @@ def wrap(text: str, size: float, room: float, most: int, bold: bool = False) -> 
 
 
 def plain(text: str) -> str:
-    """The text on one line, without characters that no file can hold."""
+    """Return the text on one line, without characters that files cannot contain."""
     return "".join(
         " " if c.isspace() else c
         for c in text
@@ -87,5 +87,5 @@ def plain(text: str) -> str:
 
 
 def widest(lines: Sequence[str], size: float, bold: bool = False) -> float:
-    """Width of the widest of some lines."""
+    """Return the width of the widest line."""
     return max((width(line, size, bold) for line in lines), default=0.0)

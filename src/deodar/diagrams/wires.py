@@ -1,4 +1,4 @@
-"""Wires: paths, and the marks at their ends that show excitation or inhibition."""
+"""Wires: paths with marks at their ends that show excitation or inhibition."""
 
 from __future__ import annotations
 
@@ -6,23 +6,25 @@ import itertools
 import math
 from collections.abc import Sequence
 
-from deodar.diagrams.layout import Stretch
+from deodar.diagrams.layout import Segment
 from deodar.diagrams.scene import PathCommand, Point, Shape, circle, polygon
 from deodar.numerics.signs import Sign
 
 COLORS: dict[Sign, str] = {"+": "#333333", "-": "#d55e00", "±": "#6a3d9a"}
-"""Excitation, inhibition, both: colour-blind readers tell them apart, and marks say it in black and white."""
+"""Colours of excitation, inhibition and both; colour-blind readers can distinguish them, and marks show the
+sign in black and white.
+"""
 
 WIDTH = 0.9
 STRAIGHT = 2.5
-"""Length of the level end before a mark, so that the mark points the way the curve goes."""
+"""Length of the horizontal end before a mark, so that the mark has the direction of the curve."""
 
 DELAYED = (3.0, 2.0)
 ARROW, DOT = 5.0, 2.3
 
 
-def path(runs: Sequence[Stretch], backwards: bool, sign: Sign) -> list[Shape]:
-    """A connection along its level stretches, with the mark at its target."""
+def path(runs: Sequence[Segment], backwards: bool, sign: Sign) -> list[Shape]:
+    """Return a connection along its horizontal segments, with the mark at its target."""
     points = [p for run in runs for p in ((run.x0, run.y), (run.x1, run.y))]
     points, way = (points[::-1], -1.0) if backwards else (points, 1.0)
     x, y = points[-1]
@@ -36,7 +38,7 @@ def path(runs: Sequence[Stretch], backwards: bool, sign: Sign) -> list[Shape]:
 
 
 def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Shape]:
-    """A connection that leaves upwards at (x, y) and comes back at (right, ...): `y` belongs to both ends."""
+    """Return a connection that leaves upwards at (x, y) and returns at (right, y)."""
     w = right - x
     end = y - _length(sign)
     curve: tuple[PathCommand, ...] = (
@@ -47,8 +49,8 @@ def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Sh
 
 
 def mark(tip: Point, way: Point, sign: Sign) -> list[Shape]:
-    """An arrow for excitation, a dot for inhibition, both where both occur; `way` is the direction in which
-    it points.
+    """Return an arrow for excitation, a dot for inhibition, or both; `way` is the direction in which it
+    points.
     """
     (x, y), (dx, dy), color = tip, way, COLORS[sign]
     if sign == "-":
@@ -74,7 +76,7 @@ def _arrow(x: float, y: float, dx: float, dy: float) -> tuple[PathCommand, ...]:
 
 
 def _curve(points: Sequence[Point]) -> tuple[PathCommand, ...]:
-    """A line that is level at every point and climbs between them."""
+    """Return a line that is horizontal at every point and climbs between them."""
     moves: list[PathCommand] = [("M", *points[0])]
     for (x0, y0), (x, y) in itertools.pairwise(points):
         if abs(y - y0) >= 0.05:

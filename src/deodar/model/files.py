@@ -151,14 +151,14 @@ def _old_arrays(path: Path) -> Path | None:
         return None
 
 
-def _key(table: dict[str, Any], wish: str, value: Any) -> str:
+def _key(table: dict[str, Any], base: str, value: Any) -> str:
     for key, known in table.items():
         if known == value:
             return key
-    key, n = wish, 1
+    key, n = base, 1
     while key in table:
         n += 1
-        key = f"{wish}_{n}"
+        key = f"{base}_{n}"
     table[key] = value
     return key
 

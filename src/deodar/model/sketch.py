@@ -104,7 +104,7 @@ class _Sketch:
         items = [
             dc.replace(
                 i,
-                told=i.form != "source"
+                axes_shown=i.form != "source"
                 or any(by[w.target].axes != i.axes for w in wires if w.source == i.id),
             )
             for i in items

@@ -187,10 +187,10 @@ def _names(names: list[Hashable]) -> dict[Hashable, str]:
         text = re.sub(r"[^A-Za-z0-9_.]+", "_", text)[:LONGEST].strip(".")
         if not text or not text[0].isalpha() or text in RESERVED:
             text = f"v_{text}".rstrip("_")
-        wish, n = text, 1
+        base, n = text, 1
         while text.casefold() in taken:
             n += 1
-            text = f"{wish}_{n}"
+            text = f"{base}_{n}"
         taken.add(text.casefold())
         out[name] = text
     return out
