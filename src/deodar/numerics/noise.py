@@ -10,9 +10,11 @@ References:
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
@@ -39,17 +41,24 @@ _SINE = (6.2831853, -41.341675, 81.60523, -76.70, 42.0)
 
 def threefry(x0: Array, x1: Array, k0: Array, k1: Array) -> tuple[Array, Array]:
     """Threefry-2x32 with 20 rounds: two uint32 counters and two uint32 key words to two uint32."""
-    u32 = jnp.uint32
-    keys = (k0, k1, k0 ^ k1 ^ u32(_PARITY))
-    x0, x1 = x0 + keys[0], x1 + keys[1]
+    # primitives, not operators: tracing an operator takes ten times as long, and there are a hundred here
+    x0, x1, k0, k1 = jnp.broadcast_arrays(*(jnp.asarray(word, jnp.uint32) for word in (x0, x1, k0, k1)))
+    keys = (k0, k1, lax.bitwise_xor(lax.bitwise_xor(k0, k1), lax.full_like(k0, _PARITY)))
+    x0, x1 = lax.add(x0, keys[0]), lax.add(x1, keys[1])
     for i in range(20):
-        r = _ROTATIONS[(i // 4) % 2][i % 4]
-        x0 = x0 + x1
-        x1 = ((x1 << u32(r)) | (x1 >> u32(32 - r))) ^ x0
+        x0 = lax.add(x0, x1)
+        x1 = lax.bitwise_xor(_rotated(x1, _ROTATIONS[(i // 4) % 2][i % 4]), x0)
         if i % 4 == 3:
             k = i // 4 + 1
-            x0, x1 = x0 + keys[k % 3], x1 + keys[(k + 1) % 3] + u32(k)
+            x0 = lax.add(x0, keys[k % 3])
+            x1 = lax.add(lax.add(x1, keys[(k + 1) % 3]), lax.full_like(x1, k))
     return x0, x1
+
+
+def _rotated(word: Array, count: int) -> Array:
+    """Return 32-bit words with their bits rotated to the left."""
+    left = lax.shift_left(word, lax.full_like(word, count))
+    return lax.bitwise_or(left, lax.shift_right_logical(word, lax.full_like(word, 32 - count)))
 
 
 def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarray | Sequence[int]) -> Array:
@@ -68,6 +77,7 @@ def bits(cells: int, key: Array, block: Array) -> tuple[Array, Array]:
     return threefry(counter, jnp.full((cells,), block, jnp.uint32), key[0], key[1])
 
 
+@functools.partial(jax.jit, static_argnames=("shape", "dtype"))
 def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> Array:
     """Return standard normal deviates of one tick, computed in `dtype`.
 
@@ -83,6 +93,7 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
     return (radius * wave).reshape(shape)
 
 
+@functools.partial(jax.jit, static_argnames=("shape", "dtype"))
 def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> tuple[Array, Array]:
     """Return the deviates of both ticks of a block, the even one first: equal to `normal`, at a lower cost
     than two calls.
