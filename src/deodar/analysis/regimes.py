@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Unpack
+from typing import Unpack
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from deodar.analysis.ramp import SettledRamp, ramp
 from deodar.analysis.selection import Selection, selects, separation
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Thresholds, Transition, thresholds
+from deodar.codec import JsonObject
 from deodar.elements.field import Field
 from deodar.model.model import Model
 
@@ -155,7 +156,7 @@ class Regimes:
             ),
         )
 
-    def data(self) -> dict[str, Any]:
+    def data(self) -> JsonObject:
         """Return all measurements as plain data, for JSON."""
         i, peak = self.isolated, self.peak
         selection = None
@@ -312,7 +313,7 @@ def _span(isolated: Isolated, found: Thresholds) -> np.ndarray:
     return np.unique([*values, *marks]) if math.isfinite(top) else values
 
 
-def _remembered(memory: Memory | None) -> dict[str, Any] | None:
+def _remembered(memory: Memory | None) -> JsonObject | None:
     if memory is None or not memory.left:
         return None
     return {

@@ -7,11 +7,12 @@ import shutil
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from deodar import codec, papers
 from deodar.cli import _options, _rescue
 from deodar.cli._bar import Bar
+from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, did_you_mean
 from deodar.experiments.jobs import carry_out
 from deodar.experiments.rows import Rows, claim
@@ -117,13 +118,13 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
     return [job for job in jobs if not args.only or job.keys[0].startswith(tuple(args.only))]
 
 
-def _open(out: Path, about: Mapping[str, Any], by_condition: Sequence[str]) -> Rows:
+def _open(out: Path, about: Mapping[str, Json], by_condition: Sequence[str]) -> Rows:
     """Open the rows in a new folder, or in one of an earlier call; refuse any other folder."""
     claim(out, ROWS, "a reproduction")
     return Rows(out / ROWS, about, by_condition)
 
 
-def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Any]) -> int:
+def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Json]) -> int:
     # start-up time: these bring JAX
     from deodar.analysis.claims import failed, results
     from deodar.figures import _files

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, Self, cast
 
 from deodar import codec, plugins
+from deodar.codec import Json, JsonObject
 from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
 from deodar.experiments.actions import ACTIONS, Action
 from deodar.experiments.events import EVENTS, Event
@@ -104,9 +105,9 @@ class Design(Part):
 
     # -------------------------------------------------------------------------------------------------- files
 
-    def to_data(self) -> dict[str, Any]:
+    def to_data(self) -> JsonObject:
         """Return plain data as a file contains them; a model or a world without a file is left out."""
-        out: dict[str, Any] = {"experiment": VERSION, "name": self.name}
+        out: JsonObject = {"experiment": VERSION, "name": self.name}
         out |= {"model": str(self.model)} if isinstance(self.model, (str, Path)) else {}
         out |= {"world": self.world} if isinstance(self.world, str) and self.world else {}
         out |= to_data(self, False, ("name", "model", "world", *KINDS))
@@ -121,7 +122,7 @@ class Design(Part):
                 )
         packages = {type(part).__name__: MEASURES.package(type(part)) for part in self.measures}
         packages = {kind: package for kind, package in sorted(packages.items()) if package}
-        return out | ({"packages": packages} if packages else {})
+        return {**out, "packages": packages} if packages else out
 
     @classmethod
     def from_data(cls, data: Any, folder: Path | None = None, read: Callable[[str], Model] = load) -> Self:
@@ -263,7 +264,7 @@ EXAMPLE = "example:"
 """Prefix of the name of an example, which commands accept in place of a file."""
 
 
-def _migrated(data: Mapping[str, Any], folder: Path | None, read: Callable[[str], Model]) -> dict[str, Any]:
+def _migrated(data: Mapping[str, Json], folder: Path | None, read: Callable[[str], Model]) -> JsonObject:
     """Return plain data in the present version.
 
     If the model cannot be opened, the paths are not converted: no trial can run without the model.

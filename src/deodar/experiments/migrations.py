@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, cast
 
+from deodar.codec import Json, JsonObject
 from deodar.model.document import Document
 from deodar.model.migrations import recorded
 
@@ -21,7 +22,7 @@ PATHS: Mapping[str, tuple[str, ...]] = {
 """Parameters that are paths of ports, by kind."""
 
 
-def migrate(data: Mapping[str, Any], doc: Document) -> dict[str, Any]:
+def migrate(data: Mapping[str, Json], doc: Document) -> JsonObject:
     """Convert an experiment of version 1; one of another version is returned unchanged.
 
     Data of an unexpected form are not changed: the reader reports them.

@@ -8,12 +8,13 @@ from typing import Any, cast
 
 import numpy as np
 
+from deodar.codec import JsonObject
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.model.parts import schema as schema_of
 from deodar.parameters import Part, an, parameters, show
 
 
-def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -> dict[str, Any]:
+def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -> JsonObject:
     """Return plain data of a part: its kind, and every parameter that differs from its default.
 
     Parameters in `without` are left out: they are stored elsewhere.

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar import codec, renamed
+from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, RecordError
 from deodar.experiments import packed
@@ -94,7 +95,7 @@ def _jobs(setup: Setup, workers: int | None, records: Path | None) -> Iterator[J
             yield Job(keys, packed.work, {"handed": handed, **given}, len(piece))
 
 
-def _about(setup: Setup, workers: int | None, folder: Path) -> dict[str, Any]:
+def _about(setup: Setup, workers: int | None, folder: Path) -> JsonObject:
     """Return the identity of the experiment: a file never mixes rows of two experiments."""
     digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
     made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
@@ -103,7 +104,7 @@ def _about(setup: Setup, workers: int | None, folder: Path) -> dict[str, Any]:
     return {**_plan(setup), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
 
 
-def _of_today(made: dict[str, Any], about: Mapping[str, Any], doc: Document) -> dict[str, Any]:
+def _of_today(made: JsonObject, about: Mapping[str, Any], doc: Document) -> JsonObject:
     """Convert the identity of existing rows to the present version; older rows name no packages."""
     packages = {"packages": about["packages"]} if "packages" in about else {}
     return packages | migrate(made, doc)
@@ -131,7 +132,7 @@ def _digest_in(folder: Path, doc: Document) -> str:
     return _digest(codec.text(data) + "\n", arrays)
 
 
-def _plan(setup: Setup) -> dict[str, Any]:
+def _plan(setup: Setup) -> JsonObject:
     """Return the plain data of an experiment whose model is beside it."""
     return codec.parse(codec.line({**setup.experiment.to_data(), "model": MODEL}))
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from deodar import codec
+from deodar.codec import Json, JsonObject
 from deodar.errors import OutputExists, RecordError
 from deodar.model import output
 from deodar.recording import places
@@ -46,9 +47,9 @@ class Rows:
     def __init__(
         self,
         path: Path,
-        about: Mapping[str, Any],
+        about: Mapping[str, Json],
         by_condition: Sequence[str] = (),
-        read: Callable[[dict[str, Any]], dict[str, Any]] = dict,
+        read: Callable[[JsonObject], JsonObject] = dict,
     ) -> None:
         self.path = path
         self.found: dict[str, Row] = {}

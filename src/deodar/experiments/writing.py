@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar.codec import Json
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
@@ -19,7 +20,7 @@ RECORDS = "records"
 
 
 def write_records(
-    folder: Path, key: str, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Any]
+    folder: Path, key: str, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
 ) -> None:
     """Write the record of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; files of an earlier attempt
     are replaced.
@@ -44,7 +45,7 @@ def _write(
     names: Sequence[str],
     times: np.ndarray,
     values: Mapping[str, np.ndarray],
-    about: Mapping[str, Any],
+    about: Mapping[str, Json],
 ) -> None:
     nodes = {node.id: node for node in resolve(doc)[0]}
     variables: list[Any] = []

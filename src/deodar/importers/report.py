@@ -5,7 +5,9 @@ from __future__ import annotations
 import dataclasses as dc
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
+
+from deodar.codec import JsonObject
 
 Verdict = Literal["carried", "approximated", "dropped"]
 VERDICTS: tuple[Verdict, ...] = ("carried", "approximated", "dropped")
@@ -97,7 +99,7 @@ class ImportReport:
             out += ["", "Components:", *(f"- {line.where}: {line.what}: {line.why}" for line in components)]
         return "\n".join(out)
 
-    def data(self) -> dict[str, Any]:
+    def data(self) -> JsonObject:
         """Return plain data, for JSON."""
         counts = {v: self.count(v) for v in VERDICTS}
         return {

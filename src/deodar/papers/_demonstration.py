@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from deodar.codec import Json
 
 if TYPE_CHECKING:
     from deodar.analysis.claims import Claim
@@ -27,7 +29,7 @@ class Demonstration:
     """
 
     claims: Sequence[Claim]
-    settings: Mapping[str, Any]
+    settings: Mapping[str, Json]
     written: str
     sentence: str
     fill: Callable[[Path], None]

@@ -8,6 +8,7 @@ import platform
 from collections.abc import Mapping
 from typing import Any
 
+from deodar.codec import JsonObject
 from deodar.compiler.device import cores
 from deodar.model import files
 from deodar.model.document import Document
@@ -16,7 +17,7 @@ KEY = "deodar"
 """Name of the attribute of a record that holds its provenance, as JSON text."""
 
 
-def provenance(doc: Document, run: Any, **settings: Any) -> dict[str, Any]:
+def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
     """Return everything that is needed to repeat a run, and everything that determines its bits."""
     data, arrays = files.to_data(doc)
     packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""

@@ -9,6 +9,7 @@ import numpy as np
 import xarray
 
 from deodar import codec
+from deodar.codec import JsonObject
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
 from deodar.recording.provenance import KEY
@@ -61,7 +62,7 @@ def dataset(
     return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
 
 
-def about(data: xarray.Dataset) -> dict[str, Any]:
+def about(data: xarray.Dataset) -> JsonObject:
     """Return the provenance of a record, as plain data; empty for a Dataset of other origin."""
     text = data.attrs.get(KEY)
     return codec.parse(text) if isinstance(text, str) else {}

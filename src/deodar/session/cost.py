@@ -17,6 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 
+from deodar.codec import JsonObject
 from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.executable import ChunkResult, Executable
 from deodar.compiler.functions import Constants
@@ -88,7 +89,7 @@ class StepCost:
         """Return the share of an element in the sum, 0 to 1."""
         return cost.us / self.sum if self.sum else 0.0
 
-    def data(self) -> dict[str, Any]:
+    def data(self) -> JsonObject:
         """Return the cost as plain numbers, for JSON."""
         rows = [dc.asdict(c) | {"share": self.share(c)} for c in self.elements]
         return {"step_us": self.step, "sum_us": self.sum, "elements": rows}

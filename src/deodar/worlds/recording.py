@@ -10,6 +10,7 @@ import numpy as np
 import xarray
 
 from deodar import codec
+from deodar.codec import JsonObject
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.registry import register
@@ -119,7 +120,7 @@ class Recording(World):
         values = self._readings[sensor]
         return values[self._copies, k] if self.numbers is not None else values[k]
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> JsonObject:
         digest = hashlib.sha256(self.times.tobytes())
         for sensor in sorted(self._readings):
             digest.update(sensor.encode() + self._readings[sensor].tobytes())

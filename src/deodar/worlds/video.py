@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from deodar.codec import JsonObject
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
 from deodar.parameters import real, show
@@ -69,7 +70,7 @@ class Video(World):
         """Return the column and row of the picture at a position on the axes."""
         return frame(self.size, axes).to_pixels(axes, x, y)
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> JsonObject:
         said = {
             "world": "Video",
             "file": self.name,

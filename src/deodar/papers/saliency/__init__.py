@@ -11,9 +11,10 @@ Reference:
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from deodar import papers
+from deodar.codec import JsonObject
 
 if TYPE_CHECKING:
     from deodar.experiments.jobs import Job
@@ -31,7 +32,7 @@ PICTURES: dict[str, str] = {}
 __getattr__ = papers.files(__name__)
 
 
-def about(quick: bool) -> dict[str, Any]:
+def about(quick: bool) -> JsonObject:
     """Return the settings of the design; rows with other settings are not mixed with these."""
     # start-up time: these bring JAX
     from deodar.papers.saliency import scenes, trials

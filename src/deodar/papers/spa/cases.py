@@ -10,6 +10,7 @@ import numpy as np
 
 from deodar.architectures.follow_the_carrot import Carrot
 from deodar.architectures.spa import CASE_3, MAZES, STEP_MS, maze, place
+from deodar.codec import JsonObject
 from deodar.papers.spa.pairs import COUNT, HEADINGS, pairs, same
 from deodar.worlds.arena.arena import Arena
 
@@ -119,7 +120,7 @@ class Condition:
     many_starts: bool = True
 
     @property
-    def terms(self) -> dict[str, Any]:
+    def terms(self) -> dict[str, str | float]:
         """Return the terms of the planner that differ from the published ones, by name."""
         stick = {"contact": self.contact} if self.contact != "slide" else {}
         return stick | {
@@ -266,7 +267,7 @@ def world(condition: Condition) -> Arena:
     return arena
 
 
-def design(quick: bool) -> dict[str, Any]:
+def design(quick: bool) -> JsonObject:
     """Return the settings of the design, as plain data."""
     found = conditions(quick).values()
     numbers = {

@@ -16,6 +16,7 @@ from jax import Array
 from jax.typing import DTypeLike
 
 from deodar import codec
+from deodar.codec import JsonObject
 from deodar.element import Arrays
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
@@ -439,7 +440,7 @@ class Arena(PureWorld):
 
     # ------------------------------------------------------------------------------------------------ records
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> JsonObject:
         settings: dict[str, Any] = {
             "unit": self.unit,
             "vehicle": self.vehicle.name,
