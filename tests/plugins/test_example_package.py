@@ -66,6 +66,21 @@ def test_check_and_run_know_the_kind_and_the_world(
     assert record["eye.output"].values[[50, 150]].tolist() == [0.0, 10.0]
 
 
+@pytest.mark.parametrize(
+    ("world", "message"),
+    [
+        ("lamp", "--world lamp: needs an argument. Write lamp:ARGUMENT; deodar elements Lamp describes it"),
+        ("lamp:x", "lamp: needs the time at which it is switched on, in ms, not 'x'. Write lamp:100"),
+    ],
+    ids=["no argument", "a wrong argument"],
+)
+def test_a_world_that_cannot_be_opened_says_what_to_type(
+    world: str, message: str, file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", str(file), "--duration", "1", "--world", world]) == 1
+    assert capsys.readouterr().err.strip() == f"deodar run: {message}"
+
+
 @pytest.fixture
 def experiment(tmp_path: Path) -> Path:
     """An experiment whose model and measures name what the package brings: a field behind the detector."""

@@ -31,7 +31,11 @@ class Lamp(dd.World):
 
     @classmethod
     def open(cls, argument: str) -> Lamp:
-        return cls(float(argument))
+        try:
+            return cls(float(argument))
+        except ValueError:
+            what = f"needs the time at which it is switched on, in ms, not {argument!r}"
+            raise dd.errors.WorldError(what, where="lamp", fix="Write lamp:100") from None
 
     @classmethod
     def example(cls) -> Lamp:

@@ -38,6 +38,8 @@ def named(text: str, where: str) -> World:
         raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
     if not argument:
         raise WorldError(
-            "needs to know what to open", where=where, fix=f"For example {name.lower()}:photo.jpg"
+            "needs an argument",
+            where=where,
+            fix=f"Write {name.lower()}:ARGUMENT; deodar elements {found.__name__} describes it",
         )
     return opened(found, argument)

@@ -151,6 +151,9 @@ class World:
         """Make a world from an argument of the command line.
 
         For `--world picture:coffee.jpg` the argument is `coffee.jpg`.
+
+        Raises:
+            WorldError: the argument describes no such world.
         """
         raise WorldError(f"the world {cls.__name__} cannot be opened from the command line")
 
