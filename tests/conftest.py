@@ -45,6 +45,7 @@ DEFAULT_PROGRAM = (
     "tests/architectures/test_serial_order.py",
     "tests/architectures/test_spa.py",
     "tests/benchmarks/test_resolution.py",
+    "tests/papers/saliency/test_demo.py",
     "tests/papers/saliency/test_untuned.py",
     "tests/session/test_memory.py",
     "tests/session/test_resolution.py",
