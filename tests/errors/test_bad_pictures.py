@@ -166,7 +166,7 @@ def test_what_is_no_world(world: Any) -> None:
     refused(
         lambda: dd.simulate(_sensing(), duration=1, record="eye.output", world=world),
         WorldError,
-        "is no world",
+        "expected a world",
     )
 
 

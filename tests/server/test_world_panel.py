@@ -132,7 +132,7 @@ def test_what_does_not_fit_is_refused_by_name_and_nothing_moves(file: Path) -> N
     async def story(one: Page) -> None:
         await shown(one)
         for request, said in [
-            ({"type": "move_thing", "name": "crate", "x": 0.2, "y": 1.0}, "stand on 'e-puck'"),
+            ({"type": "move_thing", "name": "crate", "x": 0.2, "y": 1.0}, "cover 'e-puck'"),
             ({"type": "move_thing", "name": "crate", "x": 9, "y": 1.0}, "outside the border"),
             ({"type": "move_thing", "name": "goal", "x": 0.8, "y": 1.5}, "inside 'crate'"),
             ({"type": "move_thing", "name": "crat", "x": 1, "y": 1}, "'crat'"),
