@@ -31,14 +31,7 @@ def transpose(b: SourceElement) -> Piece:
         raise Unfit("only two dimensions can be transposed")
     came = b.of((_count(dims[1]), _count(dims[0])))
     places = [a for a, old in zip(reversed(dims), came, strict=True) if old is not None]
-    element = projection(b.label, axes(came), dims, places)
-    return Piece(
-        [element],
-        [[Inlet(b.label, came, whole=True)]],
-        {"output": Outlet(b.label, dims)},
-        needs=1,
-        why="Project",
-    )
+    return _projected(b, came, dims, places)
 
 
 def sum_dimension(b: SourceElement) -> Piece:
@@ -215,19 +208,23 @@ def _gain(b: SourceElement, amplitude: float, came: Dims, dims: Dims) -> Piece:
     )
 
 
-def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
-    if shape(axes(came)) != shape(places):
-        raise Unfit(
-            f"its input has {list(shape(axes(came)))} samples, where {list(shape(places))} are expanded"
-        )
-    element = projection(b.label, axes(came), dims, places)
+def _projected(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis | None]) -> Piece:
+    """Return a projection alone; `places` are the axes of the output that the axes of the input become."""
     return Piece(
-        [element],
+        [projection(b.label, axes(came), dims, places)],
         [[Inlet(b.label, came, whole=True)]],
         {"output": Outlet(b.label, dims)},
         needs=1,
         why="Project",
     )
+
+
+def _expand(b: SourceElement, came: Dims, dims: Dims, places: Sequence[Axis]) -> Piece:
+    if shape(axes(came)) != shape(places):
+        raise Unfit(
+            f"its input has {list(shape(axes(came)))} samples, where {list(shape(places))} are expanded"
+        )
+    return _projected(b, came, dims, places)
 
 
 def _unused_amplitude(b: SourceElement) -> float:
