@@ -206,13 +206,13 @@ export class Observer {
 
   private change({ element, parameter, value, unsaved, undo, redo }: Changed): void {
     if (this.document === null) return;
-    const knobs = this.document.knobs.map((knob) =>
-      element === "" && knob.name === parameter ? { ...knob, value: value as number } : knob,
+    const parameters = this.document.parameters.map((known) =>
+      element === "" && known.name === parameter ? { ...known, value: value as number } : known,
     );
     const elements = this.document.elements.map((e) =>
       e.id === element ? { ...e, values: replaced(e.values, parameter, value) } : e,
     );
-    this.document = { ...this.document, knobs, elements, unsaved, undo, redo };
+    this.document = { ...this.document, parameters, elements, unsaved, undo, redo };
   }
 
   private takeFrame(frame: Frame): void {

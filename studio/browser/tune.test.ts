@@ -216,21 +216,21 @@ test("one slider drives two elements through a document parameter", async () => 
   await choose(page, "More for amplitude", /^New document parameter/);
   await page.getByRole("textbox", { name: "Name of the document parameter" }).fill("strength");
   await button(page, "Create").click();
-  await observer.until(() => observer.document?.knobs.length === 1);
+  await observer.until(() => observer.document?.parameters.length === 1);
   await select(page, "right");
   await choose(page, "More for amplitude", "strength");
-  await observer.until(() => observer.document?.knobs[0]?.links.length === 2);
+  await observer.until(() => observer.document?.parameters[0]?.links.length === 2);
 
   await inspector().getByRole("button", { name: "Document", exact: true }).click();
   expect(
     await inspector().getByRole("list", { name: "Driven by strength" }).getByRole("listitem").allInnerTexts(),
   ).toEqual(["left.amplitude", "right.amplitude"]);
   await choose(page, "More for strength", "Pin to Sliders");
-  const knob = slider(page, "strength", "Sliders");
-  await knob.focus();
-  await knob.press("Home");
-  const lowest = Number(await knob.getAttribute("aria-valuemin"));
-  await observer.until(() => observer.document?.knobs[0]?.value === lowest);
+  const strength = slider(page, "strength", "Sliders");
+  await strength.focus();
+  await strength.press("Home");
+  const lowest = Number(await strength.getAttribute("aria-valuemin"));
+  await observer.until(() => observer.document?.parameters[0]?.value === lowest);
   await type(page, "strength", "3", "Sliders");
   await comes("left", "amplitude", 3);
   await comes("right", "amplitude", 3);

@@ -4,7 +4,7 @@
 import type { ToServer } from "./protocol";
 
 const MEANT = new Set<ToServer["type"]>([
-  "add_knob",
+  "add_document_parameter",
   "apply_preset",
   "apply_preset_text",
   "arrange",
@@ -12,7 +12,7 @@ const MEANT = new Set<ToServer["type"]>([
   "describe",
   "link",
   "redo",
-  "remove_knob",
+  "remove_document_parameter",
   "save",
   "set",
   "undo",

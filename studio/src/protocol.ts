@@ -1,8 +1,8 @@
 // Generated from src/deodar/server/to_server.py and to_page.py; change those, not this one:
 // python -m deodar.server.protocol
 // Add a document parameter with the value of the first parameter that it sets.
-export type AddKnob = {
-  type: "add_knob";
+export type AddDocumentParameter = {
+  type: "add_document_parameter";
   request?: number;
   session?: number;
   name: string;
@@ -195,6 +195,13 @@ export type Describe = {
   dt?: number | null;
 };
 
+// A document parameter and the parameters that it sets.
+export type DocumentParameterView = {
+  name: string;
+  value: number;
+  links: LinkView[];
+};
+
 // The open document.
 //
 // `file` is relative to the root, and empty if the document has no file; `unsaved`: it was edited since it
@@ -209,7 +216,7 @@ export type DocumentView = {
   elements: ElementView[];
   connections: ConnectionView[];
   groups: string[][];
-  knobs: KnobView[];
+  parameters: DocumentParameterView[];
   layout: Record<string, unknown>;
   problems: ListedProblem[];
   unsaved: boolean;
@@ -288,13 +295,6 @@ export type Kind = {
   ports: Record<string, string>;
   levels: Record<string, Record<string, string>>;
   example: unknown;
-};
-
-// A document parameter and the parameters that it sets.
-export type KnobView = {
-  name: string;
-  value: number;
-  links: LinkView[];
 };
 
 // Let the step grow up to `longest` (document time) if the machine is too slow.
@@ -516,8 +516,8 @@ export type Release = {
 };
 
 // Remove a document parameter; the parameters that it set keep their values.
-export type RemoveKnob = {
-  type: "remove_knob";
+export type RemoveDocumentParameter = {
+  type: "remove_document_parameter";
   request?: number;
   session?: number;
   name: string;
@@ -638,10 +638,10 @@ export type ToServer =
   | ListFolder
   | SetParameter
   | Describe
-  | AddKnob
+  | AddDocumentParameter
   | Link
   | Unlink
-  | RemoveKnob
+  | RemoveDocumentParameter
   | Arrange
   | ApplyPreset
   | ApplyPresetText

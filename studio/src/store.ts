@@ -118,7 +118,9 @@ function changed(document: DocumentView, message: Changed): Partial<Studio> {
       version,
       document: {
         ...general,
-        knobs: document.knobs.map((k) => (k.name === parameter ? { ...k, value: value as number } : k)),
+        parameters: document.parameters.map((k) =>
+          k.name === parameter ? { ...k, value: value as number } : k,
+        ),
       },
     };
   }

@@ -127,7 +127,7 @@ def test_who_is_first_wins() -> None:
     assert states["left.intention"][:, 200:].all() and not states["right.intention"].any()
 
 
-def test_all_behaviours_have_one_knob() -> None:
+def test_all_behaviours_have_one_document_parameter() -> None:
     model = several("a", "b")
     model.set("task to intention", 4.0)
     assert model.get("a.task > intention.factor") == model.get("b.task > intention.factor") == 4.0

@@ -63,12 +63,12 @@ def test_sixty_steps_of_a_behaviour_that_leads_north() -> None:
         np.testing.assert_allclose(data[f"{n}.activation"].values[-1], u[n], atol=1e-6)
 
 
-def test_copies_share_one_knob_for_each_strength() -> None:
+def test_copies_share_one_document_parameter_for_each_strength() -> None:
     model = dd.Model("two")
     for name, way in (("left", -1), ("right", 1)):
         model.insert(elementary_behaviour([X], [5.0 * way]), name)
-    for knob, value in STRENGTHS.items():
-        model.set(knob, 2 * value)
+    for strength, value in STRENGTHS.items():
+        model.set(strength, 2 * value)
     assert (
         model.get("left.precondition to motivation.factor")
         == model.get("right.precondition to motivation.factor")

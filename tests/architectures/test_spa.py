@@ -31,7 +31,7 @@ def test_the_numbers_of_the_published_fields() -> None:
     assert np.isclose(maze("z").starts[0], [*(v / 100 for v in place(*CASE_3[0])), 0]).all()
 
 
-def test_it_is_a_document_with_one_knob_for_four_behaviours(tmp_path: Path) -> None:
+def test_it_is_a_document_with_one_document_parameter_for_four_behaviours(tmp_path: Path) -> None:
     model = spa(maze("z"))
     dd.save(model, tmp_path / "spa.json")
     again = dd.load(tmp_path / "spa.json")

@@ -29,7 +29,7 @@ from deodar.model.document import Document
 from deodar.server import view
 from tests.server.page import Page, page, studio
 
-KNOBS = ("gain", "tempo", "level")
+PARAMETERS = ("gain", "tempo", "level")
 LEAVES = (
     ("u", "tau"),
     ("u", "resting_level"),
@@ -40,11 +40,11 @@ LEAVES = (
 )
 WEIGHTS = {
     "set": 40,
-    "knob": 10,
-    "add_knob": 5,
+    "set_document_parameter": 10,
+    "add_document_parameter": 5,
     "link": 5,
     "unlink": 4,
-    "remove_knob": 3,
+    "remove_document_parameter": 3,
     "describe": 4,
     "arrange": 8,
     "preset": 2,
@@ -114,16 +114,16 @@ def drawn(random: random.Random, ids: dict[str, str], preset: str) -> dict[str, 
     match random.choices(tuple(WEIGHTS), tuple(WEIGHTS.values()))[0]:
         case "set":
             return {"type": "set", **place, "value": number, "gesture": random.choice((0, 0, 1, 2))}
-        case "knob":
-            return {"type": "set", "element": "", "parameter": random.choice(KNOBS), "value": number}
-        case "add_knob":
-            return {"type": "add_knob", "name": random.choice(KNOBS), **place}
+        case "set_document_parameter":
+            return {"type": "set", "element": "", "parameter": random.choice(PARAMETERS), "value": number}
+        case "add_document_parameter":
+            return {"type": "add_document_parameter", "name": random.choice(PARAMETERS), **place}
         case "link":
-            return {"type": "link", "name": random.choice(KNOBS), **place}
+            return {"type": "link", "name": random.choice(PARAMETERS), **place}
         case "unlink":
             return {"type": "unlink", **place}
-        case "remove_knob":
-            return {"type": "remove_knob", "name": random.choice(KNOBS)}
+        case "remove_document_parameter":
+            return {"type": "remove_document_parameter", "name": random.choice(PARAMETERS)}
         case "describe":
             return {"type": "describe", random.choice(("name", "notes")): f"text {number}"}
         case "arrange":
@@ -190,16 +190,18 @@ def _other(doc: Document, m: dict[str, Any]) -> Document:
             value = view.read_value(doc, doc.by_id()[m["element"]], m["parameter"], m["value"])
             return edit.put(doc, m["element"], m["parameter"], value)
         case "set":
-            return edit.knob(doc, m["parameter"], m["value"])
-        case "add_knob":
+            return edit.document_parameter(doc, m["parameter"], m["value"])
+        case "add_document_parameter":
             value = float(get(doc.by_id()[m["element"]].element, m["parameter"]))
-            return edit.link(edit.knob(doc, m["name"], value), m["element"], m["parameter"], m["name"])
+            return edit.link(
+                edit.document_parameter(doc, m["name"], value), m["element"], m["parameter"], m["name"]
+            )
         case "link":
             return edit.link(doc, m["element"], m["parameter"], m["name"])
         case "unlink":
             return edit.unlink(doc, m["element"], m["parameter"])
-        case "remove_knob":
-            return edit.remove_knob(doc, m["name"])
+        case "remove_document_parameter":
+            return edit.remove_document_parameter(doc, m["name"])
         case "describe":
             return edit.describe(doc, **{key: m[key] for key in ("name", "notes") if key in m})
         case _:

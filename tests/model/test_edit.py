@@ -48,7 +48,7 @@ OPERATIONS: dict[str, Callable[[dd.Model], object]] = {
     "insert": lambda m: m.insert(make(), "twin"),
     "set": lambda m: m.set("g.inner.v.tau", 5),
     "set a part": lambda m: m.set("g.u.kernel.0.sigma", 2),
-    "set a knob": lambda m: m.set("gain", 7),
+    "set a document parameter": lambda m: m.set("gain", 7),
     "ticks": lambda m: m.set_ticks("left", 3),
     "parameter": lambda m: m.parameter("other", 1.0),
     "link": lambda m: m.link("g.inner.v.tau", "gain"),
@@ -126,7 +126,7 @@ REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {
     "a value out of range": (ParameterError, lambda m: m.set("g.u.noise", -1)),
     "the name": (ParameterError, lambda m: m.set("g.u.name", "w")),
     "a driven parameter": (ParameterError, lambda m: m.set("g.u.tau", 5)),
-    "a knob beyond what it drives": (ParameterError, lambda m: m.set("gain", -1)),
+    "a document parameter outside the range of its links": (ParameterError, lambda m: m.set("gain", -1)),
     "ticks 0": (ParameterError, lambda m: m.set_ticks("left", 0)),
     "ticks half": (ParameterError, lambda m: m.set_ticks("left", 0.5)),  # type: ignore[arg-type]
     "ticks for ever": (ParameterError, lambda m: m.set_ticks("left", 10**400)),
@@ -232,10 +232,10 @@ def test_the_document_is_immutable() -> None:
 def test_layout_stays_apart_from_science() -> None:
     doc = make().document
     arranged = edit.arrange(doc, {"left": [1, 2]})
-    assert (arranged.entries, arranged.connections, arranged.knobs) == (
+    assert (arranged.entries, arranged.connections, arranged.parameters) == (
         doc.entries,
         doc.connections,
-        doc.knobs,
+        doc.parameters,
     )
     assert arranged.layout == {"left": [1, 2]} and doc.layout == {}
 

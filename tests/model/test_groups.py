@@ -12,7 +12,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 
 def behaviour() -> dd.Model:
-    """An elementary behaviour: intention, condition of satisfaction, one knob for both."""
+    """An elementary behaviour: intention, condition of satisfaction, one document parameter for both."""
     model = dd.Model("behaviour")
     intention = model.add(dd.Field("intention", [X]))
     satisfied = model.add(dd.Field("satisfied", [X]), group="end")
@@ -38,13 +38,13 @@ def _edges(model: dd.Model, group: str) -> set[tuple[str, str]]:
     }
 
 
-def test_four_alike_behaviours_have_one_knob() -> None:
+def test_four_alike_behaviours_have_one_document_parameter() -> None:
     model = dd.Model("four")
     for name in ("reach", "grasp", "lift", "drop"):
         model.insert(behaviour(), name)
     assert len(model.document.entries) == 16
     assert len({e.id for e in model.document.entries}) == 16
-    assert [k.name for k in model.document.knobs] == ["tau"]
+    assert [k.name for k in model.document.parameters] == ["tau"]
     model.set("tau", 55)
     assert {model.get(f"{g}.intention.tau") for g in ("reach", "grasp", "lift", "drop")} == {55.0}
     assert {model.get(f"{g}.end.satisfied.tau") for g in ("reach", "grasp", "lift", "drop")} == {55.0}

@@ -40,7 +40,7 @@ def test_a_hundred_documents_of_at_least_forty_kinds_of_mistake() -> None:
 @pytest.mark.parametrize("case", CASES)
 def test_every_document_loads_and_says_what_is_expected(case: dict[str, Any]) -> None:
     doc = document(case)
-    assert case["where"] in [*(e.path for e in doc.entries), *(k.name for k in doc.knobs)]
+    assert case["where"] in [*(e.path for e in doc.entries), *(k.name for k in doc.parameters)]
     assert case["severity"] in ("problem", "warning") and case["words"]
 
 

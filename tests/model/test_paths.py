@@ -73,8 +73,8 @@ def test_any_name_survives_the_file(name: str) -> None:
     u = model.add(dd.Field(name, [X], kernel=[dd.Gaussian()]), group="grp")
     v = model.add(dd.Field(f"{name}2", [X]))
     u >> dd.Gain(2) >> v
-    model.parameter(f"knob of {name}", 3.0)
-    model.link(f"{u.path}.kernel.0.sigma", f"knob of {name}")
+    model.parameter(f"parameter of {name}", 3.0)
+    model.link(f"{u.path}.kernel.0.sigma", f"parameter of {name}")
     again = files.from_data(json.loads(model.to_json()), {})
     assert again == model.document
 

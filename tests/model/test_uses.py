@@ -14,7 +14,7 @@ from deodar.model.check import problems
 
 
 def template() -> dd.Model:
-    """Two nodes and a coupling, one knob."""
+    """Two nodes and a coupling, one document parameter."""
     model = dd.Model("switch")
     a, b = model.add(dd.Field("a", [], resting_level=-2)), model.add(dd.Field("b", []))
     a >> model.add(dd.Gain(2, name="drives")) >> b

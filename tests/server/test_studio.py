@@ -191,7 +191,7 @@ def test_one_document_parameter_drives_several(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         left, right = p.element("left"), p.element("right")
-        await p.do("add_knob", name="input strength", element=left, parameter="amplitude")
+        await p.do("add_document_parameter", name="input strength", element=left, parameter="amplitude")
         await p.do("link", name="input strength", element=right, parameter="amplitude")
         await p.do("set", element="", parameter="input strength", value=3, gesture=5)
         await p.until(lambda: [e["values"]["amplitude"] for e in p.document["elements"][1:]] == [3, 3])
@@ -199,8 +199,8 @@ def test_one_document_parameter_drives_several(root: Path) -> None:
         assert "driven by" in refused["problems"][0]["what"]
         await p.do("unlink", element=left, parameter="amplitude")
         await p.do("set", element=left, parameter="amplitude", value=1)
-        await p.do("remove_knob", name="input strength")
-        await p.until(lambda: p.document["knobs"] == [])
+        await p.do("remove_document_parameter", name="input strength")
+        await p.until(lambda: p.document["parameters"] == [])
 
     with studio(root, root / "selection.json") as address:
         play(address, scene)

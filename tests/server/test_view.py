@@ -56,7 +56,7 @@ def test_elements_with_their_values_ports_and_axes() -> None:
 def test_document_parameters_and_connections_by_id() -> None:
     made = model()
     seen = shown(made)
-    assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.knobs] == [
+    assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.parameters] == [
         ("gain", 3, [(made["g.u"].id, "tau")])
     ]
     assert {(c.source, c.target) for c in seen.connections} == {

@@ -83,24 +83,24 @@ def elementary_behaviour(
     fields = {name: model.add(_field(name, axes, noise, boundary)) for name in LATERAL}
     back, release = tuple(-s for s in step), tuple(AHEAD * s for s in step)
 
-    def spread(a: str, b: str, knob: str, by: Sequence[float] | None = None) -> None:
+    def spread(a: str, b: str, parameter: str, by: Sequence[float] | None = None) -> None:
         """Add a connection through a kernel, after a shift by `by` if it is given.
 
         The shift drops values beyond an end, and the kernel wraps around the ends (as in the published code).
         So the margin of a field, whose preconditions lie outside, is inhibited.
         """
-        kernel = [Gaussian(STRENGTHS[knob], NARROW, normalized=True, boundary=ends)]
+        kernel = [Gaussian(STRENGTHS[parameter], NARROW, normalized=True, boundary=ends)]
         through = model.add(Convolve(kernel, name=f"{a} to {b}"))
-        model.link(f"{through.path}.kernel.0.amplitude", knob)
+        model.link(f"{through.path}.kernel.0.amplitude", parameter)
         (fields[a] if by is None else moved(fields[a], f"{a} beside {b}", by)) >> through >> fields[b]
 
-    def plain(a: str, b: str, knob: str, by: Sequence[float]) -> None:
+    def plain(a: str, b: str, parameter: str, by: Sequence[float]) -> None:
         """Add a shifted connection without a kernel.
 
         Connection 7 must not have a kernel: its release would be too weak, and the vehicle would stall.
         """
-        strength = model.add(Gain(STRENGTHS[knob], name=f"{a} to {b}"))
-        model.link(f"{strength.path}.factor", knob)
+        strength = model.add(Gain(STRENGTHS[parameter], name=f"{a} to {b}"))
+        model.link(f"{strength.path}.factor", parameter)
         fields[a] >> strength
         moved(strength, f"{a} beside {b}", by) >> fields[b]
 

@@ -100,9 +100,9 @@ def behaviour(axes: Sequence[Axis] = (), noise: float = 0.3) -> Model:
         (intention, satisfaction),
         (satisfaction, intention),
     ):
-        knob = f"{source.path} to {target.path}"
-        through = source >> model.add(Gain(STRENGTHS[knob], name=f"{source.path} > {target.path}"))
-        model.link(f"{through.path}.factor", knob)
+        strength = f"{source.path} to {target.path}"
+        through = source >> model.add(Gain(STRENGTHS[strength], name=f"{source.path} > {target.path}"))
+        model.link(f"{through.path}.factor", strength)
         through >> target
     if axes:
         goal, outcome = (model.add(_field(name, axes, noise)) for name in ("goal", "outcome"))

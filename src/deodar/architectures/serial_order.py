@@ -271,10 +271,10 @@ def lesson_end(items: int, places: int) -> float:
     return production_start(items) + 1000.0 + LOOK * items * places + 400.0
 
 
-def _couple(model: Model, source: Handle, target: Handle, knob: str, group: str = "") -> None:
+def _couple(model: Model, source: Handle, target: Handle, strength: str, group: str = "") -> None:
     """Add a connection whose strength is a document parameter."""
-    through = model.add(Gain(STRENGTHS[knob], name=knob.split(" ", 1)[1]), group=group)
-    model.link(f"{through.path}.factor", knob)
+    through = model.add(Gain(STRENGTHS[strength], name=strength.split(" ", 1)[1]), group=group)
+    model.link(f"{through.path}.factor", strength)
     source >> through >> target
 
 

@@ -314,12 +314,12 @@ def _compete(model: Model, name: str) -> None:
     """
     asks = model[f"{name}.precondition"]
     aside, against = BETWEEN
-    for knob, targets in (
+    for key, targets in (
         (aside, [n for n in DIRECTIONS if n not in (name, OPPOSITE[name])]),
         (against, [OPPOSITE[name]]),
     ):
-        strength = model.add(Gain(BETWEEN[knob], name="aside" if knob == aside else "against"), group=name)
-        model.link(f"{strength.path}.factor", knob)
+        strength = model.add(Gain(BETWEEN[key], name="aside" if key == aside else "against"), group=name)
+        model.link(f"{strength.path}.factor", key)
         asks >> strength
         for target in targets:
             strength >> model[f"{target}.motivation"]

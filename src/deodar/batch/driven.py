@@ -17,7 +17,7 @@ def driven(doc: Document, path: str) -> list[Leaf]:
     """
     found = find.target(doc, path)
     if found.entry is None:
-        links = next(k.links for k in doc.knobs if k.name == found.knob)
+        links = next(k.links for k in doc.parameters if k.name == found.document_parameter)
         if not links:
             raise ParameterError(
                 f"the document parameter {path!r} drives nothing",

@@ -75,7 +75,7 @@ class Connection:
 
 
 @dc.dataclass(frozen=True)
-class SharedParameter:
+class DocumentParameter:
     """A document parameter and the parameters of elements that it drives: (id, path inside the element)."""
 
     name: str
@@ -108,7 +108,7 @@ class Document:
     entries: tuple[Entry, ...] = ()
     connections: tuple[Connection, ...] = ()
     groups: tuple[PathNames, ...] = ()
-    knobs: tuple[SharedParameter, ...] = ()
+    parameters: tuple[DocumentParameter, ...] = ()
     uses: tuple[Use, ...] = ()
     time_unit: str = "ms"
     dt: float | None = None
@@ -191,7 +191,7 @@ class Document:
 
     def links(self) -> dict[tuple[str, str], str]:
         """Return the name of the document parameter that drives each linked parameter."""
-        return {link: knob.name for knob in self.knobs for link in knob.links}
+        return {link: p.name for p in self.parameters for link in p.links}
 
     @property
     def step(self) -> float:

@@ -18,7 +18,7 @@ from deodar.element import Element
 from deodar.errors import DeodarError, ModelError, ParameterError, UnknownName, did_you_mean
 from deodar.leaves import get, replace
 from deodar.model import find
-from deodar.model.document import READS, Connection, Document, Entry, SharedParameter, Use
+from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
 from deodar.model.paths import PathNames, display, stored_id
 from deodar.parameters import Reference, is_text, parameter, parameters, real, show
 
@@ -77,14 +77,14 @@ def add_all(
 def remove(doc: Document, ids: Iterable[str]) -> Document:
     """Return a document without these elements, their connections and their links."""
     gone = set(ids)
-    knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.knobs)
+    linked = tuple(dc.replace(k, links=tuple(x for x in k.links if x[0] not in gone)) for k in doc.parameters)
     kept = tuple(c for c in doc.connections if not gone & {c.source, c.target})
     uses = tuple(dc.replace(u, elements=tuple(x for x in u.elements if x[1] not in gone)) for u in doc.uses)
     return dc.replace(
         doc,
         entries=tuple(e for e in doc.entries if e.id not in gone),
         connections=kept,
-        knobs=knobs,
+        parameters=linked,
         uses=uses,
     )
 
@@ -181,10 +181,10 @@ def insert(
         if c.source in new and c.target in new
     ]
     doc = dc.replace(doc, connections=(*doc.connections, *inside))
-    for k in template.knobs:
+    for k in template.parameters:
         links = tuple((new[i], leaf) for i, leaf in k.links if i in new)
-        if k.name not in [j.name for j in doc.knobs]:
-            doc = knob(doc, k.name, k.value) if links else doc
+        if k.name not in [j.name for j in doc.parameters]:
+            doc = document_parameter(doc, k.name, k.value) if links else doc
         for i, leaf in links:
             doc = link(doc, i, leaf, k.name)
     groups = [place((*g, ""))[:-1] for g in template.groups] if ids is None else []
@@ -272,7 +272,7 @@ def change(doc: Document, path: str, value: Any) -> Document:
     """
     found = find.target(doc, path)
     return (
-        knob(doc, found.knob, value)
+        document_parameter(doc, found.document_parameter, value)
         if found.entry is None
         else put(doc, found.entry.id, found.parameter, value)
     )
@@ -323,7 +323,7 @@ def every(doc: Document, ident: str, ticks: int) -> Document:
     )
 
 
-def knob(doc: Document, name: str, value: float) -> Document:
+def document_parameter(doc: Document, name: str, value: float) -> Document:
     """Return a document with a new or changed document parameter; every linked parameter gets its value."""
     number = real(value)
     if number is None or not math.isfinite(number):
@@ -341,27 +341,29 @@ def knob(doc: Document, name: str, value: float) -> Document:
                 f"a document parameter cannot be called {name!r}: {what} has this name",
                 fix="Give it another name",
             )
-    links = next((k.links for k in doc.knobs if k.name == name), ())
+    links = next((k.links for k in doc.parameters if k.name == name), ())
     for ident, leaf in links:
         doc = _put(doc, ident, leaf, number)
-    new = SharedParameter(name, number, links)
-    kept = tuple(new if k.name == name else k for k in doc.knobs)
-    return dc.replace(doc, knobs=kept if any(k.name == name for k in doc.knobs) else (*doc.knobs, new))
+    new = DocumentParameter(name, number, links)
+    kept = tuple(new if k.name == name else k for k in doc.parameters)
+    return dc.replace(
+        doc, parameters=kept if any(k.name == name for k in doc.parameters) else (*doc.parameters, new)
+    )
 
 
-def remove_knob(doc: Document, name: str) -> Document:
+def remove_document_parameter(doc: Document, name: str) -> Document:
     """Return a document without a document parameter; the parameters that it drove keep their values."""
-    return dc.replace(doc, knobs=tuple(k for k in doc.knobs if k.name != name))
+    return dc.replace(doc, parameters=tuple(k for k in doc.parameters if k.name != name))
 
 
 def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
     """Return a document in which a document parameter drives a parameter of an element."""
     entry = find.entry(doc, ident)
-    found = next((k for k in doc.knobs if k.name == name), None)
+    found = next((k for k in doc.parameters if k.name == name), None)
     if found is None:
-        names = [k.name for k in doc.knobs]
+        names = [k.name for k in doc.parameters]
         raise UnknownName(
-            f"there is no document parameter {name!r}",
+            f"the document has no parameter {name!r}",
             fix=did_you_mean(name, names) or "Create it: model.parameter(name, value)",
         )
     find.number(doc, ident, leaf)
@@ -371,13 +373,15 @@ def link(doc: Document, ident: str, leaf: str, name: str) -> Document:
         )
     doc = _put(doc, ident, leaf, found.value)
     new = dc.replace(found, links=(*found.links, (ident, leaf)))
-    return dc.replace(doc, knobs=tuple(new if k.name == name else k for k in doc.knobs))
+    return dc.replace(doc, parameters=tuple(new if k.name == name else k for k in doc.parameters))
 
 
 def unlink(doc: Document, ident: str, leaf: str) -> Document:
     """Return a document in which a parameter is no longer linked; it keeps its value."""
-    knobs = tuple(dc.replace(k, links=tuple(x for x in k.links if x != (ident, leaf))) for k in doc.knobs)
-    return dc.replace(doc, knobs=knobs)
+    linked = tuple(
+        dc.replace(k, links=tuple(x for x in k.links if x != (ident, leaf))) for k in doc.parameters
+    )
+    return dc.replace(doc, parameters=linked)
 
 
 def describe(doc: Document, **values: Any) -> Document:
@@ -515,7 +519,7 @@ def _vacant(
             raise ModelError(
                 f"{display(names[:k])!r} is an element, not a group, so it cannot contain elements"
             )
-    if doc.knobs and display(names) in [k.name for k in doc.knobs]:
+    if doc.parameters and display(names) in [k.name for k in doc.parameters]:
         raise ModelError(
             f"a document parameter is called {display(names)!r}", fix="Give one of them another name"
         )
@@ -524,7 +528,7 @@ def _vacant(
 def _unambiguous(doc: Document, names: PathNames, element: Element) -> None:
     """Refuse a path at which a parameter of the element would have the path of a document parameter."""
     path = display(names)
-    for k in doc.knobs:
+    for k in doc.parameters:
         if k.name.startswith(f"{path}.") and k.name[len(path) + 1 :] in [
             p.name for p in parameters(type(element))
         ]:

@@ -65,16 +65,16 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
         | ({"reads": c.reads} if c.reads else {})
         for c in doc.connections
     ]
-    knobs = {
+    shared = {
         k.name: {"value": k.value, "links": [f"{by[i].path}.{leaf}" for i, leaf in k.links]}
-        for k in doc.knobs
+        for k in doc.parameters
     }
     data: dict[str, Any] = {"deodar": VERSION, "name": doc.name, "time_unit": doc.time_unit}
     data |= {} if doc.dt is None else {"dt": doc.dt}
     data |= {} if doc.t0 == 0 else {"t0": doc.t0}
     data["axes"] = {key: _axis_data(axis) for key, axis in axes.items()}
     data |= {
-        "parameters": knobs,
+        "parameters": shared,
         "elements": elements,
         "connections": connections,
         "groups": [display(g) for g in doc.groups],

@@ -18,7 +18,7 @@ class Target:
 
     entry: Entry | None
     parameter: str
-    knob: str = ""
+    document_parameter: str = ""
 
 
 def entry(doc: Document, ident: str) -> Entry:
@@ -101,7 +101,7 @@ def target(doc: Document, path: str) -> Target:
         inner = rest.replace('"', "")
         if inner.split(".")[0] in [p.name for p in parameters(type(entry.element))]:
             return Target(entry, inner)
-    if path in [k.name for k in doc.knobs]:
+    if path in [k.name for k in doc.parameters]:
         return Target(None, "", path)
     if found:
         entry, rest = found[0]
@@ -112,7 +112,7 @@ def target(doc: Document, path: str) -> Target:
             )
         raise UnknownName(f"{entry.path} has no parameter {rest!r}", fix=did_you_mean(rest, known))
     everything = [f"{e.path}.{leaf}" for e in doc.entries for leaf, _, _ in leaves(e.element)] + [
-        k.name for k in doc.knobs
+        k.name for k in doc.parameters
     ]
     raise UnknownName(f"nothing is called {path!r}", fix=did_you_mean(path, everything))
 
@@ -121,7 +121,7 @@ def value(doc: Document, path: str) -> Any:
     """Return the value of the parameter at a path."""
     found = target(doc, path)
     if found.entry is None:
-        return next(k.value for k in doc.knobs if k.name == found.knob)
+        return next(k.value for k in doc.parameters if k.name == found.document_parameter)
     return get(found.entry.element, found.parameter)
 
 

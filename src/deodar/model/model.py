@@ -206,7 +206,7 @@ class Model:
 
     def parameter(self, name: str, value: float) -> None:
         """Add or set a document parameter: one value that drives all parameters linked to it."""
-        self.commit(edit.knob(self.document, name, value))
+        self.commit(edit.document_parameter(self.document, name, value))
 
     def link(self, path: str, name: str) -> None:
         """Let a document parameter drive a parameter of an element: `model.link("u.tau", "gain")`."""

@@ -66,7 +66,7 @@ class _Reader:
         doc = self.groups(doc)
         # connections and links of elements that failed would only repeat their problems
         if not self.problems:
-            doc = self.uses(self.knobs(self.connections(doc)))
+            doc = self.uses(self.parameters(self.connections(doc)))
         needed = plugins.stated(self.data.get("packages", {}), self.problems)
         if self.problems:
             known = [p.name for p in registry.packaged()]
@@ -218,7 +218,7 @@ class _Reader:
             doc = self.attempt(where, doc, lambda d, v=value: _connected(d, v))
         return doc
 
-    def knobs(self, doc: Document) -> Document:
+    def parameters(self, doc: Document) -> Document:
         for name, value in self.table("parameters").items():
             where = f"parameters.{name}"
             body = cast("dict[str, Any]", value) if isinstance(value, dict) else {}
@@ -234,7 +234,7 @@ class _Reader:
             ):
                 self.problem(where, "needs a value (a number) and links (a list of paths), and nothing else")
                 continue
-            doc = self.attempt(where, doc, lambda d, n=name, v=number: edit.knob(d, n, v))
+            doc = self.attempt(where, doc, lambda d, n=name, v=number: edit.document_parameter(d, n, v))
             for path in cast("list[Any]", links):
                 doc = self.attempt(where, doc, lambda d, n=name, p=path: _linked(d, p, n))
         return doc

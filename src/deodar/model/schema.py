@@ -65,7 +65,7 @@ def document_schema() -> dict[str, Any]:
         "required": ["source", "target"],
         "additionalProperties": False,
     }
-    knob: dict[str, Any] = {
+    document_parameter: dict[str, Any] = {
         "type": "object",
         "properties": {"value": {"type": "number"}, "links": {"type": "array", "items": {"type": "string"}}},
         "required": ["value"],
@@ -93,7 +93,7 @@ def document_schema() -> dict[str, Any]:
             "dt": {"type": "number", "exclusiveMinimum": 0},
             "t0": {"type": "number"},
             "axes": {"type": "object", "additionalProperties": axis},
-            "parameters": {"type": "object", "additionalProperties": knob},
+            "parameters": {"type": "object", "additionalProperties": document_parameter},
             "elements": {"type": "object", "additionalProperties": elements},
             "connections": {"type": "array", "items": connection},
             "groups": {"type": "array", "items": {"type": "string"}},

@@ -32,13 +32,13 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
     mine = set(own.values())
     _require_ends(doc, use, template)
     doc = edit.remove(doc, [here for there, here in own.items() if there not in template.by_id()])
-    driving = {k.name for k in template.knobs}
+    driving = {k.name for k in template.parameters}
     doc = dc.replace(
         doc,
         connections=tuple(c for c in doc.connections if not (c.source in mine and c.target in mine)),
-        knobs=tuple(
+        parameters=tuple(
             dc.replace(k, links=tuple(x for x in k.links if x[0] not in mine)) if k.name in driving else k
-            for k in doc.knobs
+            for k in doc.parameters
         ),
         uses=tuple(
             u
@@ -82,10 +82,12 @@ def _driven(doc: Document, template: Document, now: dict[str, str]) -> Document:
             if leaf not in [path for path, _, _ in leaves(doc.by_id()[i].element)]:
                 doc = edit.unlink(doc, i, leaf)
             else:
-                doc = edit.knob(doc, name, next(k.value for k in doc.knobs if k.name == name))
-    for k in template.knobs:
-        if k.links and k.name not in [j.name for j in doc.knobs]:
-            doc = edit.knob(doc, k.name, k.value)
+                doc = edit.document_parameter(
+                    doc, name, next(k.value for k in doc.parameters if k.name == name)
+                )
+    for k in template.parameters:
+        if k.links and k.name not in [j.name for j in doc.parameters]:
+            doc = edit.document_parameter(doc, k.name, k.value)
         for i, leaf in k.links:
             if (now[i], leaf) not in doc.links():
                 doc = edit.link(doc, now[i], leaf, k.name)

@@ -288,9 +288,9 @@ class OpenProject:
         model = self._require()
         doc = model.document
         if not element:
-            if parameter not in [k.name for k in doc.knobs]:
+            if parameter not in [k.name for k in doc.parameters]:
                 raise DocumentError("there is no such document parameter", where=parameter)
-            new = edit.knob(doc, parameter, value)
+            new = edit.document_parameter(doc, parameter, value)
             return await self._commit(new, gesture)
         entry = find.entry(doc, element)
         new = edit.put(doc, element, parameter, view.read_value(doc, entry, parameter, value))

@@ -146,13 +146,16 @@ async def _describe(hub: Hub, page: Page, m: to_server.Describe) -> None:
     await hub.project.describe(given)
 
 
-@handles(to_server.AddKnob)
-async def _add_knob(hub: Hub, page: Page, m: to_server.AddKnob) -> None:
+@handles(to_server.AddDocumentParameter)
+async def _add_document_parameter(hub: Hub, page: Page, m: to_server.AddDocumentParameter) -> None:
     def change(doc: edit.Document) -> edit.Document:
-        if m.name in [k.name for k in doc.knobs]:
+        if m.name in [k.name for k in doc.parameters]:
             raise ParameterError("there is already a document parameter of that name", where=m.name)
         return edit.link(
-            edit.knob(doc, m.name, find.number(doc, m.element, m.parameter)), m.element, m.parameter, m.name
+            edit.document_parameter(doc, m.name, find.number(doc, m.element, m.parameter)),
+            m.element,
+            m.parameter,
+            m.name,
         )
 
     await hub.project.change(change)
@@ -168,9 +171,9 @@ async def _unlink(hub: Hub, page: Page, m: to_server.Unlink) -> None:
     await hub.project.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
 
 
-@handles(to_server.RemoveKnob)
-async def _remove_knob(hub: Hub, page: Page, m: to_server.RemoveKnob) -> None:
-    await hub.project.change(lambda doc: edit.remove_knob(doc, m.name))
+@handles(to_server.RemoveDocumentParameter)
+async def _remove_document_parameter(hub: Hub, page: Page, m: to_server.RemoveDocumentParameter) -> None:
+    await hub.project.change(lambda doc: edit.remove_document_parameter(doc, m.name))
 
 
 @handles(to_server.Arrange)

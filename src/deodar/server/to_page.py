@@ -114,7 +114,7 @@ class LinkView(Data, frozen=True):
     parameter: str
 
 
-class KnobView(Data, frozen=True):
+class DocumentParameterView(Data, frozen=True):
     """A document parameter and the parameters that it sets."""
 
     name: str
@@ -138,7 +138,7 @@ class DocumentView(Data, frozen=True):
     elements: list[ElementView]
     connections: list[ConnectionView]
     groups: list[list[str]]
-    knobs: list[KnobView]
+    parameters: list[DocumentParameterView]
     layout: dict[str, Any]
     problems: list[ListedProblem]
     unsaved: bool

@@ -136,7 +136,7 @@ class Describe(DocumentRequest, frozen=True, kw_only=True, tag="describe"):
 
 
 @MESSAGES.register
-class AddKnob(DocumentRequest, frozen=True, kw_only=True, tag="add_knob"):
+class AddDocumentParameter(DocumentRequest, frozen=True, kw_only=True, tag="add_document_parameter"):
     """Add a document parameter with the value of the first parameter that it sets."""
 
     name: Text
@@ -162,7 +162,7 @@ class Unlink(DocumentRequest, frozen=True, kw_only=True, tag="unlink"):
 
 
 @MESSAGES.register
-class RemoveKnob(DocumentRequest, frozen=True, kw_only=True, tag="remove_knob"):
+class RemoveDocumentParameter(DocumentRequest, frozen=True, kw_only=True, tag="remove_document_parameter"):
     """Remove a document parameter; the parameters that it set keep their values."""
 
     name: Text

@@ -21,10 +21,10 @@ from deodar.parameters import FrozenArray
 from deodar.server.to_page import (
     AxisView,
     ConnectionView,
+    DocumentParameterView,
     DocumentView,
     ElementView,
     Kind,
-    KnobView,
     LinkView,
     ListedProblem,
 )
@@ -68,9 +68,11 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
             for c in doc.connections
         ],
         groups=[list(g) for g in doc.groups],
-        knobs=[
-            KnobView(name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links])
-            for k in doc.knobs
+        parameters=[
+            DocumentParameterView(
+                name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links]
+            )
+            for k in doc.parameters
         ],
         layout=dict(doc.layout),
         problems=problems(check(doc), doc),

@@ -32,7 +32,7 @@ test("the main values of an element, numbers first, with units", () => {
 test("what a document parameter drives has its value", () => {
   const document = fakeDocument([ELEMENT], [], {
     axes: AXES,
-    knobs: [{ name: "tempo", value: 35, links: [{ element: "u", parameter: "tau" }] }],
+    parameters: [{ name: "tempo", value: 35, links: [{ element: "u", parameter: "tau" }] }],
   });
   expect(mainNumber(ELEMENT, KIND, document)).toBe("35 ms");
 });

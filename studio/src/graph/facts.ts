@@ -5,7 +5,7 @@ import type { DocumentView, ElementView, Kind, ParameterForm } from "../protocol
 
 export type Fact = { name: string; label: string; symbol: string; value: string };
 
-type Context = Pick<DocumentView, "axes" | "knobs" | "time_unit">;
+type Context = Pick<DocumentView, "axes" | "parameters" | "time_unit">;
 
 const SIMPLE: ParameterForm["form"][] = ["number", "integer", "per_axis", "flag", "text"];
 const MOST = 7;
@@ -51,11 +51,11 @@ export function short(value: number): string {
 }
 
 // The value that counts: a driven parameter has the value of its document parameter.
-function current(element: ElementView, name: string, { knobs }: Context): unknown {
-  const knob = knobs.find((k) =>
+function current(element: ElementView, name: string, { parameters }: Context): unknown {
+  const driver = parameters.find((k) =>
     k.links.some((link) => link.element === element.id && link.parameter === name),
   );
-  return knob?.value ?? element.values[name];
+  return driver?.value ?? element.values[name];
 }
 
 function said(

@@ -43,7 +43,7 @@ export function fakeDocument(
     notes: "",
     axes: [],
     groups: [],
-    knobs: [],
+    parameters: [],
     layout: {},
     problems: [],
     unsaved: false,

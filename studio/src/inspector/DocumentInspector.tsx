@@ -8,7 +8,7 @@ import { socket } from "../socket";
 import { useStudio } from "../store";
 import { AxisLines } from "./forms/AxisLines";
 import { TextBox } from "./forms/TextBox";
-import { KnobList } from "./KnobList";
+import { DocumentParameterList } from "./DocumentParameterList";
 import { NumberBox } from "./NumberBox";
 import { numberText } from "./number";
 import { ProblemBanner } from "./ProblemBanner";
@@ -83,7 +83,7 @@ export function DocumentInspector() {
           onBlur={keepNotes}
         />
       </section>
-      <KnobList knobs={document.knobs} />
+      <DocumentParameterList documentParameters={document.parameters} />
       {document.axes.length > 0 && (
         <section className="parameters" aria-label="Axes">
           <h3>Axes</h3>

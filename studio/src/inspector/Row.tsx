@@ -4,10 +4,10 @@ import { Tooltip } from "@mantine/core";
 import { IconLink } from "@tabler/icons-react";
 import { useState, type MouseEvent, type ReactNode } from "react";
 
-import type { KnobView, ParameterForm } from "../protocol";
+import type { DocumentParameterView, ParameterForm } from "../protocol";
 import { useStudio } from "../store";
 import { CostMark } from "./CostMark";
-import { KnobNaming } from "./KnobNaming";
+import { DocumentParameterNaming } from "./DocumentParameterNaming";
 import { linkable } from "./leaf";
 import { numberText } from "./number";
 import { hasDefault, kindOf, same, symbolOf, words } from "./part";
@@ -22,7 +22,7 @@ type RowProps = {
   path: string;
   value: unknown;
   onReset: (value: unknown) => void;
-  knob?: KnobView;
+  driver?: DocumentParameterView;
   // In the place of the parameter's own name and symbol: an axis, a name in a table.
   label?: string;
   // A single number, which can be pinned and linked.
@@ -42,7 +42,7 @@ export function Row({
   path,
   value,
   onReset,
-  knob,
+  driver,
   label,
   leaf = false,
   inline = false,
@@ -95,10 +95,10 @@ export function Row({
         {resettable && !atDefault && (
           <span className="row-dot" role="img" aria-label="not the default" title="not the default" />
         )}
-        {knob !== undefined && (
-          <span className="row-knob" title={`Driven by the document parameter ${knob.name}`}>
+        {driver !== undefined && (
+          <span className="row-driver" title={`Driven by the document parameter ${driver.name}`}>
             <IconLink size={11} />
-            <span className="one-line">{knob.name}</span>
+            <span className="one-line">{driver.name}</span>
           </span>
         )}
         {extra !== undefined && extra !== false && <span className="row-extra">{extra}</span>}
@@ -110,7 +110,7 @@ export function Row({
           <RowMenu
             element={element}
             path={path}
-            knob={knob}
+            driver={driver}
             byDefault={<DefaultText value={standard} />}
             atDefault={atDefault}
             onReset={resettable ? () => onReset(standard) : undefined}
@@ -125,7 +125,12 @@ export function Row({
         )}
       </div>
       {naming && (
-        <KnobNaming element={element} path={path} suggestion={form.name} onDone={() => setNaming(false)} />
+        <DocumentParameterNaming
+          element={element}
+          path={path}
+          suggestion={form.name}
+          onDone={() => setNaming(false)}
+        />
       )}
     </div>
   );

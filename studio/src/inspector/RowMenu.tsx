@@ -12,7 +12,7 @@ import {
 import type { ReactNode } from "react";
 
 import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../pins/pins";
-import type { KnobView } from "../protocol";
+import type { DocumentParameterView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { DotsMenu } from "./DotsMenu";
@@ -20,7 +20,7 @@ import { DotsMenu } from "./DotsMenu";
 export type RowMenuProps = {
   element: string;
   path: string;
-  knob?: KnobView;
+  driver?: DocumentParameterView;
   // The default in words, and the way back to it; without them there is no default.
   byDefault?: ReactNode;
   atDefault: boolean;
@@ -44,7 +44,7 @@ export function RowMenu(props: RowMenuProps) {
 function RowMenuItems({
   element,
   path,
-  knob,
+  driver,
   byDefault,
   atDefault,
   onReset,
@@ -53,7 +53,7 @@ function RowMenuItems({
   onName,
 }: RowMenuProps) {
   const pinned = useStudio((state) => pinsOf(state.document?.layout).some((pin) => isAt(pin, element, path)));
-  const knobs = useStudio((state) => state.document?.knobs);
+  const documentParameters = useStudio((state) => state.document?.parameters);
   const link = (name: string) => void request({ type: "link", name, element, parameter: path });
   const unlink = () => void request({ type: "unlink", element, parameter: path });
   return (
@@ -62,7 +62,7 @@ function RowMenuItems({
         <Menu.Item
           leftSection={<IconArrowBackUp size={14} />}
           rightSection={<span className="dim menu-value">{byDefault}</span>}
-          disabled={atDefault || knob !== undefined}
+          disabled={atDefault || driver !== undefined}
           onClick={onReset}
         >
           Reset to default
@@ -84,15 +84,15 @@ function RowMenuItems({
             Pin to Sliders
           </Menu.Item>
         ))}
-      {linkable && knob !== undefined && (
+      {linkable && driver !== undefined && (
         <Menu.Item leftSection={<IconLinkOff size={14} />} onClick={unlink}>
-          Unlink from {knob.name}
+          Unlink from {driver.name}
         </Menu.Item>
       )}
-      {linkable && knob === undefined && (
+      {linkable && driver === undefined && (
         <>
           <Menu.Label>Link to</Menu.Label>
-          {(knobs ?? []).map(({ name }) => (
+          {(documentParameters ?? []).map(({ name }) => (
             <Menu.Item key={name} leftSection={<IconLink size={14} />} onClick={() => link(name)}>
               <span className="one-line" title={name}>
                 {name}

@@ -108,8 +108,8 @@ test("whole numbers and numbers that recompile cannot be driven", () => {
 });
 
 test("the document parameter that drives a number", () => {
-  const knobs = [{ name: "tempo", value: 3, links: [{ element: "1", parameter: "tau" }] }];
-  const document = { knobs } as unknown as DocumentView;
+  const parameters = [{ name: "tempo", value: 3, links: [{ element: "1", parameter: "tau" }] }];
+  const document = { parameters } as unknown as DocumentView;
   expect(driver(document, "1", "tau")?.name).toBe("tempo");
   expect(driver(document, "2", "tau")).toBe(undefined);
   expect(driver(null, "1", "tau")).toBe(undefined);

@@ -1,7 +1,14 @@
 // Parameters by their path, at any depth: what a path such as kernel.0.sigma names, and which of them are
 // numbers that can be driven.
 
-import type { AxisView, DocumentView, ElementView, Kind, KnobView, ParameterForm } from "../protocol";
+import type {
+  AxisView,
+  DocumentView,
+  ElementView,
+  Kind,
+  DocumentParameterView,
+  ParameterForm,
+} from "../protocol";
 import type { Values } from "../values";
 import type { Standing } from "./range";
 
@@ -70,9 +77,13 @@ export function leavesOf(kinds: Kinds, kind: string, values: unknown, prefix = "
 }
 
 // The document parameter that drives a parameter of an element.
-export function driver(document: DocumentView | null, element: string, path: string): KnobView | undefined {
-  return document?.knobs.find((knob) =>
-    knob.links.some((link) => link.element === element && link.parameter === path),
+export function driver(
+  document: DocumentView | null,
+  element: string,
+  path: string,
+): DocumentParameterView | undefined {
+  return document?.parameters.find(({ links }) =>
+    links.some((link) => link.element === element && link.parameter === path),
   );
 }
 

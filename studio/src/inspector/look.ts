@@ -2,7 +2,7 @@
 
 import { useMemo } from "react";
 
-import type { AxisView, ElementView, KnobView, ParameterForm } from "../protocol";
+import type { AxisView, ElementView, DocumentParameterView, ParameterForm } from "../protocol";
 import { useStudio } from "../store";
 import { axesOf, formAt, type Kinds } from "./leaf";
 import { symbolOf } from "./part";
@@ -71,9 +71,13 @@ export function useLook(element: string, path: string, value: unknown): ControlL
 }
 
 // A document parameter has the range and the unit of the first parameter that it drives.
-export function useKnobLook(knob: KnobView | undefined): ControlLook {
-  const first = knob?.links[0];
-  const driven = useLook(first?.element ?? "", first?.parameter ?? "", knob?.value ?? null);
-  const range = sliderRange(UNDECLARED, knob?.value ?? null, { path: "", axes: NO_AXES, own: false });
+export function useDocumentParameterLook(documentParameter: DocumentParameterView | undefined): ControlLook {
+  const first = documentParameter?.links[0];
+  const driven = useLook(first?.element ?? "", first?.parameter ?? "", documentParameter?.value ?? null);
+  const range = sliderRange(UNDECLARED, documentParameter?.value ?? null, {
+    path: "",
+    axes: NO_AXES,
+    own: false,
+  });
   return { ...(driven ?? { range, unit: "", symbol: "", cost: "live", meaning: "" }), optional: false };
 }

@@ -2,7 +2,7 @@
 
 import { createContext, useContext } from "react";
 
-import type { AxisView, KnobView } from "../protocol";
+import type { AxisView, DocumentParameterView } from "../protocol";
 import { useStudio } from "../store";
 import { driver } from "./leaf";
 
@@ -20,7 +20,7 @@ export function usePlace(): Place {
   return useContext(PlaceContext);
 }
 
-export function useDriver(path: string): KnobView | undefined {
+export function useDriver(path: string): DocumentParameterView | undefined {
   const { element } = usePlace();
   return useStudio((state) => driver(state.document, element, path));
 }

@@ -15,7 +15,7 @@ const document: DocumentView = {
   elements: [],
   connections: [],
   groups: [],
-  knobs: [],
+  parameters: [],
   layout: {},
   problems: [],
   unsaved: true,

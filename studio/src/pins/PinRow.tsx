@@ -6,7 +6,7 @@ import { useState, type DragEvent, type KeyboardEvent } from "react";
 
 import { CostMark } from "../inspector/CostMark";
 import { driver } from "../inspector/leaf";
-import { useKnobLook, useLook } from "../inspector/look";
+import { useDocumentParameterLook, useLook } from "../inspector/look";
 import { NumberControl } from "../inspector/NumberControl";
 import { Prose } from "../inspector/Prose";
 import { chosen } from "../inspector/range";
@@ -33,25 +33,26 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
   const { element: id, parameter } = pin;
   const element = useStudio((state) => state.elements.get(id));
   const select = useStudio((state) => state.select);
-  const knob = useStudio((state) =>
+  const shared = useStudio((state) =>
     id === ""
-      ? state.document?.knobs.find((k) => k.name === parameter)
+      ? state.document?.parameters.find((k) => k.name === parameter)
       : driver(state.document, id, parameter),
   );
   const [editing, setEditing] = useState<"" | "range" | "label">("");
-  const stored = knob === undefined ? valueAt(element?.values, parameter) : knob.value;
+  const stored = shared === undefined ? valueAt(element?.values, parameter) : shared.value;
   const ownLook = useLook(id, parameter, stored);
-  const knobLook = useKnobLook(knob);
-  const look = id === "" ? knobLook : ownLook;
+  const parameterLook = useDocumentParameterLook(shared);
+  const look = id === "" ? parameterLook : ownLook;
   const value = typeof stored === "number" ? stored : null;
   const setting = useSetting<number | null>(
-    knob === undefined ? id : "",
-    knob?.name ?? parameter,
+    shared === undefined ? id : "",
+    shared?.name ?? parameter,
     value,
     look?.cost ?? "live",
   );
   const unpin = () => keepPins((pins) => withoutPin(pins, id, parameter));
-  const gone = look === undefined || (id === "" && knob === undefined) || (value === null && !look.optional);
+  const gone =
+    look === undefined || (id === "" && shared === undefined) || (value === null && !look.optional);
   const path = id === "" ? parameter : `${element?.path ?? id}.${parameter}`;
 
   const onGripKey = (event: KeyboardEvent) => {
@@ -89,7 +90,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
           <IconGripVertical size={13} />
         </UnstyledButton>
         <Tooltip
-          label={<Explanation path={path} meaning={look?.meaning ?? ""} links={knob?.links ?? []} />}
+          label={<Explanation path={path} meaning={look?.meaning ?? ""} links={shared?.links ?? []} />}
           position="top-start"
         >
           <UnstyledButton
@@ -101,16 +102,16 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
             <PinName pin={pin} path={element?.path ?? ""} />
           </UnstyledButton>
         </Tooltip>
-        {knob !== undefined && (
-          <span className="row-knob">
+        {shared !== undefined && (
+          <span className="row-driver">
             <IconLink size={11} />
-            <span className="one-line">{id === "" ? `drives ${knob.links.length}` : knob.name}</span>
+            <span className="one-line">{id === "" ? `drives ${shared.links.length}` : shared.name}</span>
           </span>
         )}
         <span className="row-tools">
           <CostMark
-            element={knob === undefined ? id : ""}
-            path={knob?.name ?? parameter}
+            element={shared === undefined ? id : ""}
+            path={shared?.name ?? parameter}
             cost={look?.cost ?? "live"}
           />
           <PinMenu

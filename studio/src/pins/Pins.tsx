@@ -57,16 +57,16 @@ export function Pins() {
           />
         ))}
       </ul>
-      <KnobMenu />
+      <DocumentParameterMenu />
     </div>
   );
 }
 
 // Document parameters that have no slider yet.
-function KnobMenu() {
+function DocumentParameterMenu() {
   const document = useStudio((state) => state.document);
   const pins = pinsOf(document?.layout);
-  const rest = (document?.knobs ?? []).filter((knob) => !pins.some((pin) => isAt(pin, "", knob.name)));
+  const rest = (document?.parameters ?? []).filter(({ name }) => !pins.some((pin) => isAt(pin, "", name)));
   if (rest.length === 0) {
     return null;
   }

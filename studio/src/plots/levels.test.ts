@@ -4,7 +4,7 @@ import { levelsOf, pushAmplitude, thresholdOf } from "./levels";
 
 const kind = { levels: { charge: { threshold: "gate.theta", rest: "rest" } } } as unknown as Kind;
 const element = { id: "a", values: { gate: { theta: 0.5 }, rest: -4 } } as unknown as ElementView;
-const documentOf = (knobs: DocumentView["knobs"]) => ({ knobs }) as unknown as DocumentView;
+const documentOf = (parameters: DocumentView["parameters"]) => ({ parameters }) as unknown as DocumentView;
 
 it("levels have the values of their parameters", () => {
   expect(levelsOf(documentOf([]), element, kind, "charge")).toEqual([
@@ -16,8 +16,8 @@ it("levels have the values of their parameters", () => {
 });
 
 it("a document parameter that drives a level counts", () => {
-  const knob = { name: "all", value: -7, links: [{ element: "a", parameter: "rest" }] };
-  expect(levelsOf(documentOf([knob]), element, kind, "charge")[1]).toEqual({ label: "rest", value: -7 });
+  const all = { name: "all", value: -7, links: [{ element: "a", parameter: "rest" }] };
+  expect(levelsOf(documentOf([all]), element, kind, "charge")[1]).toEqual({ label: "rest", value: -7 });
 });
 
 it("an injection is twice what lies between the levels", () => {

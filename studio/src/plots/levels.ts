@@ -14,10 +14,10 @@ export function levelsOf(
 ): Level[] {
   const found: Level[] = [];
   for (const [label, parameter] of Object.entries(kind?.levels[port] ?? {})) {
-    const knob = document.knobs.find((k) =>
+    const driver = document.parameters.find((k) =>
       k.links.some((link) => link.element === element.id && link.parameter === parameter),
     );
-    const value = knob?.value ?? valueAt(element.values, parameter);
+    const value = driver?.value ?? valueAt(element.values, parameter);
     if (typeof value === "number" && Number.isFinite(value)) {
       found.push({ label, value });
     }

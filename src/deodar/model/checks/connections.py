@@ -38,7 +38,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
                 " command"
             )
             yield warning(n, what, "Name another motor, or connect both signals to one element")
-    for shared in wiring.doc.knobs:
+    for shared in wiring.doc.parameters:
         if not shared.links and wiring.driven:
             fix = f"Link it: model.link('element.parameter', {shared.name!r}); or remove it"
             yield Problem(shared.name, "the document parameter drives nothing", fix, "warning")

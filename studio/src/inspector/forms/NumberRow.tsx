@@ -17,11 +17,11 @@ type NumberRowProps = Omit<FormProps, "value"> & { value: number | null; label?:
 
 export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
   const { element, axes, own, timeUnit } = usePlace();
-  const knob = useDriver(path);
+  const driver = useDriver(path);
   const setting = useSetting<number | null>(
-    knob === undefined ? element : "",
-    knob?.name ?? path,
-    knob?.value ?? value,
+    driver === undefined ? element : "",
+    driver?.name ?? path,
+    driver?.value ?? value,
     form.cost,
   );
   const range = sliderRange(form, setting.value, { path, axes, own });
@@ -33,7 +33,7 @@ export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
       value={setting.value}
       label={label}
       leaf={value !== null}
-      knob={knob}
+      driver={driver}
       extra={extra}
       unit={unit.length > MOST_UNIT ? unit : ""}
       onReset={(standard) => void setting.commit(standard as number | null)}

@@ -8,15 +8,20 @@ import { socket } from "../socket";
 import { useLateFocus } from "./lateFocus";
 import { ProblemLine } from "./ProblemLine";
 
-type KnobNamingProps = { element: string; path: string; suggestion: string; onDone: () => void };
+type DocumentParameterNamingProps = { element: string; path: string; suggestion: string; onDone: () => void };
 
-export function KnobNaming({ element, path, suggestion, onDone }: KnobNamingProps) {
+export function DocumentParameterNaming({ element, path, suggestion, onDone }: DocumentParameterNamingProps) {
   const field = useLateFocus();
   const [name, setName] = useState(suggestion);
   const [problem, setProblem] = useState<ListedProblem | null>(null);
   const onSubmit = async (event: FormEvent) => {
     event.preventDefault();
-    const { answer } = await socket.ask({ type: "add_knob", name: name.trim(), element, parameter: path });
+    const { answer } = await socket.ask({
+      type: "add_document_parameter",
+      name: name.trim(),
+      element,
+      parameter: path,
+    });
     const wrong = answer.problems?.[0] ?? null;
     setProblem(wrong);
     if (wrong === null) {
@@ -25,7 +30,7 @@ export function KnobNaming({ element, path, suggestion, onDone }: KnobNamingProp
   };
   return (
     <form
-      className="knob-naming"
+      className="parameter-naming"
       onSubmit={(event) => void onSubmit(event)}
       onKeyDown={(event) => event.key === "Escape" && onDone()}
     >

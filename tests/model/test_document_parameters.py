@@ -1,4 +1,4 @@
-"""Document parameters: one knob for many."""
+"""Document parameters: one for many parameters."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 @pytest.fixture
 def model() -> dd.Model:
-    """Two fields whose time constants, and a kernel width, hang on one knob."""
+    """Two fields whose time constants, and a kernel width, are linked to one document parameter."""
     model = dd.Model("m")
     model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2)]))
     model.add(dd.Field("v", [X]))
@@ -25,11 +25,11 @@ def model() -> dd.Model:
     return model
 
 
-def test_linking_takes_the_value_of_the_knob(model: dd.Model) -> None:
+def test_linking_sets_the_value_of_the_document_parameter(model: dd.Model) -> None:
     assert [model.get(p) for p in ("gain", "u.tau", "v.tau", "u.kernel.0.sigma")] == [3.0, 3.0, 3.0, 3.0]
 
 
-def test_one_knob_turns_all(model: dd.Model) -> None:
+def test_a_document_parameter_sets_all_its_links(model: dd.Model) -> None:
     model.set("gain", 4)
     assert [model.get(p) for p in ("gain", "u.tau", "v.tau", "u.kernel.0.sigma")] == [4.0, 4.0, 4.0, 4.0]
     model.parameter("gain", 5)
@@ -37,7 +37,7 @@ def test_one_knob_turns_all(model: dd.Model) -> None:
 
 
 @pytest.mark.parametrize("path", ["u.tau", "u.kernel.0.sigma", "u.kernel.0", "u.kernel"])
-def test_what_a_knob_drives_is_not_set_directly(model: dd.Model, path: str) -> None:
+def test_a_linked_parameter_is_not_set_directly(model: dd.Model, path: str) -> None:
     before = model.document
     with pytest.raises(ParameterError) as caught:
         model.set(path, 9 if path.endswith(("tau", "sigma")) else [dd.Gaussian()])
@@ -99,7 +99,7 @@ def test_refusals(model: dd.Model, call: object, error: type[Exception], says: s
     assert model.document is before
 
 
-def test_a_knob_without_one_says_how_to_make_it() -> None:
+def test_a_missing_document_parameter_says_how_to_create_it() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X]))
     with pytest.raises(UnknownName, match=r"model.parameter\(name, value\)"):

@@ -2,12 +2,16 @@
 
 import { useState } from "react";
 
-import type { KnobView } from "../protocol";
+import type { DocumentParameterView } from "../protocol";
 import { AddButton } from "./AddButton";
-import { KnobAdding } from "./KnobAdding";
-import { KnobItem } from "./KnobItem";
+import { DocumentParameterAdding } from "./DocumentParameterAdding";
+import { DocumentParameterItem } from "./DocumentParameterItem";
 
-export function KnobList({ knobs }: { knobs: KnobView[] }) {
+export function DocumentParameterList({
+  documentParameters,
+}: {
+  documentParameters: DocumentParameterView[];
+}) {
   const [adding, setAdding] = useState(false);
   return (
     <section className="parameters" aria-label="Document parameters">
@@ -15,11 +19,11 @@ export function KnobList({ knobs }: { knobs: KnobView[] }) {
         Document parameters
         <AddButton aria-label="Add a document parameter" onClick={() => setAdding(true)} />
       </h3>
-      {adding && <KnobAdding onDone={() => setAdding(false)} />}
-      {knobs.map((knob) => (
-        <KnobItem key={knob.name} knob={knob} />
+      {adding && <DocumentParameterAdding onDone={() => setAdding(false)} />}
+      {documentParameters.map((documentParameter) => (
+        <DocumentParameterItem key={documentParameter.name} documentParameter={documentParameter} />
       ))}
-      {knobs.length === 0 && !adding && (
+      {documentParameters.length === 0 && !adding && (
         <p className="dim hint">
           None. One document parameter can drive parameters of several elements together.
         </p>

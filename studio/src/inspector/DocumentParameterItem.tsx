@@ -5,23 +5,23 @@ import { IconLink, IconLinkOff, IconPin, IconPinnedOff, IconTrash } from "@table
 import { useState } from "react";
 
 import { isAt, keepPins, pinsOf, withoutPin, withPin } from "../pins/pins";
-import type { KnobView, LinkView } from "../protocol";
+import type { DocumentParameterView, LinkView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { DotsMenu } from "./DotsMenu";
-import { KnobAdding } from "./KnobAdding";
-import { useKnobLook } from "./look";
+import { DocumentParameterAdding } from "./DocumentParameterAdding";
+import { useDocumentParameterLook } from "./look";
 import { NumberControl } from "./NumberControl";
 import { useSetting } from "./setting";
 
-export function KnobItem({ knob }: { knob: KnobView }) {
-  const { name, value, links } = knob;
+export function DocumentParameterItem({ documentParameter }: { documentParameter: DocumentParameterView }) {
+  const { name, value, links } = documentParameter;
   const pinned = useStudio((state) => pinsOf(state.document?.layout).some((pin) => isAt(pin, "", name)));
   const [linking, setLinking] = useState(false);
-  const look = useKnobLook(knob);
+  const look = useDocumentParameterLook(documentParameter);
   const setting = useSetting<number | null>("", name, value, look.cost);
   return (
-    <div className="row" data-knob={name}>
+    <div className="row" data-document-parameter={name}>
       <div className="row-label">
         <span className="row-name one-line" title={name}>
           {name}
@@ -49,7 +49,7 @@ export function KnobItem({ knob }: { knob: KnobView }) {
           </Menu.Item>
           <Menu.Item
             leftSection={<IconTrash size={14} />}
-            onClick={() => void request({ type: "remove_knob", name })}
+            onClick={() => void request({ type: "remove_document_parameter", name })}
           >
             Remove
           </Menu.Item>
@@ -63,7 +63,7 @@ export function KnobItem({ knob }: { knob: KnobView }) {
           ))}
           {links.length === 0 && <li className="dim">drives nothing</li>}
         </ul>
-        {linking && <KnobAdding name={name} onDone={() => setLinking(false)} />}
+        {linking && <DocumentParameterAdding name={name} onDone={() => setLinking(false)} />}
       </div>
     </div>
   );

@@ -15,7 +15,7 @@ import { ProblemLine } from "./ProblemLine";
 const MOST_SHOWN = 60;
 
 // Without `name` a new document parameter is made, and its name is asked for.
-export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void }) {
+export function DocumentParameterAdding({ name, onDone }: { name?: string; onDone: () => void }) {
   const field = useLateFocus();
   const [typed, setTyped] = useState("");
   const [chosen, setChosen] = useState<string | null>(null);
@@ -26,7 +26,7 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
     const { element = "", path: parameter = "" } = options.find((option) => option.value === chosen) ?? {};
     const { answer } = await socket.ask(
       name === undefined
-        ? { type: "add_knob", name: typed.trim(), element, parameter }
+        ? { type: "add_document_parameter", name: typed.trim(), element, parameter }
         : { type: "link", name, element, parameter },
     );
     const wrong = answer.problems?.[0] ?? null;
@@ -37,7 +37,7 @@ export function KnobAdding({ name, onDone }: { name?: string; onDone: () => void
   };
   return (
     <form
-      className="knob-adding"
+      className="parameter-adding"
       onSubmit={(event) => void onSubmit(event)}
       onKeyDown={(event) => event.key === "Escape" && onDone()}
     >
