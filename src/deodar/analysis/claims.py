@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 from deodar import codec
 from deodar.codec import Json
@@ -43,8 +43,8 @@ class Claim:
     """
 
     name: str
-    value: Any
-    target: Any
+    value: Json
+    target: Json
     holds: bool | None
     kind: ClaimKind = "required"
     source: str = ""

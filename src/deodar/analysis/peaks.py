@@ -6,7 +6,7 @@ import html
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from scipy import ndimage
@@ -62,7 +62,11 @@ class Peaks(Sequence[Peak]):
     def __iter__(self) -> Iterator[Peak]:
         return iter(self.found)
 
-    def __getitem__(self, index: Any) -> Any:
+    @overload
+    def __getitem__(self, index: int) -> Peak: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Peak, ...]: ...
+    def __getitem__(self, index: int | slice) -> Peak | tuple[Peak, ...]:
         return self.found[index]
 
     def __repr__(self) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import jax
 import numpy as np
@@ -90,10 +89,10 @@ def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = No
     return Phase(float(input), u, rate(u), _fixed_points(rate, grid))
 
 
-def _rate(node: Field, s: float) -> Callable[[Any], np.ndarray]:
-    def rate(u: Any) -> np.ndarray:
+def _rate(node: Field, s: float) -> Callable[[np.ndarray], np.ndarray]:
+    def rate(values: np.ndarray) -> np.ndarray:
         with jax.enable_x64(True):
-            u = jax.numpy.asarray(u, np.float64)
+            u = jax.numpy.asarray(values, np.float64)
             g = node.sigmoid(u)
             change = (
                 -u
@@ -107,7 +106,7 @@ def _rate(node: Field, s: float) -> Callable[[Any], np.ndarray]:
     return rate
 
 
-def _range(rate: Callable[[Any], np.ndarray], node: Field, s: float) -> tuple[float, float]:
+def _range(rate: Callable[[np.ndarray], np.ndarray], node: Field, s: float) -> tuple[float, float]:
     """Return a range of activation, slightly beyond the outermost fixed points, at whose ends the rate points
     inwards.
     """
@@ -133,7 +132,7 @@ def _range(rate: Callable[[Any], np.ndarray], node: Field, s: float) -> tuple[fl
     return min([*roots, threshold]) - margin, max([*roots, threshold]) + margin
 
 
-def _fixed_points(rate: Callable[[Any], np.ndarray], grid: np.ndarray) -> tuple[FixedPoint, ...]:
+def _fixed_points(rate: Callable[[np.ndarray], np.ndarray], grid: np.ndarray) -> tuple[FixedPoint, ...]:
     values = rate(grid)
     found: list[FixedPoint] = []
     for i in np.flatnonzero(values == 0.0):  # the rate is exactly 0 here: the neighbours give the direction

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from deodar import renamed
 from deodar.analysis.paths import clearance
@@ -56,7 +57,7 @@ class Grid:
         return np.asarray(found[0])
 
 
-def arena_grid(boxes: Any, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
+def arena_grid(boxes: npt.ArrayLike, border: Sequence[float], cell: float = 1.0, least: float = 4.0) -> Grid:
     """Create the grid of an arena; cells are free that keep a distance from all boxes and the border.
 
     Args:

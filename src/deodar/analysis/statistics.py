@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from scipy import stats
 
 from deodar.errors import AnalysisError
@@ -40,7 +41,7 @@ def wilson(hits: float, n: int) -> Interval | None:
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def mean_interval(values: Any) -> Interval | None:
+def mean_interval(values: npt.ArrayLike) -> Interval | None:
     """Return the 95 % interval of a mean by Student's distribution; None for fewer than two values."""
     v = np.asarray(values, float)
     if v.size < 2:
@@ -49,7 +50,7 @@ def mean_interval(values: Any) -> Interval | None:
     return float(v.mean()) - half, float(v.mean()) + half
 
 
-def median_interval(values: Any) -> Interval | None:
+def median_interval(values: npt.ArrayLike) -> Interval | None:
     """Return the distribution-free 95 % interval of a median, from the order statistics and the binomial
     distribution; None for fewer than six values.
     """
@@ -60,7 +61,7 @@ def median_interval(values: Any) -> Interval | None:
     return float(v[k - 1]), float(v[v.size - k])
 
 
-def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | None:
+def ratio_interval(above: npt.ArrayLike, below: npt.ArrayLike, paired: bool = False) -> Interval | None:
     """Return the 95 % interval of median(above) / median(below), by 2000 bootstrap samples with a fixed seed.
 
     None for fewer than six values each.
@@ -83,7 +84,7 @@ def ratio_interval(above: Any, below: Any, paired: bool = False) -> Interval | N
     return float(low), float(high)
 
 
-def difference_interval(first: Any, second: Any) -> Interval | None:
+def difference_interval(first: npt.ArrayLike, second: npt.ArrayLike) -> Interval | None:
     """Return the 95 % interval of mean(first) - mean(second) by Welch's test; None for fewer than two values
     each, or if all are equal.
     """
@@ -109,7 +110,7 @@ def share_difference(first: tuple[int, int], second: tuple[int, int]) -> tuple[f
     return p - q, (p - q - below, p - q + above)
 
 
-def anova(groups: Sequence[Any]) -> tuple[float, float] | None:
+def anova(groups: Sequence[npt.ArrayLike]) -> tuple[float, float] | None:
     """Return F and p of a one-way analysis of variance; None without two groups of at least two values, or if
     all values are equal.
     """

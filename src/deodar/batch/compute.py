@@ -21,7 +21,7 @@ from deodar.errors import Interrupted, NotFinite, ParameterError, TimeError, Wor
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
-from deodar.model.resolve import resolve
+from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import show
 from deodar.recording.provenance import provenance
@@ -239,7 +239,7 @@ def _cut(
     return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, count, request.batch)
 
 
-def require_workers(workers: Any) -> int:
+def require_workers(workers: int) -> int:
     """Return the number of workers; raise if it is not a positive whole number."""
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
         raise ParameterError(
@@ -301,7 +301,7 @@ def _list(record: Sequence[str] | str) -> list[str]:
     return paths
 
 
-def _cells(nodes: Sequence[Any], ident: str, port: str) -> int:
+def _cells(nodes: Sequence[Node], ident: str, port: str) -> int:
     node = next(n for n in nodes if n.id == ident)
     return math.prod(shape(node.axes(port)))
 

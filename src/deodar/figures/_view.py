@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import xarray
@@ -209,12 +208,12 @@ class View:
         return float(p[0] - half), float(p[-1] + half)
 
 
-def _with_unit(name: str, unit: Any) -> str:
+def _with_unit(name: str, unit: str | None) -> str:
     text = _time_unit(unit)
     return f"{name} ({text})" if text else name
 
 
-def _time_unit(unit: Any) -> str:
+def _time_unit(unit: str | None) -> str:
     text = str(unit or "")
     if text == "abstract":
         return ""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.parameters import real, show
@@ -122,7 +121,7 @@ class Scene:
                 raise WorldError(f"at {at} it would cover {other.name!r}", where=name)
 
 
-def pair(what: str, given: Any) -> tuple[float, float]:
+def pair(what: str, given: Sequence[float]) -> tuple[float, float]:
     """Convert a value to two finite floats, or raise WorldError."""
     numbers = [real(v) for v in given] if isinstance(given, Sequence) and not isinstance(given, str) else []
     found = [n for n in numbers if n is not None and math.isfinite(n)]

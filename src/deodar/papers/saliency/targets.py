@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from deodar.analysis.claims import Claim, ClaimKind
+from deodar.codec import JsonObject
 from deodar.papers.saliency.scenes import NEAR, Cue, Found, Outcome
 
 SOURCE = "Sandamirskaya (2014), Front. Neurosci. 7:276, figure 2"
@@ -41,7 +42,7 @@ def claims(found: Found) -> list[Claim]:
 
 
 def _of_a_cue(name: str, cue: Cue, o: Outcome | None, marks: dict[str, Any]) -> list[Claim]:
-    value: dict[str, Any] | None = o and {
+    value: JsonObject | None = o and {
         "peaks": len(o.places),
         "spatial peaks": len(o.spatial_places),
         "places": [[round(v) for v in p] for p in o.places],

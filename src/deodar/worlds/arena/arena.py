@@ -16,7 +16,7 @@ from jax import Array
 from jax.typing import DTypeLike
 
 from deodar import codec
-from deodar.codec import JsonObject
+from deodar.codec import Json, JsonObject
 from deodar.element import Arrays
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
@@ -132,7 +132,7 @@ class Arena(PureWorld):
 
     def __init__(
         self,
-        layout: str | Path | Mapping[str, Any] = "blocks",
+        layout: str | Path | Mapping[str, Json] = "blocks",
         start: Sequence[float] | np.ndarray | None = None,
         goal: Sequence[float] | np.ndarray | None = None,
         unit: str = "m",
@@ -441,13 +441,13 @@ class Arena(PureWorld):
     # ------------------------------------------------------------------------------------------------ records
 
     def describe(self) -> JsonObject:
-        settings: dict[str, Any] = {
+        settings: JsonObject = {
             "unit": self.unit,
             "vehicle": self.vehicle.name,
             "period": self.period,
             "contact": self.contact,
         }
-        said: dict[str, Any] = {
+        said: JsonObject = {
             "settings": (
                 settings | {"reflection": self.reflection, "place_every": self.place_every, **self.noise}
             ),

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from deodar.codec import Json
 from deodar.errors import UnknownName, WorldError, did_you_mean
@@ -39,7 +40,7 @@ class Furniture:
         self.things: list[Thing | None] = list(layout.things) + [None] * SPARE
         self.windows: list[np.ndarray] = [np.asarray([ALWAYS], np.int32) for _ in range(self.room)]
 
-    def place(self, thing: Thing, windows: Any) -> None:
+    def place(self, thing: Thing, windows: npt.ArrayLike | None) -> None:
         """Add a thing, or replace the one of the same name; windows are in ms, or None."""
         times = np.asarray([ALWAYS], np.int32)
         if windows is not None:

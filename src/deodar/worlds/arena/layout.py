@@ -18,9 +18,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from deodar import codec
+from deodar.codec import Json, JsonObject
 from deodar.errors import DocumentError, Problem, WorldError, did_you_mean
 from deodar.parameters import real, show
 
@@ -66,10 +66,10 @@ class ArenaLayout:
     start: tuple[float, float, float] | None = None
     goal: tuple[float, float] | None = None
 
-    def to_data(self) -> dict[str, Any]:
+    def to_data(self) -> JsonObject:
         """Return the layout in the format of a file."""
         left, low, right, high = self.border
-        data: dict[str, Any] = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
+        data: JsonObject = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
         data["blocks"] = [
             {"name": t.name, "center": list(t.center), "size": list(t.size), "color": list(t.color)}
             for t in self.things
@@ -79,16 +79,16 @@ class ArenaLayout:
         return data if self.goal is None else data | {"goal": list(self.goal)}
 
 
-def builtin() -> dict[str, Any]:
+def builtin() -> JsonObject:
     """Return the data of the arenas that come with deodar, by name."""
-    found: dict[str, Any] = {}
+    found: JsonObject = {}
     for file in sorted((resources.files("deodar.worlds.arena") / "layouts").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".json"):
             found |= codec.read(file.read_bytes())
     return found
 
 
-def load(source: str | Path | Mapping[str, Any]) -> ArenaLayout:
+def load(source: str | Path | Mapping[str, Json]) -> ArenaLayout:
     """Load a layout from data, the name of an arena that comes with deodar, `FILE` or `FILE#NAME`.
 
     Raises:
@@ -119,7 +119,7 @@ def load(source: str | Path | Mapping[str, Any]) -> ArenaLayout:
     return _layout(data[name], str(source))
 
 
-def _read(path: Path) -> dict[str, Any]:
+def _read(path: Path) -> JsonObject:
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise WorldError(f"is larger than {LARGEST_FILE // 2**20} MiB", where=str(path))
@@ -145,7 +145,7 @@ class _Faults(list[Problem]):
     def say(self, place: str, what: str, fix: str = "") -> None:
         self.append(Problem(": ".join(p for p in (self.where, place) if p), what, fix))
 
-    def pair(self, place: str, value: Any) -> tuple[float, float] | None:
+    def pair(self, place: str, value: Json) -> tuple[float, float] | None:
         numbers = (
             [real(v) for v in value] if isinstance(value, Sequence) and not isinstance(value, str) else []
         )
@@ -155,7 +155,7 @@ class _Faults(list[Problem]):
         return float(numbers[0] or 0), float(numbers[1] or 0)
 
 
-def _layout(data: Any, where: str) -> ArenaLayout:
+def _layout(data: Json, where: str) -> ArenaLayout:
     faults = _Faults(where)
     if not isinstance(data, Mapping):
         raise WorldError(f"is {show(data)}; an arena is an object with walls", where=where)
@@ -163,9 +163,10 @@ def _layout(data: Any, where: str) -> ArenaLayout:
         near = [] if key in KNOWN else difflib.get_close_matches(str(key), KNOWN, n=1, cutoff=0.75)
         if near:  # keys that are not similar to a known one are notes of the author
             faults.say("", f"has the unknown key {key!r}", f"Did you mean {near[0]!r}?")
-    scale = UNITS.get(data.get("unit", "m"), 0.0) if isinstance(data.get("unit", "m"), str) else 0.0
+    unit = data.get("unit", "m")
+    scale = UNITS.get(unit, 0.0) if isinstance(unit, str) else 0.0
     if not scale:
-        faults.say("unit", f"is {show(data.get('unit'))}; expected one of {', '.join(UNITS)}")
+        faults.say("unit", f"is {show(unit)}; expected one of {', '.join(UNITS)}")
         scale = 1.0
     names = str(data.get("plane", "x,y")).split(" ")[0]
     if names not in ("x,y", "x,z"):
@@ -193,8 +194,8 @@ def _layout(data: Any, where: str) -> ArenaLayout:
 
 
 def _border(
-    data: Mapping[str, Any], names: Sequence[str], turned: bool, scale: float, faults: _Faults
-) -> Any:
+    data: Mapping[str, Json], names: Sequence[str], turned: bool, scale: float, faults: _Faults
+) -> tuple[float, float, float, float] | None:
     area = data.get("arena")
     if not isinstance(area, Mapping) or not set(names) <= set(area):
         faults.say(
@@ -221,7 +222,7 @@ def _turn(place: tuple[float, float], turned: bool, scale: float) -> tuple[float
 
 
 def _place(
-    data: Mapping[str, Any], key: str, turned: bool, scale: float, faults: _Faults
+    data: Mapping[str, Json], key: str, turned: bool, scale: float, faults: _Faults
 ) -> tuple[float, float] | None:
     if data.get(key) is None:
         return None
@@ -229,7 +230,7 @@ def _place(
     return None if found is None else _turn(found, turned, scale)
 
 
-def _things(data: Mapping[str, Any], turned: bool, scale: float, faults: _Faults) -> Iterator[Thing]:
+def _things(data: Mapping[str, Json], turned: bool, scale: float, faults: _Faults) -> Iterator[Thing]:
     taken: set[str] = set()
     for kind, colour in COLOURS.items():
         listed = data.get(kind, [])
@@ -252,7 +253,7 @@ def _things(data: Mapping[str, Any], turned: bool, scale: float, faults: _Faults
                 )
 
 
-def make(name: str, center: Any, size: Any, color: Any, scale: float = 1.0) -> Thing:
+def make(name: str, center: Json, size: Json, color: Json, scale: float = 1.0) -> Thing:
     """Make a thing from unchecked values; lengths are in units of `scale` metres.
 
     Raises:
@@ -266,7 +267,7 @@ def make(name: str, center: Any, size: Any, color: Any, scale: float = 1.0) -> T
     return Thing(name, (x * scale, y * scale), (w * scale, h * scale), thing.color)
 
 
-def _thing(name: str, center: Any, size: Any, color: Any, found: _Faults) -> Thing | None:
+def _thing(name: str, center: Json, size: Json, color: Json, found: _Faults) -> Thing | None:
     before = len(found)
     middle, extent = found.pair(f"{name}.center", center), found.pair(f"{name}.size", size)
     if extent is not None and not min(extent) > 0:

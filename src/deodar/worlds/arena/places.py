@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from deodar.errors import Problem, WorldError
 from deodar.parameters import show
 from deodar.worlds.arena.layout import Thing
 
 
-def rows_of(what: str, given: Any, scale: Sequence[float]) -> np.ndarray:
+def rows_of(what: str, given: npt.ArrayLike, scale: Sequence[float]) -> np.ndarray:
     """Convert a value to rows with one finite number per scale, multiplied by the scales."""
     try:
         rows = np.atleast_2d(np.asarray(given, float))

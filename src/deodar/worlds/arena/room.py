@@ -31,7 +31,7 @@ class Room:
         self.gap = self.gaps(*np.meshgrid(self.x, self.y, indexing="ij"))
         self._labels: np.ndarray | None = None
 
-    def gaps(self, x: Any, y: Any) -> np.ndarray:
+    def gaps(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the gap between a disc at each position and the nearest thing or the border.
 
         The gap is negative where the disc does not fit.
