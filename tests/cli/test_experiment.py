@@ -135,6 +135,18 @@ def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
     assert "is not an experiment" in capsys.readouterr().err
 
 
+def test_a_model_in_place_of_an_experiment_and_the_reverse_say_which_command_takes_it(file, capsys, tmp_path):
+    assert cli.main(["check", str(file)]) == 1
+    fix = "Type: deodar experiment FILE --check"
+    assert capsys.readouterr().err == f"deodar check: {file}: is not a model: it is an experiment. {fix}\n"
+    model = file.with_name(json.loads(file.read_text())["model"])
+    assert cli.main(["experiment", str(model)]) == 1
+    fix = "Type: deodar run FILE --duration MS"
+    assert (
+        capsys.readouterr().err == f"deodar experiment: {model}: is not an experiment: it is a model. {fix}\n"
+    )
+
+
 def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr(simulate, "LONG_STEPS", 16 * 400)
     monkeypatch.setattr(_long, "TRIAL_SECONDS", 0.0)

@@ -137,6 +137,9 @@ class Design(Part):
             DocumentError: the data do not describe an experiment; every problem is listed.
         """
         if not isinstance(data, dict) or "experiment" not in data:
+            if isinstance(data, dict) and "deodar" in data:
+                fix = "Type: deodar run FILE --duration MS"
+                raise DocumentError("is not an experiment: it is a model", fix=fix)
             raise DocumentError("is not an experiment: it has no key 'experiment'")
         given = _migrated(cast("dict[str, Any]", data), folder, read)
         if given.pop("experiment") != VERSION:

@@ -48,6 +48,9 @@ class _Reader:
     def read(self) -> Document:
         version = self.data.get("deodar")
         if version is None:
+            if "experiment" in self.data:
+                fix = "Type: deodar experiment FILE --check"
+                raise DocumentError("is not a model: it is an experiment", fix=fix)
             raise DocumentError("is not a deodar document: it has no key 'deodar'")
         if not isinstance(version, int) or isinstance(version, bool) or not 1 <= version <= VERSION:
             raise DocumentError(
