@@ -1,8 +1,8 @@
 """The tests beside busy processes: none of them may depend on how fast the machine is.
 
-python benchmarks/busy.py                          the whole suite, five times, beside four busy processes
-python benchmarks/busy.py --times 1 --keep         one run; its row is added to evidence/busy.csv
-python benchmarks/busy.py --times 1 tests/batch/test_workers.py
+python tools/busy.py                      the whole suite, five times, beside four busy processes
+python tools/busy.py --times 1 --keep     one run; its row is added to evidence/busy.csv
+python tools/busy.py --times 1 tests/batch/test_workers.py
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+
+import suite
 
 ROOT = Path(__file__).parents[1]
 ROWS = ROOT / "evidence" / "busy.csv"
@@ -80,26 +82,26 @@ def main() -> None:
     parser.add_argument("tests", nargs="*", help="of pytest (default: all)")
     args = parser.parse_args()
     if args.keep and args.tests:
-        parser.error("--keep is for runs of the whole suite; leave the tests away")
+        parser.error("--keep is for runs of the whole suite; leave out the tests")
     good = 0
     for run in range(1, args.times + 1):
         began = time.monotonic()
-        report = ""
+        status = passed = failed = 0
         with busy(args.busy):
-            tests = subprocess.Popen(
-                [sys.executable, "-m", "pytest", *args.tests],
-                cwd=ROOT,
-                stdout=subprocess.PIPE,
-                text=True,
-            )
-            assert tests.stdout is not None
-            for line in tests.stdout:
-                print(line, end="", flush=True)
-                report = report if not line.strip() else line
-            status = tests.wait()
+            for call in [args.tests] if args.tests else suite.CALLS:
+                tests = subprocess.Popen(
+                    [sys.executable, "-m", "pytest", *call], cwd=ROOT, stdout=subprocess.PIPE, text=True
+                )
+                assert tests.stdout is not None
+                report = ""
+                for line in tests.stdout:
+                    print(line, end="", flush=True)
+                    report = report if not line.strip() else line
+                status = tests.wait() or status
+                here = counted(report)
+                passed, failed = passed + here[0], failed + here[1]
         minutes = (time.monotonic() - began) / 60
         good += status == 0
-        passed, failed = counted(report)
         if args.keep:
             row = {"date": time.strftime("%Y-%m-%d"), "commit": _commit(), "python": sys.version.split()[0]}
             row |= {"cores": os.cpu_count(), "busy": args.busy, "minutes": f"{minutes:.1f}"}

@@ -3,13 +3,29 @@
 from __future__ import annotations
 
 import csv
+import re
 import sys
 from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+from tests.house.source import ROOT
+
+sys.path.insert(0, str(ROOT / "tools"))
 import busy
+import suite
+
+
+def test_the_calls_of_the_suite_are_those_of_make() -> None:
+    recipe = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert f"SPREAD := {' '.join(suite.SPREAD)}\n" in recipe
+    called = [
+        line.partition(" -m pytest ")[2].replace("$(SPREAD)", " ".join(suite.SPREAD)).replace('"', "")
+        for line in recipe.splitlines()
+        if " -m pytest " in line
+    ]
+    bare = [re.sub(r" --durations \d+", "", line) for line in called]
+    assert bare == [" ".join(call) for call in (*suite.CALLS, suite.FAST)]
 
 
 @pytest.mark.parametrize(
