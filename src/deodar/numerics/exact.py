@@ -29,16 +29,12 @@ LOW = "~low"
 class Exact:
     """A number, or an array of numbers, as the sum of two in the working precision.
 
-    It has no arithmetic: `wide` converts it to float64 inside `exact()`, `rounded` to the working precision.
+    It has no arithmetic: `wide` converts it to float64 inside `exact()`; `high` is the value in the working
+    precision.
     """
 
     high: Any
     low: Any
-
-    @property
-    def rounded(self) -> Array:
-        """The value in the working precision."""
-        return self.high
 
 
 def exact() -> contextlib.AbstractContextManager[None]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from deodar.analysis.paths import speeds
 from deodar.architectures.spa import maze, place
 from deodar.experiments.rows import Row
 from deodar.figures._style import COLORS, ROUTES
@@ -137,10 +138,8 @@ def _velocity(runs: Runs, obstacle: str, words: str, window: tuple[int, int]) ->
 
 def _speed(row: Row) -> tuple[np.ndarray, np.ndarray]:
     """Return steps and cm a step."""
-    course, over = np.asarray(row["path"]), WINDOW // KEPT
-    return KEPT * np.arange(over, len(course)), np.linalg.norm(
-        course[over:] - course[:-over], axis=1
-    ) / WINDOW
+    steps, over = KEPT * np.arange(len(row["path"])), WINDOW // KEPT
+    return steps[over:], speeds(row["path"], steps, over)
 
 
 def choice(runs: Runs, obstacle: str) -> Figure | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from deodar.analysis.paths import points
+from deodar.analysis.paths import points, speeds
 from deodar.architectures.spa import place
 
 NORTH, SOUTH, SWITCH, NONE = "north", "south", "switch", "none"
@@ -58,8 +58,7 @@ def stillness(path: np.ndarray) -> int:
     """
     if len(path) <= OVER:
         return 0
-    line = points(path)
-    slow = np.linalg.norm(line[OVER:] - line[:-OVER], axis=1) / OVER < SLOW
+    slow = speeds(path, np.arange(len(path)), OVER) < SLOW
     edges = np.flatnonzero(np.diff(np.concatenate([[False], slow, [False]]).astype(int)))
     runs = edges[1::2] - edges[::2]
     return int(runs.max()) + OVER if len(runs) else 0

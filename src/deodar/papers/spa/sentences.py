@@ -11,6 +11,7 @@ import numpy as np
 
 from deodar.analysis import statistics
 from deodar.analysis.claims import Claim, Origin
+from deodar.analysis.paths import speeds
 from deodar.analysis.statistics import anova, difference_interval, equivalent, mean_interval, ratio_interval
 from deodar.architectures.spa import place
 from deodar.experiments.rows import Row
@@ -247,8 +248,7 @@ def _passage(row: Row) -> float | None:
         times <= row.get("onset", 0) + row.get("duration", cases.LIMIT)
     )
     beside = present & (np.abs(path[:, 0] - x) < cases.OBSTACLES["partial"][2][0] / 2) & (path[:, 1] > y)
-    step = np.linalg.norm(np.diff(path, axis=0), axis=1) / KEPT
-    return float(step[beside[1:]].mean()) if beside.sum() > LASTS else None
+    return float(speeds(path, times)[beside[1:]].mean()) if beside.sum() > LASTS else None
 
 
 def _case_3_early(runs: Runs) -> list[Claim]:
