@@ -69,8 +69,8 @@ async def compare(address: str) -> tuple[float, float]:
             if message["type"] == "clock":
                 await socket.send(json.dumps({"type": "drawn", "frame": message["frame"]}))
         element = document["elements"][0]
-        for wish in ({"type": "speed", "factor": None}, {"type": "play"}):
-            await socket.send(json.dumps(wish))
+        for request in ({"type": "speed", "factor": None}, {"type": "play"}):
+            await socket.send(json.dumps(request))
         await settle(socket, 8.0, False)
         streams = [*element["outputs"], *element["inputs"]][:4]
         alone, slower = [], []

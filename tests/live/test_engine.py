@@ -12,8 +12,8 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, TimeError
-from deodar.live.engine import Engine, Hand
-from deodar.live.trace import CAPACITY, Trace, Wish
+from deodar.live.engine import Engine, Injection
+from deodar.live.trace import CAPACITY, Trace, TraceRequest
 from deodar.model import edit
 from deodar.session.pace import Pace
 from deodar.session.unit import unit_seconds
@@ -79,7 +79,7 @@ def test_steps_and_a_shot_of_them(driven: Driven) -> None:
 def test_what_was_asked_for_before_there_was_a_session_is_shown(driven: Driven) -> None:
     engine, place = driven.engine, (driven.u, "activation")
     driven.do(lambda: engine.load(None))
-    driven.do(lambda: engine.show([place], [Wish(place)]))
+    driven.do(lambda: engine.show([place], [TraceRequest(place)]))
     driven.do(lambda: engine.load(dd.Session(driven.model)))
     driven.until(lambda: place in engine.shot.arrays)
 
@@ -89,7 +89,7 @@ def test_a_hand_is_seen_in_the_input(driven: Driven) -> None:
     driven.do(lambda: engine.show([place], []))
     driven.until(lambda: place in engine.shot.arrays)
     before = engine.shot.arrays[place]
-    driven.do(lambda: engine.inject(Hand(driven.u, np.full(101, 2.5))))
+    driven.do(lambda: engine.inject(Injection(driven.u, np.full(101, 2.5))))
     driven.until(lambda: np.allclose(engine.shot.arrays[place], before + 2.5))
     driven.do(lambda: engine.inject(None))
     driven.until(lambda: np.allclose(engine.shot.arrays[place], before))
@@ -156,20 +156,22 @@ def test_nobody_looking_means_no_shots(driven: Driven) -> None:
 
 def test_traces_hold_time_and_value_and_begin_anew_with_a_reset(driven: Driven) -> None:
     engine = driven.engine
-    wishes = [Wish((driven.u, "activation"), reduce) for reduce in ("max", "mean")] + [
-        Wish((driven.u, "activation"), "at", (50.0,))
+    requests = [TraceRequest((driven.u, "activation"), reduce) for reduce in ("max", "mean")] + [
+        TraceRequest((driven.u, "activation"), "at", (50.0,))
     ]
-    driven.do(lambda: engine.show([], wishes))
+    driven.do(lambda: engine.show([], requests))
     # the program that samples is there
-    driven.until(lambda: all(wish in engine.traces and engine.traces[wish].count for wish in wishes))
+    driven.until(
+        lambda: all(request in engine.traces and engine.traces[request].count for request in requests)
+    )
     driven.do(lambda: engine.step(200))
     driven.until(lambda: engine.shot.tick == 200)
-    samples = {w: engine.traces[w].since(0) for w in wishes}
-    top, mean, at = (samples[w] for w in wishes)
+    samples = {w: engine.traces[w].since(0) for w in requests}
+    top, mean, at = (samples[w] for w in requests)
     assert top[-1, 0] == 200 and (np.diff(top[:, 0]) > 0).all() and len(top) > 4
     assert (top[:, 1] >= mean[:, 1]).all() and np.allclose(top[:, 1], at[:, 1])
     driven.do(engine.reset)
-    assert all(engine.traces[w].count == 0 for w in wishes)
+    assert all(engine.traces[w].count == 0 for w in requests)
 
 
 def test_a_live_change_acts_at_once_and_a_structural_one_when_it_is_compiled(driven: Driven) -> None:
@@ -199,7 +201,7 @@ def test_what_cannot_go_on_is_refused_and_nothing_changes(driven: Driven) -> Non
             driven.do(lambda bad=bad: engine.adopt(m, bad))
     assert session.document is before
     with pytest.raises(ParameterError, match="takes no input"):
-        driven.do(lambda: engine.inject(Hand(m["s"].id, np.zeros(101))))
+        driven.do(lambda: engine.inject(Injection(m["s"].id, np.zeros(101))))
 
 
 def test_a_failure_stops_the_run_and_a_reset_ends_it(driven: Driven) -> None:

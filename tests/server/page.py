@@ -103,9 +103,9 @@ class Page:
             self.clocks += 1
             self._late = False
             if self.draws:
-                await self.tell(type="drawn", frame=m["frame"])
+                await self.send(type="drawn", frame=m["frame"])
 
-    async def tell(self, **message: Any) -> None:
+    async def send(self, **message: Any) -> None:
         """Say something."""
         await self.socket.send(json.dumps(message))
 
@@ -113,7 +113,7 @@ class Page:
         """Say something and wait for the answer."""
         self._request += 1
         number = self._request
-        await self.tell(type=type, request=number, **message)
+        await self.send(type=type, request=number, **message)
         await self.until(lambda: number in self._answers and not self._late)
         return self._answers.pop(number)
 

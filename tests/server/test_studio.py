@@ -267,13 +267,13 @@ def test_a_stalled_page_is_sent_nothing_more_and_holds_nobody_up(root: Path) -> 
             await other.runs()
             u = other.element("u")
             await other.do("watch", stream=1, element=u, port="activation")
-            await stalled.tell(type="watch", stream=1, element=u, port="activation")
+            await stalled.send(type="watch", stream=1, element=u, port="activation")
             await other.do("play")
             for k in range(100):
                 await other.do("set", element=u, parameter="tau", value=20 + k)
             await other.until(lambda: other.clocks > 60)
             assert stalled.clocks == 1, "it has not said that it took the first one in"
-            await stalled.tell(type="drawn", frame=stalled.clock["frame"])
+            await stalled.send(type="drawn", frame=stalled.clock["frame"])
             await stalled.until(lambda: stalled.clocks == 2)
             await stalled.until(lambda: stalled.said["changed"]["value"] == 119)
 
@@ -317,13 +317,13 @@ def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
 
 
 def test_what_is_compiled_late_is_shown_when_it_is_there(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    made = engine.look
+    made = engine.port_reader
 
     def slowly(*what: Any) -> Any:
         time.sleep(0.3)
         return made(*what)
 
-    monkeypatch.setattr(engine, "look", slowly)
+    monkeypatch.setattr(engine, "port_reader", slowly)
 
     async def scene(p: Page) -> None:
         await p.runs()
@@ -403,12 +403,12 @@ def test_leaving_unsaved_edits_asks(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("set", element=p.element("u"), parameter="tau", value=30)
-        for wish in (
+        for request in (
             {"type": "open_file", "path": "node.json"},
             {"type": "close"},
             {"type": "open_example", "name": "detection"},
         ):
-            assert (await p.ask(**wish))["ask"] == "unsaved"
+            assert (await p.ask(**request))["ask"] == "unsaved"
         await p.do("close", discard=True)
         await p.until(lambda: p.said["opened"]["document"] is None)
 

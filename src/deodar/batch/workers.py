@@ -117,12 +117,12 @@ def work(job: WorkerTask) -> PieceResult:
     """Run one piece."""
     with _mapped(job.board) as board:
 
-        def told(done: int) -> None:
+        def report(done: int) -> None:
             board[job.number] = done
             if board[-1]:
                 raise KeyboardInterrupt
 
         try:
-            return compute(job.packed.model, job.request, job.packed.world(), told)
+            return compute(job.packed.model, job.request, job.packed.world(), report)
         except Interrupted as error:
             return PieceResult(error.data, False)

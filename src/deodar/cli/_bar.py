@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from deodar.experiments.jobs import Standing
+    from deodar.experiments.jobs import Progress
 
 
 class Bar:
@@ -34,13 +34,13 @@ class Bar:
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
 
-    def show(self, standing: Standing) -> None:
+    def show(self, progress: Progress) -> None:
         """Draw the progress."""
-        left = "" if standing.left is None else f"{lasting(standing.left)} left"
+        left = "" if progress.left is None else f"{lasting(progress.left)} left"
         self._bar.update(
             self._task,
-            completed=standing.share,
-            done=f"{standing.rows} of {standing.of} {self._what}",
+            completed=progress.share,
+            done=f"{progress.rows} of {progress.of} {self._what}",
             left=left,
         )
 

@@ -98,8 +98,8 @@ def _tell(args: argparse.Namespace, wanted: Path, demo: Demonstration) -> int:
     out, why = _written(args, wanted, fill)
     if args.json:
         elsewhere = {"instead_of": str(wanted)} if why else {}
-        told = {"out": str(out), "claims": codec.parse(text)["claims"], **elsewhere}
-        print(codec.text(told))
+        answer = {"out": str(out), "claims": codec.parse(text)["claims"], **elsewhere}
+        print(codec.text(answer))
     else:
         for c in demo.claims:
             mark = "?" if c.holds is None else "yes" if c.holds else "NO"

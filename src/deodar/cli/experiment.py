@@ -152,14 +152,14 @@ def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
     if lost := _diverged(data):
         print(f"deodar experiment: warning: {data.attrs['diverged']}", file=sys.stderr)
     if args.json:
-        told = {
+        answer = {
             "out": str(out),
             "trials": data.sizes["trial"],
             "outcomes": outcomes,
             "diverged": lost,
             "files": names,
         }
-        print(codec.text(told))
+        print(codec.text(answer))
         return
     for line in _cells(data):
         print(line)

@@ -171,9 +171,9 @@ def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapp
             f" {open_} are undecided."
         )
     if why:
-        told = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]
+        sentences = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]
         print(
-            f"deodar reproduce: {_options.paragraph(told)} With room there, write it with:"
+            f"deodar reproduce: {_options.paragraph(sentences)} With room there, write it with:"
             f" {_again(args, asked)}",
             file=sys.stderr,
         )

@@ -327,7 +327,7 @@ def _finish(
     if args.json:
         elsewhere = {"instead_of": str(place.given) if place.given else place.name} if failed else {}
         print(codec.text({**_answer(out, record, data, stopped, done), **elsewhere}))
-    told = f"Wrote {_contents(data)} to {_options.shown(out)}"
+    wrote = f"Wrote {_contents(data)} to {_options.shown(out)}"
     look = (
         f"Look at it with: deodar plot {_options.shown(out)}"
         if args.format != "csv"
@@ -335,12 +335,12 @@ def _finish(
     )
     if stopped:
         print(
-            f"deodar run: {_options.paragraph([stopped, f'{told}, marked as incomplete', look])}",
+            f"deodar run: {_options.paragraph([stopped, f'{wrote}, marked as incomplete', look])}",
             file=sys.stderr,
         )
         return 1
     if failed:
-        print(f"deodar run: {_options.paragraph([failed, f'{told} instead', look])}", file=sys.stderr)
+        print(f"deodar run: {_options.paragraph([failed, f'{wrote} instead', look])}", file=sys.stderr)
         return 1
     if done is not None and (done.differences or not done.same_bits):
         print(
@@ -351,9 +351,9 @@ def _finish(
         if done is not None and done.same_bits and not done.differences:
             print(_options.paragraph([str(done)]))
         print(
-            _options.paragraph([told, look]).rstrip(".")
+            _options.paragraph([wrote, look]).rstrip(".")
             if look.startswith("Look")
-            else _options.paragraph([told, look])
+            else _options.paragraph([wrote, look])
         )
     return 0 if good else 1
 

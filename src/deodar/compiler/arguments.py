@@ -39,7 +39,7 @@ class BodyState(TypedDict):
 
     now: PyTree
     sensed: Arrays
-    told: Arrays
+    commands: Arrays
 
 
 class ProgramState(TypedDict):

@@ -25,7 +25,7 @@ T = TypeVar("T")
 class Body:
     """A pure world, with the sensors and motors that a model uses.
 
-    The state of a copy contains `now` (the world), `sensed` (its readings, by the sensor's id) and `told`
+    The state of a copy contains `now` (the world), `sensed` (its readings, by the sensor's id) and `commands`
     (the commands of its motors, by name); every array has a leading axis of one, like the rows of groups.
 
     Attributes:
@@ -59,11 +59,11 @@ class Body:
 
     def begin(self, shared: Arrays, own: PyTree, now: PyTree) -> BodyState:
         """Return the state of a copy at the start."""
-        told = {
+        commands = {
             name: jnp.zeros(signal.shape or (), jnp.result_type(float))
             for name, signal in self.world.motors.items()
         }
-        return _rows({"now": now, "sensed": self._sensed(shared, own, now), "told": told})
+        return _rows({"now": now, "sensed": self._sensed(shared, own, now), "commands": commands})
 
     def sensed(self, state: BodyState) -> Arrays:
         """Return the readings of the sensors."""
@@ -75,21 +75,21 @@ class Body:
         """Return the state at tick + 1: motors receive commands at multiples of the period, whose effects are
         visible one period later.
         """
-        told = dict(state["told"])
+        held = dict(state["commands"])
         listens = tick % period == 0
         for ident, command in commands.items():
             name = self.motors[ident].motor
-            told[name] = jnp.where(listens, command[None].astype(told[name].dtype), told[name])
+            held[name] = jnp.where(listens, command[None].astype(held[name].dtype), held[name])
 
         def advance() -> dict[str, PyTree]:
-            now = self.world.advance(shared, own, _copy(state["now"]), _copy(told))
+            now = self.world.advance(shared, own, _copy(state["now"]), _copy(held))
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
             return _rows({"now": now, "sensed": self._sensed(shared, own, now)})
 
         moved = lax.cond(
             (tick + jnp.uint32(1)) % period == 0, advance, lambda: {k: state[k] for k in ("now", "sensed")}
         )
-        return {"now": moved["now"], "sensed": moved["sensed"], "told": told}
+        return {"now": moved["now"], "sensed": moved["sensed"], "commands": held}
 
     def _sensed(self, shared: Arrays, own: PyTree, now: PyTree) -> Arrays:
         dtype = shared_dtype(shared)

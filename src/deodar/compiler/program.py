@@ -193,12 +193,12 @@ class Program:
                 new[call.group] = self._gated(call.group, run, old, held, tick)
         if self.body is None:
             return {"groups": new, "held": held}
-        told = {
+        commands = {
             ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]
         }
         assert "world" in chunk.values and "world" in chunk.keys and "world" in state
         world = self.body.step(
-            chunk.values["world"], chunk.keys["world"], state["world"], told, tick, chunk.clock["period"]
+            chunk.values["world"], chunk.keys["world"], state["world"], commands, tick, chunk.clock["period"]
         )
         return {"groups": new, "held": held, "world": world}
 

@@ -89,10 +89,10 @@ def order(
             near = {n: k for k, n in enumerate(now[c - 1 if down else c + 1])}
             links = before if down else after
             here = {n: float(k) for k, n in enumerate(now[c])}
-            wish = {
+            request = {
                 n: (sum(near[m] for m in links[n]) / len(links[n]) if links[n] else here[n]) for n in now[c]
             }
-            now[c] = sorted(now[c], key=lambda n, wish=wish, here=here: (wish[n], here[n]))
+            now[c] = sorted(now[c], key=lambda n, request=request, here=here: (request[n], here[n]))
         count = crossings(now, after)
         if count < least:
             best, least = [list(column) for column in now], count

@@ -327,12 +327,12 @@ class _Level:
         pulls = self._pulls()
         for turn in range(ROUNDS):
             for c in range(len(columns)) if turn % 2 == 0 else range(len(columns) - 1, -1, -1):
-                wishes, weights = list[float](), list[float]()
+                requests, weights = list[float](), list[float]()
                 for n in columns[c]:
                     total = sum(w for _, _, w in pulls[n])
-                    wishes.append(sum((y[m] + by) * w for m, by, w in pulls[n]) / total if total else y[n])
+                    requests.append(sum((y[m] + by) * w for m, by, w in pulls[n]) / total if total else y[n])
                     weights.append(total or 0.01)
-                for n, at in zip(columns[c], settle(wishes, weights, gaps[c]), strict=True):
+                for n, at in zip(columns[c], settle(requests, weights, gaps[c]), strict=True):
                     y[n] = at
         return y
 

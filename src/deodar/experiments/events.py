@@ -21,7 +21,7 @@ COMPARES = {"above": operator.gt, "below": operator.lt}
 
 
 @dataclass
-class Looks:
+class Samples:
     """Samples of some copies.
 
     Attributes:
@@ -63,7 +63,7 @@ class Event(Part):
         """Names of the other events that the event is made of."""
         return ()
 
-    def holds(self, looks: Looks) -> np.ndarray:
+    def holds(self, samples: Samples) -> np.ndarray:
         """Return whether the event holds at each sampling time, (copies, sampling times)."""
         raise NotImplementedError
 
@@ -102,8 +102,8 @@ class Crosses(Event):
     def views(self) -> tuple[Observable, ...]:
         return (Observable(self.of, self.reduce),)
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        return COMPARES[self.side](looks.seen[self.views[0]], self.level)
+    def holds(self, samples: Samples) -> np.ndarray:
+        return COMPARES[self.side](samples.seen[self.views[0]], self.level)
 
 
 @EVENTS.register
@@ -121,8 +121,8 @@ class Reached(Event):
     at: Annotated[float, Recompile("time", role="moment", lower=0.0, meaning="the document time")]
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        return (looks.times >= self.at - 1e-9 * max(1.0, abs(self.at)))[None]
+    def holds(self, samples: Samples) -> np.ndarray:
+        return (samples.times >= self.at - 1e-9 * max(1.0, abs(self.at)))[None]
 
 
 @EVENTS.register
@@ -165,8 +165,8 @@ class Appears(Event):
         if self.near is not None and self.radius == 0.0:
             yield "radius", "is 0, and a place alone contains no sample; state a radius"
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        return looks.seen[self.views[0]] > self.threshold
+    def holds(self, samples: Samples) -> np.ndarray:
+        return samples.seen[self.views[0]] > self.threshold
 
 
 @EVENTS.register
@@ -187,8 +187,8 @@ class Vanishes(Appears):
 
     turns: ClassVar[bool] = True
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        return ~super().holds(looks)
+    def holds(self, samples: Samples) -> np.ndarray:
+        return ~super().holds(samples)
 
 
 @EVENTS.register
@@ -216,8 +216,8 @@ class Within(Event):
     def views(self) -> tuple[Observable, ...]:
         return Observable(self.of), Observable(self.goal)
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        of, goal = (looks.seen[view][..., :2] for view in self.views)
+    def holds(self, samples: Samples) -> np.ndarray:
+        of, goal = (samples.seen[view][..., :2] for view in self.views)
         return np.linalg.norm(of - goal, axis=-1) <= self.radius
 
 
@@ -244,9 +244,11 @@ class Leaves(Event):
     def views(self) -> tuple[Observable, ...]:
         return (Observable(self.of),)
 
-    def holds(self, looks: Looks) -> np.ndarray:
+    def holds(self, samples: Samples) -> np.ndarray:
         view = self.views[0]
-        return np.linalg.norm(looks.seen[view][..., :2] - looks.first[view][..., :2], axis=-1) > self.radius
+        return (
+            np.linalg.norm(samples.seen[view][..., :2] - samples.first[view][..., :2], axis=-1) > self.radius
+        )
 
 
 @EVENTS.register
@@ -274,8 +276,8 @@ class All(Event):
         if not self.of:
             yield "of", "names no events"
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        return np.logical_and.reduce([looks.holds[name] for name in self.of])
+    def holds(self, samples: Samples) -> np.ndarray:
+        return np.logical_and.reduce([samples.holds[name] for name in self.of])
 
 
 @EVENTS.register
@@ -290,5 +292,5 @@ class AnyOf(All):
         ends: whether the event ends the trial.
     """
 
-    def holds(self, looks: Looks) -> np.ndarray:
-        return np.logical_or.reduce([looks.holds[name] for name in self.of])
+    def holds(self, samples: Samples) -> np.ndarray:
+        return np.logical_or.reduce([samples.holds[name] for name in self.of])

@@ -12,7 +12,7 @@ from deodar import renamed
 from deodar.batch.simulate import LONG_STEPS
 from deodar.errors import DeodarError, Problem, RunWarning
 from deodar.experiments.design import Design
-from deodar.experiments.jobs import Standing
+from deodar.experiments.jobs import Progress
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.results import carry
 from deodar.experiments.setup import Setup
@@ -74,7 +74,7 @@ class Experiment(Design):
         self,
         out: str | Path | None = None,
         workers: int | None = None,
-        progress: Callable[[Standing], None] | None = None,
+        progress: Callable[[Progress], None] | None = None,
         trust: bool = False,
     ) -> xarray.Dataset:
         """Run all trials without a row, and return the table of all trials.
@@ -83,7 +83,7 @@ class Experiment(Design):
             out: folder of the results. An existing run in this folder is resumed, with the same results as
                 without the stop. None: results are not stored.
             workers: number of processes of one core each; none: this process.
-            progress: function that is called with a `Standing` after each piece.
+            progress: function that is called with a `Progress` after each piece.
             trust: whether functions that the document names may be imported and run.
 
         Returns:

@@ -36,7 +36,7 @@ class Job:
 
 
 @dataclass(frozen=True)
-class Standing:
+class Progress:
     """Progress of an experiment.
 
     Attributes:
@@ -55,7 +55,7 @@ class Standing:
 def carry_out(
     jobs: Sequence[Job],
     rows: Rows,
-    progress: Callable[[Standing], None] | None = None,
+    progress: Callable[[Progress], None] | None = None,
     workers: int | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
@@ -65,7 +65,7 @@ def carry_out(
     Args:
         jobs: all of the experiment.
         rows: the store of rows; a job all of whose rows exist is not run again.
-        progress: function that is called with a `Standing` after each job.
+        progress: function that is called with a `Progress` after each job.
         workers: number of processes of one core each; none: this process, one job after another. A script
             that calls this with workers must do so below `if __name__ == "__main__":`.
 
@@ -86,7 +86,7 @@ def carry_out(
         kept = sum(key in rows.found for job in jobs for key in job.keys)
         if progress is not None:
             progress(
-                Standing(
+                Progress(
                     kept, sum(len(job.keys) for job in jobs), (before + done) / total if total else 1.0, left
                 )
             )

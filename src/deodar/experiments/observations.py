@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from deodar.errors import ParameterError, UnknownName, did_you_mean
-from deodar.experiments.events import Event, Looks
+from deodar.experiments.events import Event, Samples
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
 from deodar.numerics.axes import Axes
@@ -66,19 +66,19 @@ class Observations:
         at, n = np.asarray(rows), len(times)
         if not self._first:
             self._first = {view: np.array(values[:, :1]) for view, values in seen.items()}
-        looks = Looks(times, seen, {view: first[at] for view, first in self._first.items()})
+        samples = Samples(times, seen, {view: first[at] for view, first in self._first.items()})
         running = np.array([not self.outcome[r] for r in rows])
         valid = np.full(len(rows), n) if good is None else good
         before_it = np.arange(n) < valid[:, None]
         hits = np.full((len(self.events), len(rows)), n)
         for k in self._order:
             event = self.events[k]
-            holds = np.broadcast_to(np.asarray(event.holds(looks)), (len(rows), n)) & before_it
+            holds = np.broadcast_to(np.asarray(event.holds(samples)), (len(rows), n)) & before_it
             if event.turns:
                 before = self._been[k, at][:, None] | np.logical_or.accumulate(~holds, axis=1)
                 self._been[k, at] = before[:, -1]
                 holds = holds & before
-            looks.holds[event.name] = holds
+            samples.holds[event.name] = holds
             counts = self._counts[k, at][:, None] + np.cumsum(holds, axis=1)
             self._counts[k, at] = counts[:, -1]
             reached = counts >= event.times

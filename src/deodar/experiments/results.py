@@ -19,7 +19,7 @@ from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, RecordError
 from deodar.experiments import packed
-from deodar.experiments.jobs import Job, Standing, carry_out
+from deodar.experiments.jobs import Job, Progress, carry_out
 from deodar.experiments.migrations import migrate
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
@@ -46,7 +46,7 @@ def carry(
     setup: Setup,
     out: str | Path | None,
     workers: int | None = None,
-    progress: Callable[[Standing], None] | None = None,
+    progress: Callable[[Progress], None] | None = None,
 ) -> xarray.Dataset:
     """Run the trials without a row, write the table, and return it.
 
@@ -54,7 +54,7 @@ def carry(
         setup: the opened experiment.
         out: the folder; None: results are not stored.
         workers: number of processes of one core each; none: this process.
-        progress: function that is called with a `Standing` after each piece.
+        progress: function that is called with a `Progress` after each piece.
     """
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
@@ -65,7 +65,7 @@ def carry(
 
 
 def _carry(
-    setup: Setup, out: Path, workers: int | None, progress: Callable[[Standing], None] | None
+    setup: Setup, out: Path, workers: int | None, progress: Callable[[Progress], None] | None
 ) -> xarray.Dataset:
     about = _about(setup, workers, out)
     rows = Rows(out / ROWS, about, read=lambda made: _of_today(made, about, setup.model.document))

@@ -53,24 +53,24 @@ class Rows:
     ) -> None:
         self.path = path
         self.found: dict[str, Row] = {}
-        told = codec.parse(codec.line({ABOUT: about}))
+        stored = codec.parse(codec.line({ABOUT: about}))
         places.require_parent(path)
         lines = self._lines()
         if not lines:
-            output.append(path, (codec.line(told, ascii=True) + "\n").encode())
+            output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
             return
         if not isinstance(lines[0].get(ABOUT), dict):
             raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
         made = read([line[ABOUT] for line in lines if KEY not in line][-1])
-        changed = different(told[ABOUT], made, by_condition)
+        changed = different(stored[ABOUT], made, by_condition)
         if changed:
             raise OutputExists(
                 f"holds runs of another experiment: {', '.join(changed)} differ",
                 where=str(path),
                 fix="Choose another name",
             )
-        if made != told[ABOUT]:
-            output.append(path, (codec.line(told, ascii=True) + "\n").encode())
+        if made != stored[ABOUT]:
+            output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
         self.found = {row[KEY]: row for row in lines if KEY in row}
 
     def append(self, rows: Iterable[Row]) -> None:

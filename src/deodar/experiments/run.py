@@ -26,7 +26,7 @@ from deodar.model.model import Model
 from deodar.numerics.axes import Axes, Axis
 from deodar.session.clock import Clock
 from deodar.session.failure import not_finite
-from deodar.session.look import Look, look
+from deodar.session.port_reader import PortReader, port_reader
 from deodar.session.run import whole
 from deodar.session.session import Session, require_model
 from deodar.session.unit import unit_seconds
@@ -209,14 +209,14 @@ class _Eye:
         if session.world is not None and not self.places:
             tied = [e.id for e in session.document.entries if isinstance(e.element, (Motor, Sensor))]
             self.places = [(ident, "output") for ident in tied[:1]]
-        self.look: Look = look(session.program, self.places)
+        self.reader: PortReader = port_reader(session.program, self.places)
 
     def see(self) -> tuple[dict[str, np.ndarray], dict[Observable, np.ndarray]]:
         """Return the values of the watched ports, and the value of each view, as one sample of one trial."""
         session = self.session
-        if self.look.program is not session.program:  # an action compiled another one
-            self.look = look(session.program, self.places)
-        arrays = session.look(self.look, self.places)
+        if self.reader.program is not session.program:  # an action compiled another one
+            self.reader = port_reader(session.program, self.places)
+        arrays = session.look(self.reader, self.places)
         self._require_finite(arrays)
         sensed = self._sensed()
         values = {

@@ -114,10 +114,10 @@ def cues_figure(result: DrawnResult) -> Figure:
         bar = out.colorbar(image, cax=grid[0, 3].inset_axes((0.02, 0.12, 0.045, 0.8)))
         bar.set_label("activation (0: threshold)")
         bar.ax.axhline(0, color="black", linewidth=MEDIUM)
-        told = grid[0, 3].text(
+        legend = grid[0, 3].text(
             0.34, 0.92, EXPLAINED, va="top", fontsize=SMALL, linespacing=1.6, transform=grid[0, 3].transAxes
         )
-        told.set_in_layout(False)
+        legend.set_in_layout(False)
     return out
 
 

@@ -19,7 +19,7 @@ FLOATS = list[tuple[float, ...]]
 
 
 @dataclass(frozen=True)
-class Course:
+class StyledPath:
     """A path and its line style.
 
     Attributes:
@@ -41,12 +41,12 @@ class Panel:
 
     Attributes:
         title: title above the panel.
-        courses: the paths.
+        paths: the paths.
         obstacle: x and y of the middle, width and height of an obstacle; None: no obstacle.
     """
 
     title: str
-    courses: Sequence[Course]
+    paths: Sequence[StyledPath]
     obstacle: tuple[float, float, float, float] | None = None
 
 
@@ -65,11 +65,11 @@ class Speeds:
     shaded: tuple[float, float] | None = None
 
 
-def paths_figure(arena: Arena, courses: Sequence[Course]) -> Figure:
+def paths_figure(arena: Arena, paths: Sequence[StyledPath]) -> Figure:
     """Draw several paths in one maze, with start and goal."""
     with _style.style():
         figure = _style.figure(_style.SINGLE, _style.SINGLE)
-        _paint(figure.subplots(), arena, courses, _style.MEDIUM, 1.0)
+        _paint(figure.subplots(), arena, paths, _style.MEDIUM, 1.0)
     return figure
 
 
@@ -84,7 +84,7 @@ def routes_figure(arena: Arena, panels: Sequence[Panel]) -> Figure:
                 x, y, w, h = panel.obstacle
                 outline = Rectangle((x - w / 2, y - h / 2), w, h, **_style.OUTLINE)
                 ax.add_patch(outline)
-            _paint(ax, arena, panel.courses, _style.THIN, 0.6)
+            _paint(ax, arena, panel.paths, _style.THIN, 0.6)
             ax.set_title(panel.title)
     return figure
 
@@ -138,10 +138,10 @@ def choice_figure(
     return figure
 
 
-def _paint(ax: Axes, arena: Arena, courses: Sequence[Course], width: float, alpha: float) -> None:
+def _paint(ax: Axes, arena: Arena, paths: Sequence[StyledPath], width: float, alpha: float) -> None:
     maze.walls(ax, arena, arena.furniture.standing())
     maze.labels(ax, arena)
-    for c in courses:
+    for c in paths:
         ax.plot(*c.path[:, :2].T, LINES[c.dashed], color=c.colour, linewidth=width, alpha=alpha)
         if c.goal is not None:
             ax.plot(*c.path[0, :2], "o", color=c.colour, markersize=_style.DOT)

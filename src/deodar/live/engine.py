@@ -19,14 +19,14 @@ from typing import Any, TypeVar
 import numpy as np
 
 from deodar.errors import ModelError, NotFinite, Problem
-from deodar.live.bill import Bill, said
-from deodar.live.trace import Trace, Wish
+from deodar.live.cost_report import CostReport, said
+from deodar.live.trace import Trace, TraceRequest
 from deodar.live.track import Track
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.session.cost import StepCost, costs
-from deodar.session.look import Look, PortKey, look
 from deodar.session.pace import Pace, require_longest
+from deodar.session.port_reader import PortKey, PortReader, port_reader
 from deodar.session.run import require_step
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -52,7 +52,7 @@ class Shot:
 
 
 @dc.dataclass
-class Hand:
+class Injection:
     """An external input to an element, injected until it is released."""
 
     element: str
@@ -68,7 +68,7 @@ class Engine:
         failure: why the run stopped, and the paths of the elements concerned.
         busy: a phrase for the compilation in progress; empty: none.
         pace: requested and achieved speed.
-        bill: cost of elements, as last measured.
+        cost_report: cost of elements, as last measured.
         traces: time courses by their specification; only the engine adds samples.
         track: the world from above, and the paths of its bodies.
     """
@@ -82,23 +82,23 @@ class Engine:
         self._stale = True
         self._shown = 0.0
         self._places: frozenset[PortKey] = frozenset()
-        self._looks: list[Look] = []
-        self._look: Look | None = None
-        self._sample: Look | None = None
+        self._readers: list[PortReader] = []
+        self._reader: PortReader | None = None
+        self._sample: PortReader | None = None
         self._target: tuple[Model, Document] | None = None
         self._making: Future[Any] | None = None
         self._steps = 0
         self._compiler = ThreadPoolExecutor(2, "deodar-compiler")  # one to compile, one to measure
         self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
         self.session: Session | None = None
-        self.hand: Hand | None = None
-        self.traces: dict[Wish, Trace] = {}
+        self.injection: Injection | None = None
+        self.traces: dict[TraceRequest, Trace] = {}
         self.shot = Shot(0, 0.0, 0, {})
         self.running = False
         self.failure: tuple[tuple[Problem, ...], tuple[str, ...]] = ((), ())
         self.busy = ""
         self.pace = Pace()
-        self.bill = Bill()
+        self.cost_report = CostReport()
         self.track = Track()
         self._thread.start()
 
@@ -129,10 +129,10 @@ class Engine:
         """Use another session. It is paused, unless `play` or `step` was called while there was none."""
         waited = self.session is None and session is not None
         self.running, self._steps = self.running and waited, self._steps if waited else 0
-        self.session, self.hand, self._target = session, None, None
-        self.failure, self._look, self._sample = ((), ()), None, None
-        self._looks.clear()
-        speed, self.pace, self.bill = self.pace.speed, Pace(), Bill()
+        self.session, self.injection, self._target = session, None, None
+        self.failure, self._reader, self._sample = ((), ()), None, None
+        self._readers.clear()
+        speed, self.pace, self.cost_report = self.pace.speed, Pace(), CostReport()
         self.pace.speed = speed
         self.restart()
         self._make()
@@ -160,8 +160,8 @@ class Engine:
 
     def restart(self) -> None:
         """Clear the time courses and restart the pace."""
-        for wish in self.traces:
-            self.traces[wish] = Trace()
+        for request in self.traces:
+            self.traces[request] = Trace()
         self.pace.restart()
         self._stale = True
 
@@ -197,12 +197,12 @@ class Engine:
     def measure(self) -> None:
         """Measure the present cost of elements in the second thread, while the run continues.
 
-        The result is in `bill`.
+        The result is in `cost_report`.
         """
         session = self._require()
-        if self.bill.measuring:
+        if self.cost_report.measuring:
             return
-        self.bill, at = Bill(True, self.bill.costs), session.moment()
+        self.cost_report, at = CostReport(True, self.cost_report.costs), session.moment()
         found = self._compiler.submit(lambda: costs(at))
         found.add_done_callback(
             lambda future: self._closed or self.call(lambda: self._billed(session, future))
@@ -219,17 +219,17 @@ class Engine:
         how(self._require())
         self._stale = True
 
-    def inject(self, hand: Hand | None) -> None:
+    def inject(self, injection: Injection | None) -> None:
         """Inject an external input into the running model; None releases it."""
-        if hand is not None and self.session is not None:
-            self.session.require_push(hand.element)
-        self.hand = hand
+        if injection is not None and self.session is not None:
+            self.session.require_push(injection.element)
+        self.injection = injection
         self._stale = True
 
-    def show(self, places: Iterable[PortKey], wishes: Iterable[Wish]) -> None:
+    def show(self, places: Iterable[PortKey], requests: Iterable[TraceRequest]) -> None:
         """Set the places that shots contain from now on, and the time courses that are sampled."""
         self._places = frozenset(places)
-        self.traces = {wish: self.traces.get(wish, Trace()) for wish in wishes}
+        self.traces = {request: self.traces.get(request, Trace()) for request in requests}
         self._make()
         self._stale = True
 
@@ -280,10 +280,10 @@ class Engine:
         return 0.0
 
     def _advance(self, session: Session, n: int) -> None:
-        hand = self.hand
-        entry = session.document.by_id().get(hand.element) if hand is not None else None
-        if hand is not None and entry is not None:
-            session.inject(entry.path, hand.amount, n)
+        injection = self.injection
+        entry = session.document.by_id().get(injection.element) if injection is not None else None
+        if injection is not None and entry is not None:
+            session.inject(entry.path, injection.amount, n)
         else:
             session.step(n)
 
@@ -301,11 +301,13 @@ class Engine:
         sample = self._sample
         if not self.traces or sample is None or sample.program is not session.program:
             return
-        arrays = self._with_hand(session.look(sample, {wish.place for wish in self.traces}), session)
-        for wish, trace in self.traces.items():
-            if wish.place in arrays:
-                axes = session.program.axes(session.program.port(*wish.place))
-                trace.add(session.time, wish.value(arrays[wish.place], axes))
+        arrays = self._with_injection(
+            session.look(sample, {request.place for request in self.traces}), session
+        )
+        for request, trace in self.traces.items():
+            if request.place in arrays:
+                axes = session.program.axes(session.program.port(*request.place))
+                trace.add(session.time, request.value(arrays[request.place], axes))
 
     def _take_first(self, session: Session) -> None:
         """Take the first sample of new time courses, also during a pause."""
@@ -313,15 +315,15 @@ class Engine:
             self._take_samples(session)
             self._stale = True
 
-    def _with_hand(
+    def _with_injection(
         self, arrays: Mapping[PortKey, np.ndarray], session: Session
     ) -> Mapping[PortKey, np.ndarray]:
         """Add an injected input to the published input of its element."""
-        entry = session.document.by_id().get(self.hand.element) if self.hand is not None else None
-        if self.hand is None or entry is None:
+        entry = session.document.by_id().get(self.injection.element) if self.injection is not None else None
+        if self.injection is None or entry is None:
             return arrays
         place = (entry.id, entry.element.ports()[0])
-        return {**arrays, place: arrays[place] + self.hand.amount} if place in arrays else arrays
+        return {**arrays, place: arrays[place] + self.injection.amount} if place in arrays else arrays
 
     def _publish(self) -> None:
         """Publish a shot if the state changed, one was requested, and the last one is older than FRAME."""
@@ -330,10 +332,10 @@ class Engine:
             return
         # before the shot is published, because its readers may request the next one at once
         self._stale, self._wanted = False, False
-        session, seen = self.session, self._look
+        session, seen = self.session, self._reader
         arrays: Mapping[PortKey, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
-            arrays = self._with_hand(session.look(seen, self._places), session)
+            arrays = self._with_injection(session.look(seen, self._places), session)
         self.track.follow(session)
         moment = (session.time, session.tick) if session is not None else (0.0, 0)
         self.shot = Shot(self.shot.number + 1, *moment, arrays)
@@ -341,7 +343,7 @@ class Engine:
         self._changed()
 
     def _fail(self, error: Exception) -> None:
-        self.running, self._steps, self.hand = False, 0, None
+        self.running, self._steps, self.injection = False, 0, None
         paths = error.paths if isinstance(error, NotFinite) else ()
         self.failure, self._stale = (said(error), paths), True
         self._changed()
@@ -349,29 +351,31 @@ class Engine:
     def _billed(self, session: Session, future: Future[StepCost]) -> None:
         if session is self.session:
             error = future.exception()
-            self.bill = Bill(costs=future.result()) if error is None else Bill(problems=said(error))
+            self.cost_report = (
+                CostReport(costs=future.result()) if error is None else CostReport(problems=said(error))
+            )
 
     # ------------------------------------------------------------------------------- compiling beside the run
 
     def _make(self) -> None:
-        """Compile the program of the target, and a `Look` for places and time courses, unless known."""
+        """Compile the program of the target, and a `PortReader` for places and time courses, unless known."""
         session = self.session
         if session is None or self._making is not None:
             return
         model, document = self._target or (None, session.document)
-        wanted = (self._places, frozenset(wish.place for wish in self.traces))
-        known, program = list(self._looks), session.program
+        wanted = (self._places, frozenset(request.place for request in self.traces))
+        known, program = list(self._readers), session.program
 
-        def make() -> tuple[Any, list[Look]]:
+        def make() -> tuple[Any, list[PortReader]]:
             made = program
             if model is not None:
                 made = session.compiled(document, model)
                 made.chunk(())
-            return made, [_found(known, made, places) or look(made, places) for places in wanted]
+            return made, [_found(known, made, places) or port_reader(made, places) for places in wanted]
 
         there = [_found(known, program, places) for places in wanted]
         if model is None and there[0] is not None and there[1] is not None:
-            self._look, self._sample = there[0], there[1]
+            self._reader, self._sample = there[0], there[1]
             self._take_first(session)
             return
         self.busy = "compiling" if model is not None else self.busy
@@ -393,8 +397,8 @@ class Engine:
         self._keep_step()
         try:
             program, (at_shown, at_sampled) = future.result()
-            self._looks = [
-                *(known for known in self._looks if known not in (at_shown, at_sampled)),
+            self._readers = [
+                *(known for known in self._readers if known not in (at_shown, at_sampled)),
                 at_shown,
                 at_sampled,
             ][-MOST_LOOKS:]
@@ -409,14 +413,14 @@ class Engine:
             self._fail(error)
             return None
         if session.program is program:
-            self._look, self._sample = at_shown, at_sampled
+            self._reader, self._sample = at_shown, at_sampled
             self._take_first(session)
-        now = (self._places, frozenset(wish.place for wish in self.traces))
+        now = (self._places, frozenset(request.place for request in self.traces))
         if self._target is not None or now != wanted or session.program is not program:
             self._make()
         return None
 
 
-def _found(known: Sequence[Look], program: Any, places: Iterable[PortKey]) -> Look | None:
-    """Return a known `Look` of a program that reads exactly the groups of these places, or None."""
+def _found(known: Sequence[PortReader], program: Any, places: Iterable[PortKey]) -> PortReader | None:
+    """Return a known `PortReader` of a program that reads exactly the groups of these places, or None."""
     return next((one for one in known if one.program is program and one.fits(places)), None)

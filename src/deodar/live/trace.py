@@ -8,14 +8,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.numerics.axes import Axis
-from deodar.session.look import PortKey
+from deodar.session.port_reader import PortKey
 
 CAPACITY = 16384
 """Number of samples in the buffer (a guess: a minute at the rate at which a page draws)."""
 
 
 @dc.dataclass(frozen=True)
-class Wish:
+class TraceRequest:
     """Specification of a time course: a node's value, or an array's maximum, mean or value at a position.
 
     The position `at` is in axis units; axes without a value there use their middle.

@@ -43,8 +43,8 @@ def made_by(device: Any) -> dict[str, str]:
 
 def cores_of(about: Mapping[str, Any]) -> int:
     """Return the number of cores that a record was made with; 1 if it states none."""
-    told = str((about.get("made_by") or {}).get("cores", ""))
-    return max(1, int(told)) if told.isdecimal() else 1
+    cores = str((about.get("made_by") or {}).get("cores", ""))
+    return max(1, int(cores)) if cores.isdecimal() else 1
 
 
 def machine() -> str:

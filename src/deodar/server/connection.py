@@ -161,9 +161,9 @@ class PageConnection:
         sent = shot.number != self._shot
         self._shot = shot.number
         for stream in list(self.page.streams.values()):
-            told = stream.news(engine.session)
-            if told is not None:
-                await self._text(told)
+            news = stream.news(engine.session)
+            if news is not None:
+                await self._text(news)
                 sent = spoke = True
             data = stream.frame(engine) if sent else None
             if data is not None:

@@ -7,7 +7,7 @@ import contextlib
 from pathlib import Path
 
 from deodar import __version__
-from deodar.live.bill import Bill
+from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
 from deodar.server import gallery, view
 from deodar.server.aside import attempt
@@ -32,9 +32,9 @@ class Hub:
 
     def __init__(self, root: Path, trust: bool, world: World | None) -> None:
         self._loop = asyncio.get_running_loop()
-        self._told = False
+        self._wake_scheduled = False
         self._gallery = Gallery(recent=[], recoveries=[])
-        self._told_costs: tuple[Bill, Costs] | None = None
+        self._sent_costs: tuple[CostReport, Costs] | None = None
         self.pages: set[Page] = set()
         self._connected = 0
         self.workspace = Workspace(root)
@@ -42,7 +42,7 @@ class Hub:
         self.embodiment = Embodiment(world)
         self.engine = Engine(self._from_engine)
         self.project = OpenProject(
-            self.workspace, self.keeper, self.engine, self.embodiment, trust, self.tell
+            self.workspace, self.keeper, self.engine, self.embodiment, trust, self.notify
         )
         self.welcome = Welcome(
             version=__version__,
@@ -52,20 +52,20 @@ class Hub:
         )
         self._keeping = asyncio.create_task(self._keep())
 
-    # ------------------------------------------------------------------------------------------------ telling
+    # ---------------------------------------------------------------------------------------------- notifying
 
-    def tell(self) -> None:
+    def notify(self) -> None:
         """Wake all pages, which check for news."""
-        self._told = False
+        self._wake_scheduled = False
         for page in self.pages:
             page.wake()
 
     def _from_engine(self) -> None:
-        """Call `tell` from the engine's thread; further calls before it has run are merged."""
-        if not self._told:
-            self._told = True
+        """Call `notify` from the engine's thread; further calls before it has run are merged."""
+        if not self._wake_scheduled:
+            self._wake_scheduled = True
             with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
-                self._loop.call_soon_threadsafe(self.tell)
+                self._loop.call_soon_threadsafe(self.notify)
 
     async def gallery(self) -> Gallery:
         """Return recent files and unsaved edits; the last result if the state folder does not answer."""
@@ -80,7 +80,7 @@ class Hub:
     def clock(self, frame: int) -> RunClock:
         """Return the time and status of the run."""
         engine, shot, session = self.engine, self.engine.shot, self.engine.session
-        hand, meter = engine.hand, Meter() if session is None else engine.pace.meter(session)
+        injection, meter = engine.injection, Meter() if session is None else engine.pace.meter(session)
         return RunClock(
             frame=frame,
             running=engine.running,
@@ -101,26 +101,26 @@ class Hub:
             failure=self.project.failures(),
             world=self.embodiment.label,
             senses=session is not None and bool(session.program.plan.sensors),
-            pushing="" if hand is None else hand.element,
+            pushing="" if injection is None else injection.element,
         )
 
     def costs(self) -> Costs:
         """Return the cost of the elements as last measured."""
-        bill = self.engine.bill
-        if self._told_costs is None or self._told_costs[0] is not bill:
-            found = bill.costs
+        report = self.engine.cost_report
+        if self._sent_costs is None or self._sent_costs[0] is not report:
+            found = report.costs
             listed = () if found is None else found.elements
             elements = [
                 CostView(element=c.id, path=c.path, kind=c.kind, us=c.us, alike=c.alike, once=c.once)
                 for c in listed
             ]
-            problems = view.problems(bill.problems, None)
+            problems = view.problems(report.problems, None)
             step = 0.0 if found is None else found.step
-            self._told_costs = (
-                bill,
-                Costs(measuring=bill.measuring, step=step, elements=elements, problems=problems),
+            self._sent_costs = (
+                report,
+                Costs(measuring=report.measuring, step=step, elements=elements, problems=problems),
             )
-        return self._told_costs[1]
+        return self._sent_costs[1]
 
     # ----------------------------------------------------------------------------------------------- watching
 
@@ -132,14 +132,14 @@ class Hub:
     def watch(self) -> None:
         """Make the engine publish the ports and time courses that all pages watch."""
         streams = [s for p in self.pages for s in p.streams.values()]
-        places = {s.place for s in streams if s.wish is None}
-        wishes = list(dict.fromkeys(s.wish for s in streams if s.wish is not None))
-        self.engine.call(lambda: self.engine.show(places, wishes))
+        places = {s.place for s in streams if s.request is None}
+        requests = list(dict.fromkeys(s.request for s in streams if s.request is not None))
+        self.engine.call(lambda: self.engine.show(places, requests))
 
     def leave(self, page: Page) -> None:
         """Remove a page that disconnected; the run continues, and an input that the page injected ends."""
         self.pages.discard(page)
-        if self.engine.hand is not None and page.pushes:
+        if self.engine.injection is not None and page.pushes:
             self.engine.call(lambda: self.engine.inject(None))
         self.watch()
 

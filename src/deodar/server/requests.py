@@ -14,8 +14,8 @@ import numpy as np
 from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
-from deodar.live.engine import Hand
-from deodar.live.trace import Wish
+from deodar.live.engine import Injection
+from deodar.live.trace import TraceRequest
 from deodar.model import edit, files, find
 from deodar.numerics.axes import Axes
 from deodar.server import content, gallery, to_server
@@ -271,11 +271,11 @@ async def _push(hub: Hub, page: Page, m: to_server.PushInput) -> None:
     if session is None or entry is None:
         raise DocumentError("the running model has no such element", where=m.element)
     session.require_push(m.element)
-    hand = Hand(
+    injection = Injection(
         m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m)
     )
     page.pushes = True
-    await _engine(hub, page, lambda: engine.inject(hand))
+    await _engine(hub, page, lambda: engine.inject(injection))
 
 
 @handles(to_server.Release)
@@ -357,7 +357,7 @@ async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
 async def _trace(hub: Hub, page: Page, m: to_server.WatchTrace) -> None:
     _require_room(hub, page, m.stream)
     place = (m.element, m.port)
-    page.streams[m.stream] = Stream(m.stream, place, wish=Wish(place, m.reduce, tuple(m.at)))
+    page.streams[m.stream] = Stream(m.stream, place, request=TraceRequest(place, m.reduce, tuple(m.at)))
     hub.watch()
 
 

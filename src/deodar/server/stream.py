@@ -8,12 +8,12 @@ import numpy as np
 
 from deodar.errors import DeodarError, Problem
 from deodar.live.engine import Engine
-from deodar.live.trace import Trace, Wish
+from deodar.live.trace import Trace, TraceRequest
 from deodar.model import find
 from deodar.numerics.axes import Axes, Axis
 from deodar.server import frames, view
 from deodar.server.to_page import Announced, Lost
-from deodar.session.look import PortKey
+from deodar.session.port_reader import PortKey
 from deodar.session.session import Session
 
 CHANNELS = ("channel", 3)
@@ -21,10 +21,12 @@ CHANNELS = ("channel", 3)
 
 
 class Stream:
-    """A port of an element, or with a `wish` its time course, under a number that the page chose."""
+    """A port of an element, or with a `request` its time course, under a number that the page chose."""
 
-    def __init__(self, number: int, place: PortKey, most: int = 0, wish: Wish | None = None) -> None:
-        self.number, self.place, self.most, self.wish = number, place, most, wish
+    def __init__(
+        self, number: int, place: PortKey, most: int = 0, request: TraceRequest | None = None
+    ) -> None:
+        self.number, self.place, self.most, self.request = number, place, most, request
         self._said: Announced | Lost | None = None
         self._axes: Axes = ()
         self._trace: Trace | None = None
@@ -32,19 +34,19 @@ class Stream:
 
     def news(self, session: Session | None) -> Announced | Lost | None:
         """Return the message on the format of the stream if it changed, else None."""
-        told = None if session is None else self._form(session)
-        if told is None or told == self._said:
+        form = None if session is None else self._form(session)
+        if form is None or form == self._said:
             return None
-        self._said = told
-        return told
+        self._said = form
+        return form
 
     def frame(self, engine: Engine) -> bytes | None:
         """Return the frame to send, or None if there is nothing new."""
         if not isinstance(self._said, Announced):
             return None
         shot = engine.shot
-        if self.wish is not None:
-            return self._samples(engine.traces.get(self.wish), shot.number)
+        if self.request is not None:
+            return self._samples(engine.traces.get(self.request), shot.number)
         array = shot.arrays.get(self.place)
         if array is None:
             return None
@@ -75,7 +77,7 @@ class Stream:
         except (DeodarError, KeyError) as error:
             problems = error.problems if isinstance(error, DeodarError) else ()
             return _lost(self.number, problems[0] if problems else Problem(ident, f"has no port {port!r}"))
-        if self.wish is not None:
+        if self.request is not None:
             return Announced(stream=self.number, shape=[2], axes=[], folded=[], channels=False)
         channels = is_picture(self._axes)
         kept = self._axes if channels else self._axes[:2]

@@ -55,7 +55,8 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
         notes=doc.notes,
         axes=[axis(a, key) for a, key in named.items()],
         elements=[
-            _element(e, _told(data["elements"][e.path], arrays), nodes.get(e.id), named) for e in doc.entries
+            _element(e, _with_ranges(data["elements"][e.path], arrays), nodes.get(e.id), named)
+            for e in doc.entries
         ],
         connections=[
             ConnectionView(
@@ -132,10 +133,10 @@ def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mappin
     )
 
 
-def _told(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
+def _with_ranges(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
     """Return a value with the shape and the range of every array that it refers to."""
     if isinstance(value, list):
-        return [_told(v, arrays) for v in value]
+        return [_with_ranges(v, arrays) for v in value]
     if not isinstance(value, dict):
         return value
     if set(value) == {"array"} and value["array"] in arrays:
@@ -145,7 +146,7 @@ def _told(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
             "min": float(content.min()),
             "max": float(content.max()),
         }
-    return {key: _told(v, arrays) for key, v in value.items()}
+    return {key: _with_ranges(v, arrays) for key, v in value.items()}
 
 
 def _axis(data: Mapping[str, Any]) -> Axis:
@@ -162,7 +163,7 @@ def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
 def shown_value(doc: Document, element: str, parameter: str) -> Any:
     """Convert the value of a parameter for the page."""
     data, arrays = files.to_data(doc)
-    value = _told(data["elements"][doc.by_id()[element].path], arrays)
+    value = _with_ranges(data["elements"][doc.by_id()[element].path], arrays)
     for step in parameter.split("."):
         value = value[int(step)] if isinstance(value, list) else value[step]
     return value

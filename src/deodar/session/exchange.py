@@ -48,7 +48,7 @@ class WorldState:
         last: tick of the last exchange.
         due: tick of the next exchange.
         origin: tick from which periods are counted.
-        told: commands of the motors at the last exchange; None: not read yet.
+        commands: commands of the motors at the last exchange; None: not read yet.
     """
 
     kind: type[World]
@@ -56,7 +56,7 @@ class WorldState:
     last: float
     due: int
     origin: int
-    told: Mapping[str, np.ndarray] | None
+    commands: Mapping[str, np.ndarray] | None
 
 
 class Exchange:
@@ -77,7 +77,7 @@ class Exchange:
         self.unread = True
         self._last: float = 0
         self._due = self._origin = 0
-        self._told: Mapping[str, np.ndarray] | None = None
+        self._commands: Mapping[str, np.ndarray] | None = None
 
     def require(self, doc: Document) -> None:
         """Raise WorldError for a document with a sensor or motor that the world does not have."""
@@ -107,7 +107,7 @@ class Exchange:
                     " be run in this world"
                 )
             self.world.reset(seed, copies, precision)
-        self.unread, self._told = True, None
+        self.unread, self._commands = True, None
         self._last = 0
         self._due = self._origin = 0
 
@@ -135,20 +135,26 @@ class Exchange:
             return
         if period and (back or now.tick >= self._due):
             late = (now.tick - self._origin) % period
-            if not back and self._told is not None:
-                self.world.act(self._told, (now.time - (now.tick - self._last) * dt) * now.unit)
-            self._told = None
+            if not back and self._commands is not None:
+                self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
+            self._commands = None
             self._last, self._due = now.tick - late, now.tick - late + period
         moment = (now.time - (now.tick - self._last) * dt) * now.unit
         for ident, sensor in self.sensors.items():
             sensed[ident] = self._reading(sensor, moment, dtype)
         self.unread = False
 
-    def tell(self, tick: int, period: int, told: MotorReader) -> None:
+    def read_motors(self, tick: int, period: int, read: MotorReader) -> None:
         """Read and store the commands of the motors; called before steps from the tick of an exchange."""
-        if self.world is None or not self.live or not period or tick != self._last or self._told is not None:
+        if (
+            self.world is None
+            or not self.live
+            or not period
+            or tick != self._last
+            or self._commands is not None
+        ):
             return
-        found = told(list(self.motors))
+        found = read(list(self.motors))
         commands: dict[str, np.ndarray] = {}
         for motor, command in zip(self.motors.values(), found, strict=True):
             if not np.isfinite(command).all():
@@ -158,7 +164,7 @@ class Exchange:
                     fix="Check the elements that drive it",
                 )
             commands[motor.motor] = command.reshape(-1, *shape(tuple(motor.axes)))
-        self._told = commands
+        self._commands = commands
 
     def restep(self, tick: int, factor: float) -> None:
         """Adapt to a new step from this tick on; `factor` is the old step over the new one.
@@ -174,7 +180,7 @@ class Exchange:
             None
             if self.world is None
             else WorldState(
-                type(self.world), self.world.keep(), self._last, self._due, self._origin, self._told
+                type(self.world), self.world.keep(), self._last, self._due, self._origin, self._commands
             )
         )
 
@@ -188,7 +194,12 @@ class Exchange:
         self.unread = True
         if kept is not None and self.world is not None and isinstance(self.world, kept.kind):
             self.world.put(kept.world)
-            self._last, self._due, self._origin, self._told = kept.last, kept.due, kept.origin, kept.told
+            self._last, self._due, self._origin, self._commands = (
+                kept.last,
+                kept.due,
+                kept.origin,
+                kept.commands,
+            )
 
     def _each(self, sensor: Sensor) -> bool:
         known = {} if self.world is None else self.world.sensors  # a user's world may accept any name

@@ -179,7 +179,7 @@ class Run:
     def _chunk(self, chunk: Compiled, counts: dict[str, int], used: int) -> tuple[Array, ...]:
         self.sense()
         if used:
-            self.exchange.tell(self.clock.tick, self._period(), self._commands)
+            self.exchange.read_motors(self.clock.tick, self._period(), self._commands)
         began = time.perf_counter()
         before = self.state
         state, seen, finite = self._call(chunk, before, counts)

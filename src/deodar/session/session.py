@@ -28,8 +28,8 @@ from deodar.session import memory, rearrange
 from deodar.session.changes import LeafChange, changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
-from deodar.session.look import Look, PortKey
 from deodar.session.meter import Meter
+from deodar.session.port_reader import PortKey, PortReader
 from deodar.session.run import Run, require_duration, require_step, whole
 from deodar.session.run_live import run_live
 from deodar.session.snapshot import SessionSnapshot, fill, rows
@@ -203,9 +203,9 @@ class Session:
 
     # ----------------------------------------------------------------------------------- reading and changing
 
-    def look(self, look: Look, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
-        """Read many ports now, with a `Look` that was compiled for the running program."""
-        return look.arrays(self._run.look(look.reader) if look.reader is not None else [], places)
+    def look(self, reader: PortReader, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
+        """Read many ports now, with a `PortReader` that was compiled for the running program."""
+        return reader.arrays(self._run.look(reader.reader) if reader.reader is not None else [], places)
 
     def require(self, document: Document) -> None:
         """Raise an error for a document that the session cannot continue with.

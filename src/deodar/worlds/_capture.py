@@ -42,7 +42,7 @@ def capture(source: int | str, purpose: str) -> Any:
         log.setLogLevel(level)
 
 
-class Film:
+class VideoReader:
     """Reader that returns the pictures of a video file by time.
 
     Attributes:
@@ -102,7 +102,7 @@ class Film:
         self.__init__(state["path"])
 
 
-class Eye:
+class CameraReader:
     """Camera reader with its own thread; `picture` returns the newest picture without waiting for the next.
 
     Attributes:
@@ -150,7 +150,8 @@ class Eye:
 class _Stream:
     """The newest picture and the loop of the thread.
 
-    It has no reference to its `Eye`, so that the camera is released when the `Eye` is garbage-collected.
+    It has no reference to its `CameraReader`, so that the camera is released when the `CameraReader` is
+    garbage-collected.
     """
 
     def __init__(self, opened: Any, first: np.ndarray, patience: float) -> None:

@@ -90,18 +90,18 @@ class PureWorld(World):
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
         shared, own, state = *self._values(), self._now()
         copies = len(self._trials)
-        told = {
+        commands = {
             name: motors.get(name, np.zeros((copies, *(signal.shape or ()))))
             for name, signal in self.motors.items()
         }
-        told = {name: np.asarray(value, self._dtype) for name, value in told.items()}
+        commands = {name: np.asarray(value, self._dtype) for name, value in commands.items()}
         self._state = self.call(
             "advance",
             lambda world: jax.vmap(world.advance, in_axes=(None, 0, 0, 0)),
             shared,
             own,
             state,
-            told,
+            commands,
         )
 
     def keep(self) -> Any:

@@ -55,7 +55,7 @@ class Camera(World):
                 raise WorldError(f"{name} is {show(given)}; expected a number above 0")
         self.number = number if isinstance(number, str) else int(number)
         self.period, self.patience = float(period), float(patience)
-        self._eye: _capture.Eye | None = None
+        self._reader: _capture.CameraReader | None = None
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         self._open()
@@ -70,9 +70,9 @@ class Camera(World):
 
     def close(self) -> None:
         """Release the camera for other programs; the next reading opens it again."""
-        if self._eye is not None:
-            self._eye.close()
-            self._eye = None
+        if self._reader is not None:
+            self._reader.close()
+            self._reader = None
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
         """Return the column and row of the picture at a position on the axes."""
@@ -97,10 +97,10 @@ class Camera(World):
             fix="Record its sensor and replay the record: --world recording:RECORD",
         )
 
-    def _open(self) -> _capture.Eye:
-        if self._eye is None:
-            self._eye = _capture.Eye(self.number, self.patience)
-        return self._eye
+    def _open(self) -> _capture.CameraReader:
+        if self._reader is None:
+            self._reader = _capture.CameraReader(self.number, self.patience)
+        return self._reader
 
     @classmethod
     def example(cls) -> Camera:

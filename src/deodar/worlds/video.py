@@ -52,11 +52,11 @@ class Video(World):
         if value is None or not 0 < value < math.inf:
             raise WorldError(f"period is {show(period)}; expected a number of ms above 0")
         self.period, self.loop, self.name = float(value), bool(loop), str(file)
-        self._film = _capture.Film(Path(file))
-        self.size = self._film.size
+        self._reader = _capture.VideoReader(Path(file))
+        self.size = self._reader.size
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
-        self._film.rewind()
+        self._reader.rewind()
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
@@ -64,7 +64,7 @@ class Video(World):
 
     def picture(self, time: float) -> np.ndarray:
         """Return the picture (height, width, 3) of bytes at a time in ms."""
-        return self._film.picture(max(time, 0.0), self.loop)
+        return self._reader.picture(max(time, 0.0), self.loop)
 
     def to_pixels(self, axes: Axes, x: float, y: float) -> tuple[float, float]:
         """Return the column and row of the picture at a position on the axes."""

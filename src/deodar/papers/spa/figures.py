@@ -13,9 +13,9 @@ from deodar.experiments.rows import Row
 from deodar.figures._style import COLORS, ROUTES
 from deodar.figures.comparison import boxes_figure, shares_figure
 from deodar.figures.routes import (
-    Course,
     Panel,
     Speeds,
+    StyledPath,
     choice_figure,
     paths_figure,
     routes_figure,
@@ -87,12 +87,12 @@ def paths(runs: Runs) -> Figure | None:
     """Draw six pairs of the large maze, each with low (full line) and high noise (dashed)."""
     rows = [{r["trial"]: r for r in runs.of(f"large/planner/{noise}")} for noise in ("low", "high")]
     both = [k for k in sorted(rows[0]) if k in rows[1]][:EXAMPLES]
-    courses = [
-        Course(np.asarray(found[k]["path"]), COLORS[n % len(COLORS)], dashed, found[k]["goal"])
+    styled = [
+        StyledPath(np.asarray(found[k]["path"]), COLORS[n % len(COLORS)], dashed, found[k]["goal"])
         for n, k in enumerate(both)
         for found, dashed in zip(rows, (False, True), strict=True)
     ]
-    return paths_figure(maze("large", "none"), courses) if courses else None
+    return paths_figure(maze("large", "none"), styled) if styled else None
 
 
 def routes(runs: Runs) -> Figure | None:
@@ -107,10 +107,10 @@ def _routes(runs: Runs, obstacle: str, noise: str) -> Panel:
     rows = runs.kept(obstacle, noise)
     found = {way: between(rows, route=way) for way in WAYS}
     counted = ", ".join(f"{way} {len(taken)}" for way, taken in found.items() if taken)
-    courses = [Course(np.asarray(row["path"]), WAYS[way]) for way, taken in found.items() for row in taken]
+    styled = [StyledPath(np.asarray(row["path"]), WAYS[way]) for way, taken in found.items() for row in taken]
     _, middle, size = OBSTACLES[obstacle]
     title = f"{obstacle} obstacle, {noise} noise: {counted or 'no runs'}"
-    return Panel(title, courses, (*place(*middle), *size))
+    return Panel(title, styled, (*place(*middle), *size))
 
 
 def velocity(runs: Runs) -> Figure | None:

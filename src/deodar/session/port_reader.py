@@ -1,7 +1,7 @@
-"""Read many ports of a running program at one moment with one compiled function, a `Look`.
+"""Read many ports of a running program at one moment with one compiled function, a `PortReader`.
 
-Elements of equal structure are rows of one array, so that a `Look` for hundreds of elements compiles and runs
-as fast as one for a few.
+Elements of equal structure are rows of one array, so that a `PortReader` for hundreds of elements compiles
+and runs as fast as one for a few.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ PortKey = tuple[str, str]
 
 
 @dc.dataclass(frozen=True)
-class Look:
+class PortReader:
     """A compiled reader of ports of one program; another program needs another one."""
 
     program: Executable
@@ -44,10 +44,12 @@ class Look:
         return out
 
 
-def look(program: Executable, places: Iterable[PortKey]) -> Look:
-    """Compile a `Look` for places; it does not touch the run, so another thread may compile it meanwhile."""
+def port_reader(program: Executable, places: Iterable[PortKey]) -> PortReader:
+    """Compile a `PortReader` for places; it does not touch the run, so another thread may compile it
+    meanwhile.
+    """
     ports = tuple(sorted(whole(program, places), key=lambda p: (p.group, p.name)))
-    return Look(program, ports, program.new_reader(ports) if ports else None)
+    return PortReader(program, ports, program.new_reader(ports) if ports else None)
 
 
 def whole(program: Executable, places: Iterable[PortKey]) -> set[Port]:

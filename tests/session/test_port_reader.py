@@ -1,4 +1,4 @@
-"""Looks at many ports, and hands that reach into a running model."""
+"""Readers of many ports, and inputs injected into a running model."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.session.look import look
+from deodar.session.port_reader import port_reader
 
 X = dd.Axis("x", 0, 100, samples=101)
 
@@ -23,14 +23,14 @@ def ring(n: int) -> dd.Model:
     return model
 
 
-def test_a_look_sees_what_single_readings_see() -> None:
+def test_a_reader_of_many_ports_agrees_with_single_readings() -> None:
     model = ring(4)
     session = dd.Session(model, precision="float64")
     session.step(20)
     places = [
         (h.id, port) for h in model for port in ("activation", "output", "input") if hasattr(h.element, "tau")
     ]
-    seen = session.look(look(session.program, places), places)
+    seen = session.look(port_reader(session.program, places), places)
     assert set(seen) == set(places)
     for h in model:
         for port in ("activation", "output", "input"):
@@ -41,7 +41,7 @@ def test_a_look_sees_what_single_readings_see() -> None:
 def test_elements_of_one_structure_are_one_array_of_the_reader() -> None:
     model = ring(6)
     session = dd.Session(model)
-    few = look(session.program, [(model["u1"].id, "activation")])
+    few = port_reader(session.program, [(model["u1"].id, "activation")])
     assert len(few.ports) <= 2, "a field of the ring stands with its kind in one array"
     assert few.fits([(model["u1"].id, "activation")]) and not few.fits([(model["u2"].id, "output")])
 
@@ -50,7 +50,7 @@ def test_what_is_not_there_is_left_out() -> None:
     model = ring(2)
     session = dd.Session(model)
     places = [("feedbeef", "activation"), (model["u0"].id, "nonsense")]
-    seen = look(session.program, places)
+    seen = port_reader(session.program, places)
     assert seen.ports == () and session.look(seen, places) == {}
 
 

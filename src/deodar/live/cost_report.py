@@ -9,7 +9,7 @@ from deodar.session.cost import StepCost
 
 
 @dc.dataclass(frozen=True)
-class Bill:
+class CostReport:
     """Cost of elements: whether a measurement runs, the last result, and why a measurement failed."""
 
     measuring: bool = False
