@@ -89,7 +89,7 @@ def workers() -> None:
     for name, n in LONG.items():
         model = workloads.WORKLOADS[name].model()
         for count in (None, available()):
-            for _ in range(2):  # the second time no program is compiled anew
+            for _ in range(2):  # the second time no program is compiled again
                 began = time.perf_counter()
                 dd.simulate(model, n, trials=TRIALS, workers=count, progress=False)
                 seconds = time.perf_counter() - began

@@ -6,8 +6,8 @@
 
 Each combination draws a model, the order in which it is declared, a width, trials in any number and order,
 what is recorded and how often, the lengths of chunks, and now and then worker processes, programs that are
-made anew, or a session in place of a batch of one. Every record of a trial is compared with the first that
-was made of it at this width. At the end the widths of each model are compared with each other.
+compiled again, or a session in place of a batch of one. Every record of a trial is compared with the first
+that was made of it at this width. At the end the widths of each model are compared with each other.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ def check(
     for n in range(count):
         name, order, width = draw.choice(names or list(MODELS)), draw.choice((1, -1)), draw.choice(widths)
         if draw.random() < 0.05:
-            models.pop((name, order), None)  # the programs are made anew, or read from the disk
+            models.pop((name, order), None)  # the programs are compiled again, or read from the disk
         model = models.setdefault((name, order), MODELS[name](order))
         paths = sorted(
             draw.sample([f"u{k}.activation" for k in range(3) if f"u{k}" in model], draw.choice((1, 2)))

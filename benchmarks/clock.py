@@ -1,4 +1,4 @@
-"""How well a run keeps to the clock on the wall: drift and lag, with time enough and without.
+"""Lag of a run behind the wall clock, and its drift, with enough time and without.
 
     python benchmarks/clock.py    60 s with time enough, then 10 s at a speed the machine does not reach
     python benchmarks/clock.py --seconds 5 --json

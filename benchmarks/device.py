@@ -33,7 +33,7 @@ TIMED = {
     "W4a": (None,),
     "W4b": (None,),
 }
-"""Workloads whose steps are timed, one copy and so many at once."""
+"""Workloads whose steps are timed, and the number of copies in a batch; None: one copy."""
 
 
 def same_noise(other: Any) -> bool:
@@ -64,7 +64,7 @@ def difference(name: str, where: str, double: bool = False) -> float:
 
 
 def step(run: Callable[[int], Any], seconds: float = 0.3) -> float:
-    """Wall microseconds a step: (T(3n) - T(n)) / 2n, n steps taking about so many seconds."""
+    """Wall microseconds a step: (T(3n) - T(n)) / 2n, where n steps take about `seconds`."""
 
     def wall(n: int) -> float:
         before = time.perf_counter()

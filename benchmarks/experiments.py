@@ -7,7 +7,7 @@ A field of 200 samples with two equal inputs; 1,000 trials of 2,000 steps. The e
 fifth step and at each step, whether a peak has appeared near either place, and measures where the field is
 highest; no trial ends before the limit, so that all compute the same steps. Each is run once before it is
 timed, so that none compiles, then in alternation; the least of the rounds counts. Times are of the processor,
-which other work on the machine moves less than the clock on the wall; with `--workers N` they are of the
+which other work on the machine affects less than the wall clock; with `--workers N` they are of the
 wall, with the start of the processes.
 """
 
@@ -27,7 +27,7 @@ def main() -> None:
     parser.add_argument("--trials", type=int, default=1000)
     parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--workers", type=int, help="share the trials among so many processes")
+    parser.add_argument("--workers", type=int, help="number of processes that share the trials")
     given = parser.parse_args()
     os.environ["NPROC"] = "1"
 

@@ -2,8 +2,8 @@
 ...]`.
 
 Times are CPU time (user and system) of processes that keep to one core (`NPROC=1`), medians over repetitions.
-Nothing is asserted: a busy machine prints larger numbers. The workloads stand in workloads.py, how they are
-timed in steps.py, what the columns mean in README.md.
+Nothing is asserted: a busy machine prints larger numbers. workloads.py has the workloads, steps.py their
+timing, README.md the meaning of the columns.
 """
 
 from __future__ import annotations
@@ -221,7 +221,7 @@ def machine() -> dict[str, str]:
 
 
 def load() -> str:
-    """The load of the last 1, 5 and 15 minutes, where the system tells."""
+    """The load of the last 1, 5 and 15 minutes, where the system reports it."""
     return " ".join(f"{x:.1f}" for x in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
 
 

@@ -105,7 +105,7 @@ def engine() -> None:
         finally:
             server.terminate()
             server.wait(30)
-    show("a free-running field of 101 samples, nobody watching", free, "steps/s", "none")
+    show("a free-running field of 101 samples, no page connected", free, "steps/s", "none")
     show("slowed by a page that watches four plots at 30 frames/s", slower, "%", "< 10")
 
 

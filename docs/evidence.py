@@ -1,9 +1,10 @@
-"""The runs that the manual speaks of: kept in `evidence/`, a folder for each paper, and every number on a
-page that comes from them.
+"""The runs behind the numbers of the manual: kept in `evidence/`, a folder for each paper, and every number
+on a page that comes from them.
 
-python docs/evidence.py FOLDER   take the complete conditions in the folder of a `deodar reproduce PAPER
-[--quick]`, then write all anew python docs/evidence.py          write claims and pages anew from the runs
-that are kept python docs/evidence.py --print  print every number and table by its name
+    python docs/evidence.py FOLDER     take the complete conditions in the folder of a
+                                       `deodar reproduce PAPER [--quick]`, then write everything
+    python docs/evidence.py            write claims and pages from the stored runs
+    python docs/evidence.py --print    print every number and table by its name
 
 A folder of evidence holds `about.json` (versions, machine, date, command), `runs.jsonl.xz` (a row for each
 run) and `results.json` (the claims). On a page a comment names a number or table of a paper, and what lies
@@ -117,7 +118,7 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
         sys.exit(f"{source}: no condition is complete; run {command} --out {source} first")
     if unfinished:
         sys.stderr.write(
-            f"{source}: not complete, and left out: {', '.join(unfinished)}. To go on: {command} --out"
+            f"{source}: not complete, and left out: {', '.join(unfinished)}. To resume: {command} --out"
             f" {source}\n"
         )
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
@@ -141,7 +142,7 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
 
 
 def _condition(key: str) -> str:
-    """The condition of a run. Only whole conditions are kept, so that nobody chooses among runs."""
+    """The condition of a run. Only whole conditions are stored, so that runs cannot be selected."""
     return key.rsplit("/", 1)[0]
 
 
@@ -254,7 +255,7 @@ def loose(text: str) -> list[str]:
 
 
 def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
-    """Write claims and pictures anew; the numbers for the pages."""
+    """Write claims and pictures; return the numbers for the pages."""
     report = evidence.report()
     (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
     for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():

@@ -29,9 +29,7 @@ NEAR = 0.02
 
 @dataclass(frozen=True)
 class Block:
-    """One thing to run: where it stands, its language, its text, and what it prints (None: the page does not
-    say).
-    """
+    """A block to run: its place, its language, its text, and its output (None: not stated)."""
 
     page: Path
     line: int
@@ -118,7 +116,7 @@ def _run(block: Block, names: dict[str, Any]) -> None:
 
     words = shlex.split(block.text)
     assert words[0] == "deodar", (
-        f"{block.where}: a console block holds commands of deodar; other words stand in a sh block"
+        f"{block.where}: a console block holds commands of deodar; use an sh block for other words"
     )
     told = io.StringIO()
     with contextlib.redirect_stderr(told):

@@ -32,7 +32,7 @@ WORDS = ("required", "none", "never")
 ROOMS = {
     "elements": (
         "Elements",
-        "What stands in a model: fields and nodes, stimuli, sensors, motors, motor variables.",
+        "Parts of a model: fields and nodes, stimuli, sensors, motors, motor variables.",
     ),
     "couplings": (
         "Couplings",
@@ -198,7 +198,7 @@ def write() -> None:
 
 
 def cell(text: Any) -> str:
-    """Text that may stand in a table."""
+    """Return the text escaped for a table."""
     return str(text).replace("|", "\\|").replace("\n", " ").strip()
 
 
@@ -458,9 +458,7 @@ def _unpacked(obj: Any, found: list[inspect.Parameter]) -> list[inspect.Paramete
 
 
 def fill(text: str) -> str:
-    """The page of the command line with every table of arguments made anew; commands that are not there are
-    added.
-    """
+    """Return the page of the command line with new tables of arguments; missing commands are added."""
     for name, module in cli.commands().items():
         begin, end = f"<!-- arguments of {name} -->\n", f"<!-- end of {name} -->\n"
         if begin not in text:

@@ -244,7 +244,7 @@ def long_lines(paths: Iterable[Path]) -> list[str]:
 
 
 def worded(root: Path, folders: Sequence[str]) -> list[str]:
-    """Lines of the physics that speak of how a program is made faster."""
+    """Lines of the physics that mention the optimisation of a program."""
     return [
         f"{path.relative_to(root)}:{n}"
         for folder in folders

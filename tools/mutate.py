@@ -46,7 +46,7 @@ TESTS = 150
 """Most tests that are run for one mutant: those of the shortest time first."""
 
 PATIENCE = 10.0, 60.0
-"""A mutant times out after this many times the time of its tests, plus so many seconds."""
+"""A mutant times out after this multiple of the time of its tests, plus a number of seconds."""
 
 
 Key = tuple[str, str, str]
@@ -363,7 +363,7 @@ def run(root: Path, tests: Sequence[str], allowed: float) -> tuple[str, str]:
 
 
 def read(file: Path) -> list[Row]:
-    """The rows of a file; none where there is no file."""
+    """The rows of a file; none without a file."""
     if not file.exists():
         return []
     with file.open(encoding="utf-8", newline="") as text:
@@ -385,7 +385,7 @@ def write(file: Path, rows: Iterable[Row]) -> None:
 
 
 def equivalents(file: Path = EQUIVALENT) -> Mapping[Key, str]:
-    """Why a mutant (place, before, after) cannot be told from the package."""
+    """Return why a mutant (place, before, after) is equivalent to the package."""
     if not file.exists():
         return {}
     with file.open(encoding="utf-8", newline="") as text:

@@ -58,7 +58,7 @@ def test_neither_the_task_nor_a_signal_alone_satisfies(task: bool, signal: bool)
 
 
 def test_a_signal_while_another_is_intended_is_not_taken() -> None:
-    """Task and signal without the intention, which something holds down."""
+    """Task and signal without the intention, which is suppressed."""
     model = several("a")
     tell(model, "a.task", ON, (100, 1200))
     tell(model, "a.intention", -6.0, (0, 1200))

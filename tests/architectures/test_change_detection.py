@@ -1,6 +1,4 @@
-"""Same or different: the contrast field is silent where the memory holds what is shown, and speaks where it
-does not.
-"""
+"""Same or different: the contrast field is active only where the memory lacks what is shown."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ SCENE = ((20.0, 0.0), (50.0, 120.0), (80.0, 240.0))
 
 
 def scene() -> dd.Model:
-    """Three objects, and a cue to each read-out that is not there yet."""
+    """Three objects, and a cue to each read-out that begins later."""
     model = feature_space()
     for k, at in enumerate(SCENE):
         (

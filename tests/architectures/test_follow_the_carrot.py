@@ -34,7 +34,7 @@ def test_it_turns_towards_the_carrot():
     wheels = Carrot(speed=300, gain=100).wheels(np.zeros((3, 2)), np.asarray([np.pi / 2, 0.3, 0.0]), paths)
     np.testing.assert_allclose(wheels[0], [300, 300])  # straight ahead
     np.testing.assert_allclose(wheels[1], [300 + 15, 300 - 15])  # 0.3 rad to the right
-    np.testing.assert_allclose(wheels[2], [300, 300])  # it stands on its carrot
+    np.testing.assert_allclose(wheels[2], [300, 300])  # it is at its carrot
 
 
 def test_the_shorter_turn_is_taken():

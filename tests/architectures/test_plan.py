@@ -41,7 +41,7 @@ def test_it_begins_to_act_when_the_wave_has_come_and_plans_anew() -> None:
     began, reached = np.argmax(left & (np.arange(len(left)) > 40)), np.argmax(front >= START)
     assert -10 < began - reached < 25, "neither before the wave is there nor long after it"
     assert where[: began - 5].min() > START - 1
-    assert 34 < where[430] < 46 and not left[400:440].any(), "it stands at the goal, and intends nothing"
+    assert 34 < where[430] < 46 and not left[400:440].any(), "it is at the goal without an intention"
     again = 450 + np.argmax(right[450:])
     assert again - 450 > (150 - where[450]) / 0.85, "the second wave has to come, too"
     assert where[-1] == pytest.approx(150, abs=7)

@@ -1,4 +1,4 @@
-"""Hostile messages: each is answered, or ends its own connection; the studio goes on for other pages."""
+"""Hostile messages: each is answered, or ends its own connection; the studio continues for other pages."""
 
 from __future__ import annotations
 

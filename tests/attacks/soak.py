@@ -147,7 +147,7 @@ async def visit(address: str, random: random.Random) -> None:
 
 
 async def visits(address: str, seconds: float, random: random.Random) -> int:
-    """Let pages visit for some time; each round ends with the document opened anew."""
+    """Let pages visit for some time; each round ends with the document opened again."""
     end, count = time.monotonic() + seconds, 0
     while count == 0 or time.monotonic() < end:
         await asyncio.gather(*(visit(address, random) for _ in range(AT_ONCE)))

@@ -1,4 +1,4 @@
-"""How many cores: said before JAX starts, by nobody on import, by the command line for itself."""
+"""Number of cores: set before JAX starts, never by an import, and by the command line for itself."""
 
 from __future__ import annotations
 

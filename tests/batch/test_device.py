@@ -35,7 +35,7 @@ for name in (None, "cpu", "cpu:1"):
     session.step(50)
     places = {d for leaf in jax.tree.leaves(session._run.state) for d in leaf.devices()}
     assert places == {jax.devices()[1 if name == "cpu:1" else 0]}, (name, places)
-    session.set("u.kernel.0.sigma", 9.0)  # compiles anew, in the same place
+    session.set("u.kernel.0.sigma", 9.0)  # compiles again, on the same device
     session.step(1)
     assert {d for leaf in jax.tree.leaves(session._run.state) for d in leaf.devices()} == places
 assert np.array_equal(seen[None], seen["cpu:1"]) and np.array_equal(seen[None], seen["cpu"])

@@ -1,6 +1,4 @@
-"""Worker processes: the same noise, the same results, whatever the split; what goes wrong in them is told
-here.
-"""
+"""Worker processes: the same noise and results for every split; their errors reach the caller."""
 
 from __future__ import annotations
 

@@ -41,8 +41,8 @@ def test_a_file_that_says_that_it_is_empty_is_not_broken(content: dict[str, obje
 
 
 def test_what_ends_otherwise_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The harness itself: it tells a wrong exception, an error that says nothing, and a model that is empty
-    without a word.
+    """The harness reports a wrong exception, an error without a message, and a model that is silently
+    empty.
     """
     content = json.dumps({"deodar": 1, "name": "m", "elements": {}}).encode()
 

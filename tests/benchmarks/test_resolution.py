@@ -22,7 +22,7 @@ def test_forgetting_of_the_logistic_is_that_of_a_finer_grid() -> None:
     assert abs(resolution.forgetting(1, 101, g, "cell") / fine - 1) < 0.005
     assert abs(resolution.forgetting(1, 51, g, "cell") / fine - 1) < 0.02
     assert abs(resolution.forgetting(1, 101, g, "point") / fine - 1) > 0.04, (
-        "the sum over points has no error to mend"
+        "the sum over points has no error to correct"
     )
 
 
@@ -30,7 +30,7 @@ def test_forgetting_of_the_step_is_that_of_amari() -> None:
     assert abs(resolution.forgetting(1, 101, Step(), "cell") / resolution.amari() - 1) < 0.01
     assert abs(resolution.forgetting(1, 51, Step(), "cell") / resolution.amari() - 1) < 0.02
     assert abs(resolution.forgetting(1, 101, Step(), "point") / resolution.amari() - 1) > 0.5, (
-        "the sum over points has no error to mend"
+        "the sum over points has no error to correct"
     )
 
 

@@ -33,7 +33,7 @@ SHAPES = [
 
 
 def reference(shape: Sequence[int], sigmas: Sequence[int], count: int) -> np.ndarray:
-    """The activation after so many steps without noise; kernels cut at 2.5 sigma, convolution by Fourier
+    """The activation after `count` steps without noise; kernels cut at 2.5 sigma, convolution by Fourier
     transform, double precision.
     """
     stimulus, spectrum = np.array(6.0), np.zeros(shape, complex)

@@ -1,5 +1,5 @@
-"""`deodar experiment`: the table is written, a stop is gone on with, and what is wrong is told before
-anything runs.
+"""`deodar experiment`: the table is written, a stopped run is resumed, and errors are reported before a
+run.
 """
 
 from __future__ import annotations

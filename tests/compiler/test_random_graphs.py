@@ -126,7 +126,7 @@ class Graph:
         return Graph(self.axes, scaled, self.every, weaker)
 
     def plainly(self, steps: int) -> np.ndarray:
-        """Activations of all fields after so many steps, by the laws as they are written."""
+        """Activations of all fields after a number of steps, computed from the equations."""
         lateral, links = self.matrices()
         u = np.array([np.full(lateral[0].shape[0], f.resting_level) for f in self.fields])
         s = [

@@ -93,7 +93,7 @@ def holding(part: Part) -> Element:
 
 
 def any_example(kind: str) -> Element:
-    """The example of anything that is registered, in an element that can stand in a model."""
+    """The example of any registered kind, in an element that a model can contain."""
     return example(kind) if kind in KINDS else holding(PARTS[kind].example())
 
 

@@ -127,7 +127,7 @@ def test_a_session_goes_on_from_a_copied_snapshot_as_from_the_snapshot(again):
 
 
 def test_a_pickled_snapshot_holds_the_state_of_its_world():
-    """Two sessions of one model in a tank: the second one is restored from a pickle and goes on as the
+    """Two sessions of one model in a tank: the second one is restored from a pickle and continues as the
     first.
     """
     one, two = dd.Session(closed(True), world=Tank()), dd.Session(closed(True), world=Tank())

@@ -1,4 +1,4 @@
-"""Everything that can stand in a model goes through a document and comes back as it was."""
+"""Every part of a model is equal after it is written to a document and read."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""Everything that can stand in a model runs: finite for a long time, alone and in a batch, with the shapes it
-declares.
-"""
+"""Every part of a model runs: finite for a long time, alone and in a batch, with the shapes it declares."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ def test_a_parameter_whose_unit_has_time_in_it_declares_its_role(kind: str) -> N
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_a_parameter_that_is_described_as_a_time_has_a_unit_of_time(kind: str) -> None:
-    """An element cannot forget it: its docstring speaks of time where its unit does not."""
+    """An element cannot forget it: its docstring mentions time where its unit does not."""
     words = read(KINDS[kind]).entries("Parameters")
     for p in parameters(KINDS[kind]):
         if SPEAKS_OF_TIME.search(words.get(p.name, "")) and p.form in ("number", "per_axis", "array"):

@@ -72,7 +72,7 @@ def test_a_sensor_in_a_model_shows_what_the_world_reads(kind):
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", WORLDS)
 def test_the_same_run_however_it_is_cut_and_again_after_a_reset(kind, precision):
-    """The exchange is the world's: neither chunks nor looking at the model change anything."""
+    """The world sets the times of the exchange: neither chunks nor reading the model change it."""
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
     whole = dd.simulate(

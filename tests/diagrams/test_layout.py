@@ -137,7 +137,7 @@ def test_captions_are_apart_from_boxes_and_from_each_other():
     "name",
     [
         "u",
-        "a name of many words that goes on and on",
+        "a name of many words that continues and continues",
         "oneverylongwordwithoutanyplacetobreakitatall",
         "名前はとても長いですから折り返す",
         "",
@@ -179,7 +179,7 @@ def test_given_places_are_kept():
     )
     part = Graph("g", graph.items, graph.wires, graph.groups, {"a": (300, 40)})
     assert paint.lay_out(part)[1].boxes["a"][0] > paint.lay_out(part)[1].boxes["b"][0], (
-        "laid out anew where not all have a place"
+        "laid out again where not all have a place"
     )
 
 

@@ -31,7 +31,7 @@ def run(name: str, record: list[str], trials: int | None = None) -> xarray.Datas
 
 
 def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[float]:
-    """Where the peaks of a one-dimensional field stand at a time."""
+    """Positions of the peaks of a one-dimensional field at a time."""
     now = u.sel(time=t) if trial is None else u.sel(time=t, trial=trial)
     return sorted(p.position[0] for p in peaks(now))
 
@@ -259,7 +259,7 @@ def test_behaviours() -> None:
         "the precondition holds it back"
     )
     assert not during("reach", 1000, 1200).any() and during("reach", 1350, 1600).all(), (
-        "it goes on after the interruption"
+        "it continues after the interruption"
     )
     assert (
         not during("reach", 1700, 2400).any()
@@ -271,7 +271,7 @@ def test_behaviours() -> None:
     )
     first = on["look left"].sel(time=600)
     assert 3 <= int(first.sum()) <= 17, "noise decides"
-    assert (on["look right"].sel(time=1000) == first).all(), "the other has its turn"
+    assert (on["look right"].sel(time=1000) == first).all(), "the other follows"
 
 
 def test_serial_order() -> None:

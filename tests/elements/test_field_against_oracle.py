@@ -91,7 +91,7 @@ def compare(model, expected, record="activation", dt=DT, many=12):
         )[::EVERY]
         found = data[f"{name}.{record}"].values
         assert found.dtype == np.float64
-        assert np.ptp(reference) > 0.1, f"{name}: nothing happens, the test shows nothing"
+        assert np.ptp(reference) > 0.1, f"{name}: the activation is constant, so the test shows nothing"
         error = abs(found - reference).max() / abs(reference).max()
         if not error < 1e-9:
             wrong.append(f"{name}: off by {error:.1e}")

@@ -37,7 +37,7 @@ def test_it_grows_below_peaks_decays_between_them_and_rests_without_any():
 
 
 def course(f, steps, dt=0.5, gate=None, others=None, **parameters):
-    """The trace of one constant input (two places where `others` is given) after so many steps."""
+    """The trace of one constant input (two places where `others` is given) after a number of steps."""
     axis = dd.Axis("x", 0, 1, 2)
     model = dd.Model("trace", dt=dt)
     p = model.add(MemoryTrace("p", [axis], tau_build=10, tau_decay=50, gated=gate is not None, **parameters))

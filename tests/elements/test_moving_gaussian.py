@@ -1,4 +1,4 @@
-"""A Gaussian that moves: where it stands at every step, on lines, rings and planes."""
+"""A Gaussian that moves: its position at every step, on lines, rings and planes."""
 
 from __future__ import annotations
 

@@ -200,7 +200,7 @@ def test_content_that_is_not_plain_numbers(
 
 
 def test_a_bomb_is_refused_before_it_is_unpacked(saved: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A small file that unpacks to more than the machine has; what it would take stands in its directory."""
+    """A small file that unpacks to more than the machine has; its directory states its size."""
     monkeypatch.setattr(files, "ARRAY_SHARE", 1e-9)
     _replace(saved, _zip({"array.npy": b"\0" * 10_000_000}))
     refused(lambda: dd.load(saved), DocumentError, "the arrays in", "GiB are free")

@@ -365,8 +365,8 @@ WRONG: list[Any] = [
     ],
 )
 def test_no_value_of_any_parameter_raises_anything_else(kind: str) -> None:
-    """Everything registered, every parameter, every kind of wrong value: taken, or refused by an error of
-    ours with its place.
+    """Every kind, every parameter, every sort of wrong value: accepted, or refused by an error of deodar with
+    its place.
     """
     cls = registry.kind(kind)
     good = cls.example()

@@ -68,7 +68,7 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
         ("the duration is -5; expected a number, 0 or above",),
     ),
     "a duration of nan": (lambda m: dd.simulate(m, NAN), TimeError, ("the duration is nan",)),
-    "a duration for ever": (lambda m: dd.simulate(m, INF), TimeError, ("the duration is inf",)),
+    "an infinite duration": (lambda m: dd.simulate(m, INF), TimeError, ("the duration is inf",)),
     "a duration in words": (lambda m: dd.simulate(m, "500"), TimeError, ("the duration is '500'",)),
     "a duration of none": (lambda m: dd.simulate(m, None), TimeError, ("the duration is None",)),
     "a duration beyond counting": (
@@ -184,7 +184,7 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
         UnknownName,
         ("u has no parameter 'tua'", "Did you mean 'tau'?"),
     ),
-    "a sweep of nobody": (
+    "a sweep of an unknown parameter": (
         lambda m: dd.simulate(m, 5, sweep={"lfet.amplitude": [1]}),
         UnknownName,
         ("Did you mean 'left.amplitude'?",),
@@ -194,7 +194,7 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
         UnknownName,
         ("u has no port 'activaton'", "Did you mean 'activation'?"),
     ),
-    "a record of nobody": (
+    "a record of an unknown port": (
         lambda m: dd.simulate(m, 5, record=["w.output"]),
         UnknownName,
         ("nothing is called 'w.output'",),

@@ -124,12 +124,12 @@ def _is_checked(path: Path) -> bool:
     if path.name in GENERATED or names[:2] == ("docs", "reference"):
         return False
     match names[0]:
-        case "src" | "examples":
-            return path.suffix in {".py", ".pyi"}
+        case "src" | "examples" | "tests" | "benchmarks" | "tools":
+            return path.suffix in {".py", ".pyi", ".md"} and path.name != "test_language.py"
         case "studio":
             return path.suffix in {".ts", ".tsx", ".css"}
         case "docs":
-            return path.suffix == ".md"
+            return path.suffix in {".md", ".py"}
         case _:
             return len(names) == 1 and path.suffix == ".md"
 

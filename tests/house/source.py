@@ -1,4 +1,4 @@
-"""The files of the repository, and what a module imports: read by the tests of the house."""
+"""The files of the repository, and the imports of a module, for the tests of this folder."""
 
 from __future__ import annotations
 
@@ -102,6 +102,6 @@ def texts() -> list[Path]:
 
 
 def _left_out(path: Path) -> bool:
-    """Whether a file is no text of ours: tools' folders, and the chunks of records."""
+    """Whether a file is not a text of the repository: tools' folders, and the chunks of records."""
     parts = path.relative_to(ROOT).parts
     return bool(NEVER & set(parts)) or any(part.endswith(".zarr") for part in parts)

@@ -118,7 +118,7 @@ def test_units_are_said_where_they_are_declared(name: str) -> None:
 
 @pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
 def test_every_parameter_says_what_it_means(name: str) -> None:
-    """The meaning stands in the declaration too: forms and the JSON Schema show it."""
+    """The declaration has the meaning too: forms and the JSON Schema show it."""
     silent = [p.name for p in parameters(KINDS[name]) if not p.meaning]
     assert not silent
 

@@ -1,4 +1,4 @@
-"""Imports point one way: a module may import what stands on an earlier floor, or its own folder."""
+"""Imports point one way: a module may import modules of an earlier floor, or of its own folder."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import pytest
 
 from tests.house.source import MODULES, SRC, imported, module, tree
 
-# The floors of the house, from the ground up. Rooms of one floor do not see each other; a file sees its own
-# folder. `demos` and `runtime` are old names that only raise errors. `registry` stands below `parameters`,
-# which looks kinds up in it; `recording` below `session`, whose runs it labels; the root package resolves its
-# names lazily and stands above all, like `__main__`.
+# The floors of ARCHITECTURE.md, from the ground up. Rooms of one floor do not see each other; a file sees its
+# own folder. `demos` and `runtime` are old names that only raise errors. `registry` stands below
+# `parameters`, which looks kinds up in it; `recording` below `session`, whose runs it labels; the root
+# package resolves its names lazily and stands above all, like `__main__`.
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
@@ -53,7 +53,7 @@ def _floor(name: str) -> int:
     for level, rooms in enumerate(FLOORS):
         if room in rooms:
             return level
-    raise AssertionError(f"deodar.{room} stands on no floor: name it in FLOORS")
+    raise AssertionError(f"deodar.{room} has no floor: name it in FLOORS")
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))

@@ -21,7 +21,7 @@ STUDIO = ROOT / "studio"
 
 @pytest.fixture(scope="module")
 def page() -> ModuleType:
-    """studio/build.py, which stands in no package."""
+    """studio/build.py, which is in no package."""
     spec = importlib.util.spec_from_file_location("page_of_the_studio", STUDIO / "build.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)

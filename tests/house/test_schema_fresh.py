@@ -36,7 +36,7 @@ def _documents() -> list[Path]:
 
 def test_the_shipped_schema_is_fresh() -> None:
     assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), (
-        "write it anew: python -m deodar.model.schema"
+        "write it again: python -m deodar.model.schema"
     )
 
 

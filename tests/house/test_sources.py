@@ -125,7 +125,7 @@ def test_no_state_at_module_level(path: Path) -> None:
     name = module(path) or "__init__"
     known = {n for m, n in STATE if m == name}
     extra = (set(_state(path)) | set(_written(path))) - known
-    assert not extra, f"{name} keeps state in {sorted(extra)}: give it to an object that somebody holds"
+    assert not extra, f"{name} keeps state in {sorted(extra)}: give it to an object that callers hold"
 
 
 def test_the_list_of_state_is_needed() -> None:

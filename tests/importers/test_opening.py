@@ -1,4 +1,4 @@
-"""Files are told by what they hold."""
+"""Files are recognised by their content."""
 
 from __future__ import annotations
 

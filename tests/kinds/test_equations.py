@@ -19,7 +19,7 @@ COMMANDS = {
     "Delta",
 }
 # fmt: on
-"""All commands in use; KaTeX and MathML know each. Add one here after looking at it."""
+"""All commands in use; KaTeX and MathML know each. View a new one before you add it here."""
 
 
 def faults(line: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""The engine: a session in a thread of its own, at a pace, looked at from outside."""
+"""The engine: a session in a thread of its own, at a pace, read from outside."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def test_play_waits_for_a_session(driven: Driven) -> None:
     driven.do(lambda: engine.load(dd.Session(driven.model)))
     driven.until(lambda: engine.shot.tick > 5)
     driven.do(lambda: engine.load(dd.Session(driven.model)))
-    assert not engine.running, "another document stands still at first"
+    assert not engine.running, "another document is paused at first"
 
 
 def test_real_time_is_kept_and_slow_motion_too(driven: Driven) -> None:

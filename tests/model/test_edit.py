@@ -107,7 +107,7 @@ REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {
     "inside an element": (ModelError, lambda m: m.add(dd.Field("new", [X]), group="left")),
     "a connection twice": (ModelError, lambda m: m.connect("left", "g.u")),
     "no such connection": (UnknownName, lambda m: m.disconnect("left", "g.inner.v")),
-    "no such element": (UnknownName, lambda m: m.remove("nobody")),
+    "no such element": (UnknownName, lambda m: m.remove("unknown")),
     "rename onto another": (ModelError, lambda m: m.rename("left", "g")),
     "rename to nothing": (ModelError, lambda m: m.rename("left", "")),
     "rename a group to nothing": (ModelError, lambda m: m.rename("g", "")),
@@ -129,11 +129,11 @@ REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {
     "a document parameter outside the range of its links": (ParameterError, lambda m: m.set("gain", -1)),
     "ticks 0": (ParameterError, lambda m: m.set_ticks("left", 0)),
     "ticks half": (ParameterError, lambda m: m.set_ticks("left", 0.5)),  # type: ignore[arg-type]
-    "ticks for ever": (ParameterError, lambda m: m.set_ticks("left", 10**400)),
+    "ticks without an end": (ParameterError, lambda m: m.set_ticks("left", 10**400)),
     "a time unit": (ParameterError, lambda m: m.describe(time_unit="hours")),
     "a name of numbers": (ParameterError, lambda m: m.describe(name=5)),
     "a property": (UnknownName, lambda m: m.describe(note="x")),
-    "a start that is no number": (ParameterError, lambda m: m.describe(t0=float("nan"))),
+    "a start that is not a number": (ParameterError, lambda m: m.describe(t0=float("nan"))),
     "a step of nothing": (ParameterError, lambda m: m.describe(dt=0)),
     "a step that is a list": (ParameterError, lambda m: m.describe(dt=[1])),
     "no element": (ModelError, lambda m: m.add(dd.Gaussian())),  # type: ignore[arg-type]
@@ -250,7 +250,7 @@ def test_setting_the_same_value_is_no_surprise() -> None:
 
 
 def test_what_a_document_knows_of_its_entries_is_passed_on_as_elements_are_added():
-    """Made anew for each element, the names of thousands would take time with the square of their number."""
+    """Computed again for each element, thousands of names would take time with the square of their number."""
     model, seen = dd.Model("many"), []
     for k in range(3):
         model.add(dd.Field(f"u{k}", []))

@@ -25,7 +25,7 @@ CASES = [
 
 
 def document(case: dict[str, Any]) -> Document:
-    """The document of a case; its arrays stand beside it as lists."""
+    """The document of a case; its arrays are lists in the case."""
     arrays = {name: FrozenArray(values) for name, values in case.get("arrays", {}).items()}
     return from_data(case["document"], arrays)
 

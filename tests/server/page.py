@@ -1,4 +1,4 @@
-"""A page without a browser: it speaks the studio's protocol over a real socket."""
+"""A page without a browser that uses the studio's protocol over a real socket."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Page:
         self.clocks = 0
         self._request = 0
         self._answers: dict[int, dict[str, Any]] = {}
-        # whether the clock does not know yet of what was told: one ends all that is told at once
+        # whether messages came since the last clock: a clock follows all messages of one moment
         self._late = False
         self._news = asyncio.Event()
 

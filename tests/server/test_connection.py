@@ -28,7 +28,7 @@ class Silent(PageConnection):
 @pytest.mark.parametrize("between", range(5))
 def test_the_sending_ends_when_its_page_goes_at_the_moment_of_news(between: int) -> None:
     """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone
-    would stay for ever.
+    would never end.
     """
 
     async def main() -> None:

@@ -1,4 +1,4 @@
-"""Which world stands in where none was chosen."""
+"""The world that is used where none was chosen."""
 
 from __future__ import annotations
 

@@ -58,6 +58,6 @@ def test_the_sentence_is_the_first_of_the_notes() -> None:
 
 
 def test_a_long_sentence_is_cut_where_it_pauses() -> None:
-    long = "A peak that stands here for a while, " + "and stands " * 20 + "still."
-    assert sentence(long, "x") == "A peak that stands here for a while."
+    long = "A peak that stays here for a while, " + "and stays " * 20 + "still."
+    assert sentence(long, "x") == "A peak that stays here for a while."
     assert len(sentence("and " * 100, "x")) <= LONGEST and sentence("and " * 100, "x").endswith("…")

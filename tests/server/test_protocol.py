@@ -10,7 +10,7 @@ import pytest
 
 from deodar.server import frames, protocol, to_page, to_server
 
-SAY = "write them anew: python -m deodar.server.protocol"
+SAY = "write them again: python -m deodar.server.protocol"
 
 
 def test_the_schema_is_fresh() -> None:

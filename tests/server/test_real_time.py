@@ -1,4 +1,4 @@
-"""What the page is told of real time and of costs, over a real socket."""
+"""Messages on real time and on costs, over a real socket."""
 
 from __future__ import annotations
 

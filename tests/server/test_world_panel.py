@@ -41,7 +41,7 @@ def box(one: Page, name: str) -> dict[str, Any]:
 
 
 def way(one: Page) -> list[list[float]]:
-    """All places that the page was told of, as a page keeps them."""
+    """All positions that the page received, as a page stores them."""
     out: list[list[float]] = []
     for message in one.all:
         if message["type"] == "bodies":
@@ -82,7 +82,7 @@ def test_a_page_is_shown_the_world_and_where_the_robot_went(file: Path) -> None:
             and math.dist(way(one)[-1], (body["x"], body["y"])) < 0.02
         )
         scenes = [m for m in one.all if m["type"] == "scene" and m["scene"]]
-        assert len(scenes) == 1, "what stands still is sent once"
+        assert len(scenes) == 1, "a scene without motion is sent once"
         async with page_of(one) as late:
             await late.do("watch_world", on=True)
             await late.until(lambda: way(late) == way(one))
@@ -113,7 +113,7 @@ def test_a_thing_that_is_moved_while_it_runs_stops_the_robot(file: Path) -> None
         tick = one.clock["tick"]
         await one.until(lambda: one.clock["tick"] > tick + 30)
         assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), (
-            "it stands before the crate"
+            "it is in front of the crate"
         )
         await one.do("move_thing", name="goal", x=2.0, y=0.4)
         await one.until(lambda: scene(one)["marks"][0]["x"] == 2.0)

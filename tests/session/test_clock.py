@@ -1,6 +1,6 @@
-"""Running paced to the clock on the wall: lateness, catching up, steps that grow.
+"""Runs paced to the wall clock: lateness, catching up, steps that grow.
 
-The clock is a false one but in the last test.
+All tests but the last one use a simulated clock.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def session(every: int = 1, dt: float = 1.0, unit: str = "ms") -> dd.Session:
 
 
 class Wall:
-    """A clock that goes on when somebody sleeps or steps; steps take what is stated."""
+    """A clock that advances in sleeps and steps; steps take the stated time."""
 
     def __init__(
         self, one: dd.Session, cost: float = 0.0, hiccups: dict[int, float] | None = None, drowsy: float = 0.0

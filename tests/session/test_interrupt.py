@@ -36,7 +36,7 @@ def test_a_second_one_stops_at_once() -> None:
     with pytest.raises(KeyboardInterrupt), stoppable():
         os.kill(os.getpid(), signal.SIGINT)
         os.kill(os.getpid(), signal.SIGINT)
-        pytest.fail("it went on")
+        pytest.fail("it was not stopped")
     assert signal.getsignal(signal.SIGINT) is before
 
 

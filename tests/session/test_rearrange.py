@@ -106,7 +106,7 @@ def test_a_track_follows_the_bodies_and_begins_anew_with_the_run() -> None:
     track.follow(session)
     track.follow(session)
     assert track.way is way and len(way.places) - len(places) <= 1, (
-        "what stands still is not taken down again"
+        "a scene without motion is not recorded again"
     )
     session.reset()
     track.follow(session)

@@ -68,5 +68,5 @@ def test_what_a_world_becomes_later_does_not_reach_another_one() -> None:
     one.by = 9.0
     assert counted(one) == [9.0]
     assert counted(Counter(4.0), copies=2) == [4.0, 4.0], (
-        "another number of copies: traced anew, from the copy that was taken"
+        "another number of copies: traced again, from the stored copy"
     )

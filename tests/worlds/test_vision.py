@@ -1,4 +1,4 @@
-"""Films and cameras: what they show when, and what happens when there is none."""
+"""Videos and cameras: their pictures over time, and the errors without one."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_a_record_names_the_film(film: Path) -> None:
 
 def test_files_that_are_no_film(tmp_path: Path) -> None:
     text = tmp_path / "film.mp4"
-    text.write_text("not a film")
+    text.write_text("not a video")
     with pytest.raises(WorldError, match=r"film.mp4: cannot be read as a video"):
         Video(text)
     with pytest.raises(WorldError, match="there is no such video"):
@@ -80,7 +80,7 @@ def test_files_that_are_no_film(tmp_path: Path) -> None:
 def test_a_camera_gives_its_newest_picture_and_never_waits(film: Path) -> None:
     camera = Camera(str(film), patience=60.0)
     camera.reset(0)
-    # a film as a camera is read as fast as it goes, to its last picture
+    # a video as a camera is read at full speed, to its last picture
     while abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0:
         time.sleep(0.01)
     camera.sense("picture", FINE, 0.0)  # no picture will come after it, and this does not wait for one

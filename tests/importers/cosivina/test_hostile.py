@@ -41,7 +41,7 @@ def tried(content: bytes | str) -> Imported | None:
 
 
 def fuzz(path: Path, count: int, seed: int = 0) -> tuple[int, int]:
-    """So many mutations of a file, of its text and of its content: how many were read, how many refused."""
+    """Mutate a file, its text and its content; return the numbers of files read and refused."""
     rng = random.Random(f"{path.stem} {seed}")
     source = path.read_text()
     data = json.loads(source)

@@ -54,7 +54,7 @@ EXACT = {"SumDimension": PLANE, "ExpandDimension2D": ROW, "Transpose": SHORT}
 
 
 def model(seed: int, count: int) -> list[tuple[str, str, dict[str, Any], list[tuple[str, str]]]]:
-    """Elements of random kinds and sizes; each reads what fits, wherever it stands in the list."""
+    """Elements of random kinds and sizes; each reads what fits, at any position in the list."""
     rng = random.Random(seed)
     chosen = [(f"e{k}", rng.choice(KINDS)) for k in range(count)]
     sizes = {

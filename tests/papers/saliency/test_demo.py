@@ -64,7 +64,7 @@ def test_a_picture_of_ones_own(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("way", ["film", "camera"])
 def test_a_film_and_a_camera(way: str) -> None:
-    """A red square crosses the film in its first second and stays where it is then, at columns 48 to 63."""
+    """A red square crosses the video in its first second and stays where it is then, at columns 48 to 63."""
     film = _capture.example()
     scene = (
         filmed(film, [0.0, 240.0])

@@ -1,4 +1,4 @@
-"""Rows made by hand, as if all had gone as the paper tells it."""
+"""Rows made by hand, with the results that the paper reports."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def row(c, trial, **other):
 
 
 def expected(obstacle, onset, duration):
-    """The route that the paper tells."""
+    """The route that the paper reports."""
     if onset < 180:
         return "south" if obstacle == "partial" or duration > 75 else "north"
     return "switch" if obstacle != "partial" and onset < 480 and duration > 130 else "north"

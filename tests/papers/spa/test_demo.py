@@ -19,7 +19,7 @@ INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at s
 
 
 def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
-    """A record as a run gives it, without noise in it: north intends what is given, nobody else anything."""
+    """A record as of a run without noise: north has the given intention, the other behaviours none."""
     time, x, y = np.arange(len(pose)) * float(narrative.EVERY), np.arange(-104.0, -4), np.arange(5.0, 105)
     data: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
     for name in DIRECTIONS:
@@ -32,7 +32,7 @@ def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
 
 
 def way(*corners: tuple[float, float], each: int) -> np.ndarray:
-    """A path over corners, so many records from one to the next."""
+    """A path over corners, with `each` records from one to the next."""
     pieces = [np.linspace(a, b, each, endpoint=False) for a, b in itertools.pairwise(corners)]
     line = np.concatenate([*pieces, [corners[-1]]])
     return np.column_stack([line, np.zeros(len(line))])

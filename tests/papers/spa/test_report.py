@@ -50,7 +50,7 @@ def test_what_was_inferred_from_a_run_is_marked_and_not_required():
         "large maze, low noise: the planner reaches",
     ):
         assert any(words in name for name in inferred), words
-    # what happens at the second location is inferred wherever it is told of
+    # events at the second location are inferred in every sentence
     assert all(c.inferred for name, c in said(lambda c, k: {}).items() if "second location" in name)
     assert all(c.assumes for name, c in said(lambda c, k: {}).items() if name.startswith("case 3"))
 
@@ -162,7 +162,7 @@ FAILS = [
         lambda c, k: {"arrival": 1500, "still": 400} if c.obstacle else {},
         "6.2: planning again is shorter",
     ),
-    ("all stand", lambda c, k: {"still": 100} if c.obstacle else {}, "5.2: switching takes a time"),
+    ("all rest", lambda c, k: {"still": 100} if c.obstacle else {}, "5.2: switching takes a time"),
     (
         "any time",
         lambda c, k: {"plan": 100 + 37 * (k % 7)} if c.many_starts and c.method == "planner" else {},

@@ -106,7 +106,7 @@ def test_a_closed_loop_keeps_clear_of_walls() -> None:
         avoiding(), 64 * 600, record=["pose.output", "eyes.output", "touching.output"], world=Arena("z")
     )
     pose = data["pose.output"].values
-    assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum() > 1.0, "it goes on driving"
+    assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum() > 1.0, "it continues to drive"
     assert data["eyes.output"].values[300:].max() > 100, "it meets walls"
     assert data["touching.output"].values.mean() < 0.05
 
@@ -165,8 +165,8 @@ def test_infrared_noise_can_be_silenced() -> None:
 
 
 def test_obstacles_from_above_are_the_map_of_the_published_maze() -> None:
-    """On cells of 1 cm; a cell counts as wall where something stands on a part of it, and so does all that
-    lies outside.
+    """On cells of 1 cm; a cell counts as wall if an object covers a part of it, and so do all cells
+    outside.
     """
     y, x = dd.Axis("y", 5, 104, 100, unit="cm"), dd.Axis("x", -104, -5, 100, unit="cm")
     world = begun("z", unit="cm")
@@ -369,7 +369,7 @@ def test_a_motor_that_is_told_no_number_is_named() -> None:
 
 
 class Broken(Arena):
-    """An arena whose vehicle is lost: its place is no number after some periods."""
+    """An arena whose vehicle is lost: its position is NaN after some periods."""
 
     def advance(self, shared, own, state, motors):
         new = super().advance(shared, own, state, motors)

@@ -63,7 +63,7 @@ def test_the_sensors_look_away_from_the_middle_the_first_one_to_the_right_of_the
     assert (np.sum(looks * stands, 1) / np.linalg.norm(stands, axis=1) > 0.7).all()
     assert s.left[0] < 0 < s.left[-1] and looks[0, 0] > 0.9 and looks[0, 1] < 0
     assert (np.linalg.norm(stands, axis=1) < EPUCK.radius).all(), (
-        "they stand inside the body, so that a wall is never behind them"
+        "they lie inside the body, so that a wall is never behind them"
     )
 
 
