@@ -32,6 +32,7 @@ steps take several times as long. Single precision differs in the last digits.
 
 DEFAULT_PROGRAM = (
     # bits
+    "tests/contracts/test_worlds.py::test_a_run_is_the_same",
     "tests/contracts/test_worlds.py::test_the_same_run",
     "tests/old_files/",
     "tests/benchmarks/test_bits.py",

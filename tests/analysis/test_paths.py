@@ -51,6 +51,6 @@ def test_speeds_are_ways_over_times():
 
 
 @pytest.mark.parametrize("bad", [[], [(1,)], [(1, np.nan)], 3.0])
-def test_what_is_no_path_is_refused(bad):
+def test_a_value_that_is_not_a_path_is_refused(bad):
     with pytest.raises(AnalysisError, match="a path is rows of x and y"):
         paths.path_length(bad)

@@ -59,7 +59,7 @@ def test_working_memory_and_what_erases_it() -> None:
     assert found.forgetting is not None and found.forgetting < 0
 
 
-def test_a_memory_is_also_erased_where_it_stands() -> None:
+def test_a_memory_is_also_erased_by_an_input_at_its_position() -> None:
     found, driven = regimes(lateral(18, 6, 0.1)), regimes(lateral(12, 0, 0.6))
     assert found.suppression is not None and found.suppression < 0 and driven.suppression is None
     one = isolate(lateral(18, 6, 0.1))
@@ -73,7 +73,7 @@ def test_a_memory_is_also_erased_where_it_stands() -> None:
         assert len(one.peaks()) == left
 
 
-def test_a_boost_makes_a_peak_of_what_is_below_threshold_and_where_it_is() -> None:
+def test_a_boost_makes_a_peak_at_the_position_of_a_subthreshold_input() -> None:
     found = regimes(lateral(12, 0, 0.6))
     needed = [b.boost for b in found.boosts]
     assert all(b.localised for b in found.boosts) and all(a > b > 0 for a, b in itertools.pairwise(needed))  # type: ignore[operator]

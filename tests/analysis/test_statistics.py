@@ -25,7 +25,7 @@ def test_wilson_at_the_ends():
         statistics.wilson(11, 10)
 
 
-def test_the_intervals_hold_what_they_promise():
+def test_the_intervals_contain_the_true_value_as_often_as_stated():
     draw = np.random.default_rng(1)
     samples = draw.lognormal(size=(2000, 20))
     middle = [statistics.median_interval(s) for s in samples]
@@ -46,7 +46,7 @@ def test_the_interval_of_a_ratio_holds_it():
     assert low < 2.0 < high and high - low < 0.3
 
 
-def test_anova_tells_groups_apart():
+def test_anova_distinguishes_groups():
     draw = np.random.default_rng(3)
     same = [draw.normal(size=30) for _ in range(3)]
     assert statistics.anova(same)[1] > 0.05

@@ -64,7 +64,7 @@ def field(a: float, sigma: float, c: float, h: float, samples: int) -> dd.Field:
 
 @pytest.mark.parametrize("samples", [160, 320])
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
-def test_the_width_that_stays(a: float, sigma: float, c: float, h: float, samples: int) -> None:
+def test_the_width_of_a_settled_peak(a: float, sigma: float, c: float, h: float, samples: int) -> None:
     _, stable = widths(a, sigma, c, h)
     one = isolate(field(a, sigma, c, h, samples), precision="float64")
     kept = outlives(one, 1.5 * abs(h))

@@ -66,7 +66,7 @@ def test_a_signal_while_another_is_intended_is_not_taken() -> None:
     assert not on(model, ["a.satisfaction"])["a.satisfaction"].any()
 
 
-def test_what_is_perceived_must_be_what_was_intended() -> None:
+def test_the_percept_must_match_the_intention() -> None:
     for place, satisfied in ((30, False), (70, True)):
         model = dd.Model("reach")
         model.insert(behaviour([X]), "reach")

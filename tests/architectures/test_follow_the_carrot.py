@@ -43,7 +43,7 @@ def test_the_shorter_turn_is_taken():
     assert right > left and right - left == pytest.approx(100 * (2 * np.pi - 3.0 - np.arctan2(0.2, -1)))
 
 
-def test_the_carrot_is_the_point_nearest_to_what_lies_ahead():
+def test_the_carrot_is_the_nearest_point_ahead_on_the_path():
     line = np.asarray([[(0.0, 0), (1, 0.5), (1, -3)]])
     assert np.diff(Carrot(ahead=1.0).wheels(np.zeros((1, 2)), np.zeros(1), line)[0]) > 0
     assert np.diff(Carrot(ahead=3.0).wheels(np.zeros((1, 2)), np.asarray([-np.pi / 2]), line)[0]) > 0

@@ -48,7 +48,7 @@ def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]
         assert all(t.satisfied < t.off < t.action_off < t.released < t.next_on for t in learned[:-1])
 
 
-def test_the_order_of_what_is_perceived_does_not_matter() -> None:
+def test_the_order_of_percepts_does_not_matter() -> None:
     sequence = [30.0, 6.0, 54.0]
     for seen in (PLACES, PLACES[::-1]):
         data = dd.simulate(lesson(sequence, seen), lesson_end(3, 5), record=cascade_paths(3))
@@ -131,7 +131,7 @@ def test_a_sequence_must_fit_into_its_chain() -> None:
         lesson([1.0, 2.0, 3.0], items=2)
 
 
-def test_another_order_is_told() -> None:
+def test_another_order_is_reported() -> None:
     good = ActionTransition(1, 30.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0)
     assert (
         good.in_order

@@ -151,7 +151,7 @@ def test_slow_inhibition_is_another_dynamics():
 
 
 @pytest.mark.parametrize("drive", [(), (dd.Gaussian(1, 3, normalized=True),)])
-def test_it_stands_in_a_document(tmp_path, drive):
+def test_it_is_stored_in_a_document(tmp_path, drive):
     model = dd.Model("two")
     for name in ("perceptual", "memory"):
         model.insert(two_layer_field([X], [dd.Gaussian(15, 5)], [dd.Gaussian(-5, 10)], drive=drive), name)

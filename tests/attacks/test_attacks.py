@@ -16,7 +16,7 @@ def test_mutated_documents_are_read_or_refused_and_nothing_else() -> None:
     assert outcome.read > 5 and outcome.refused > 50
 
 
-def test_hostile_messages_are_answered_and_the_studio_goes_on(tmp_path: Path) -> None:
+def test_hostile_messages_are_answered_and_the_studio_continues(tmp_path: Path) -> None:
     outcome = messages.run(tmp_path, 200, seed=3)
     assert outcome.errors == []
     assert outcome.refused > 100 and outcome.connections > 1
@@ -43,7 +43,7 @@ def test_pages_that_come_and_go_leave_nothing(tmp_path: Path) -> None:
         ({"sessions": 1}, 1),
     ],
 )
-def test_a_studio_that_keeps_what_pages_left_is_found_out(more: dict[str, float], visits: int) -> None:
+def test_a_studio_that_stores_data_of_closed_pages_is_detected(more: dict[str, float], visits: int) -> None:
     early = soak.Held(500, 10, 300_000, 8, 20, 1, 0)
     (error,) = soak.beyond(
         early,

@@ -62,7 +62,7 @@ def test_importing_sets_nothing() -> None:
     assert told("import deodar.batch.simulate, deodar.batch.workers")["nproc"] is None
 
 
-def test_the_command_line_takes_one_unless_told_otherwise() -> None:
+def test_the_command_line_uses_one_core_by_default() -> None:
     run = (
         "from deodar.cli import main; main(['elements', '--json']); from deodar.cli import _options;"
         " _options.use_cores({})"

@@ -53,7 +53,7 @@ def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.parametrize("name", ["gpu:99", "cpu:1000", "cpu:x", "cpu:", "quantum", "", 3])
-def test_one_that_is_not_there_is_an_error_that_says_which_are(name: str) -> None:
+def test_an_unknown_device_is_an_error_that_lists_the_valid_ones(name: str) -> None:
     for call in (lambda: dd.simulate(model(), 10, device=name), lambda: dd.Session(model(), device=name)):
         with pytest.raises(
             dd.errors.DeviceError,

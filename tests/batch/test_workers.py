@@ -52,7 +52,7 @@ def children() -> list[psutil.Process]:
     return found
 
 
-def test_the_same_results_whatever_the_split() -> None:
+def test_the_results_do_not_depend_on_the_split() -> None:
     model = small()
 
     def run(**split: int) -> dict[str, np.ndarray]:
@@ -227,7 +227,7 @@ class Locked(World):
         raise TypeError("it is bolted to the floor")
 
 
-def test_what_cannot_be_handed_over_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_value_that_cannot_be_pickled_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(dd.errors.WorkerError, match=r"the world Locked cannot be sent .*bolted"):
         dd.simulate(small(), 10, trials=2, workers=2, world=Locked())
     monkeypatch.setattr(World, "__module__", "__main__")

@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import bits
 
 
-def test_copies_of_equal_width_agree_to_the_bit_whatever_else_differs() -> None:
+def test_copies_of_equal_width_agree_to_the_bit() -> None:
     found = bits.check(10, seed=1, names=["two lines of 31"], widths=(1, 3), workers_every=0)
     assert not found.differences and found.compared > 50
     assert {key[1] for key in found.first} == {1, 3}

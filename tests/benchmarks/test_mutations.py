@@ -40,7 +40,7 @@ def test_a_file_that_says_that_it_is_empty_is_not_broken(content: dict[str, obje
     assert model is not None and not model.document.entries
 
 
-def test_what_ends_otherwise_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unexpected_outcome_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The harness reports a wrong exception, an error without a message, and a model that is silently
     empty.
     """

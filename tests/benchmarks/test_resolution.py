@@ -35,7 +35,7 @@ def test_forgetting_of_the_step_is_that_of_amari() -> None:
 
 
 @pytest.mark.parametrize(("dimensions", "samples"), [(1, 101), (2, 61)])
-def test_a_memory_stays_where_it_was_made(dimensions: int, samples: int) -> None:
+def test_a_memory_keeps_its_position(dimensions: int, samples: int) -> None:
     assert resolution.motion(dimensions, samples, dd.Logistic(4.0), "cell") < 0.1
     assert resolution.motion(dimensions, samples, dd.Logistic(4.0), "point") > 0.1, (
         "memories do not stick to the grid"

@@ -11,7 +11,7 @@ import pytest
 from deodar.cli import main
 
 
-def test_it_tells_versions_device_and_folder(
+def test_it_prints_versions_device_and_folder(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     (tmp_path / "kept").write_bytes(b"x" * 2**20)
@@ -30,7 +30,7 @@ def test_it_tells_versions_device_and_folder(
     assert "1 compiled programs" in page and "extra      test: installed" in page
 
 
-def test_what_is_missing_comes_with_the_line_to_type(
+def test_a_missing_package_is_printed_with_the_line_to_type(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     version = importlib.metadata.version

@@ -73,7 +73,7 @@ def test_one_page_as_json_is_its_schema(kind: str, capsys: pytest.CaptureFixture
 
 
 @pytest.mark.parametrize("kind", ["Picture"])
-def test_json_of_what_is_no_part_of_a_document(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_the_parts_that_no_document_contains(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["elements", kind, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["title"] == kind
 

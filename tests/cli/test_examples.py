@@ -55,7 +55,7 @@ def test_every_example_has_a_sentence(name: str) -> None:
     assert 20 < len(examples.sentence(name)) <= examples.LONGEST
 
 
-def test_what_writes_the_examples_is_no_example() -> None:
+def test_the_script_that_writes_the_examples_is_not_an_example() -> None:
     assert not {"make", "pictures"} & set(examples.scripts())
 
 
@@ -132,7 +132,7 @@ def test_an_example_runs_by_its_name_as_long_as_its_notes_say(
     "words",
     [["check", "example:node"], ["run", "example:node", "--duration", "5", "--live", "--speed", "max"]],
 )
-def test_a_name_stands_wherever_a_file_does(words: list[str]) -> None:
+def test_an_example_can_be_named_instead_of_a_file(words: list[str]) -> None:
     assert main(words) == 0
 
 

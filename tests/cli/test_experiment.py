@@ -80,7 +80,7 @@ def test_the_model_may_be_an_example(file, capsys, tmp_path):
     assert "node" in capsys.readouterr().err
 
 
-def test_after_a_stop_the_same_call_goes_on(file, capsys, tmp_path, monkeypatch):
+def test_after_a_stop_the_same_call_resumes(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
     assert call("--out", "whole") == 0
     from deodar.experiments import jobs
@@ -119,7 +119,7 @@ def test_check_runs_nothing(file, capsys, tmp_path):
     assert {p.name for p in tmp_path.iterdir()} == {"when.json", "when.model.json"}
 
 
-def test_what_is_wrong_is_told_before_anything_runs(file, capsys, tmp_path):
+def test_errors_are_reported_before_a_run(file, capsys, tmp_path):
     data = json.loads(file.read_text())
     data["conditions"]["decided"]["of"] = "v.activation"
     file.write_text(json.dumps(data))
@@ -165,7 +165,7 @@ def test_very_many_steps_in_total_need_yes(file, capsys, tmp_path, monkeypatch):
     assert "on this machine" not in capsys.readouterr().err
 
 
-def test_a_disk_that_fills_keeps_what_is_done_and_says_how_to_go_on(file, capsys, tmp_path, monkeypatch):
+def test_a_full_disk_keeps_complete_trials_and_states_how_to_resume(file, capsys, tmp_path, monkeypatch):
     from deodar.model import output
 
     with monkeypatch.context() as patch:

@@ -65,7 +65,7 @@ RUN = [
 ]
 
 
-def test_without_a_terminal_the_result_goes_where_data_of_the_user_go(
+def test_without_a_terminal_the_result_is_written_to_the_user_data_folder(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(RUN) == 1
@@ -79,13 +79,13 @@ def test_without_a_terminal_the_result_goes_where_data_of_the_user_go(
     assert [p.name for p in here.iterdir()] == ["small.json"]
 
 
-def test_programs_are_told_where_it_is(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_programs_get_the_path_of_the_cache(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*RUN, "--json"]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert Path(answer["record"]).exists() and answer["instead_of"] == "result" and answer["complete"]
 
 
-def test_the_temporary_folder_comes_next(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_temporary_folder_is_the_second_choice(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here.parent / "data" / "deodar").write_text("in the way")
     assert main(RUN) == 1
     assert len(list((here.parent / "temporary").rglob("record.zarr"))) == 1

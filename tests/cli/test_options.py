@@ -39,7 +39,7 @@ def run(*arguments: str) -> tuple[int, str]:
     return done.returncode, done.stderr
 
 
-def test_a_run_takes_one_core_unless_told_and_a_repetition_as_many_as_the_record(here: Path) -> None:
+def test_a_run_uses_one_core_by_default_and_a_repetition_those_of_the_record(here: Path) -> None:
     assert run("run", "small.json", "--duration", "5", "--out", "one") == (0, "")
     assert run("run", "small.json", "--duration", "5", "--out", "two", "--cores", "2") == (0, "")
     assert run("run", "two", "--out", "again") == (0, "")
@@ -77,7 +77,7 @@ def test_workers_share_trials(here: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "--workers cannot be given" in capsys.readouterr().err
 
 
-def test_a_device_is_named_and_one_that_is_not_there_refused(
+def test_a_device_is_named_and_an_unknown_one_is_refused(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["run", "small.json", "--duration", "5", "--device", "cpu:0", "--out", "named"]) == 0

@@ -54,7 +54,7 @@ def call(*args):
     return cli.main(["reproduce", "toy", *args, "--no-progress"])
 
 
-def test_it_runs_writes_and_says_what_holds(toy, capsys, tmp_path):
+def test_it_runs_writes_and_prints_the_claims(toy, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
     assert (
@@ -83,7 +83,7 @@ def test_a_required_claim_that_is_false_is_status_1(toy, capsys):
     assert json.loads(capsys.readouterr().out)["claims"][0]["holds"] is False
 
 
-def test_after_a_stop_the_same_call_goes_on_with_the_same_rows(toy, capsys, tmp_path):
+def test_after_a_stop_the_same_call_resumes_with_the_same_rows(toy, capsys, tmp_path):
     call("--out", "whole")
     toy.stops = 4
     assert call("--out", "part") == 1
@@ -96,7 +96,7 @@ def test_after_a_stop_the_same_call_goes_on_with_the_same_rows(toy, capsys, tmp_
         assert (tmp_path / "part" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
-def test_what_is_to_be_typed_after_a_stop_says_all_that_was_asked(toy, capsys):
+def test_the_command_to_resume_repeats_all_arguments(toy, capsys):
     toy.stops = 1
     assert call("--quick", "--only", "d", "--out", "some") == 1
     assert capsys.readouterr().err.endswith("deodar reproduce toy --quick --out some --only d\n")
@@ -140,7 +140,7 @@ def test_a_folder_of_something_else_is_left_alone(toy, capsys, tmp_path):
     assert [p.name for p in (tmp_path / "mine").iterdir()] == ["thesis.txt"]
 
 
-def test_an_unknown_paper_is_told(capsys):
+def test_an_unknown_paper_is_reported(capsys):
     assert cli.main(["reproduce", "spaa"]) == 1
     assert "there is no paper 'spaa' to reproduce. Did you mean 'spa'?" in capsys.readouterr().err
 

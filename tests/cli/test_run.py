@@ -271,7 +271,7 @@ def test_a_very_long_run_is_asked_about(
     assert "on this machine" not in capsys.readouterr().err
 
 
-def test_where_nobody_can_be_asked_a_very_long_run_needs_yes(
+def test_without_a_terminal_a_very_long_run_needs_yes(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(simulate, "LONG_STEPS", 40)

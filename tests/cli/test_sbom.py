@@ -30,7 +30,7 @@ def test_it_is_printed_as_cyclonedx(capsys: pytest.CaptureFixture[str]) -> None:
     assert set(told) == {"bomFormat", "specVersion", "version", "metadata", "components", "dependencies"}
 
 
-def test_every_component_has_what_the_specification_asks_for(bill: dict) -> None:
+def test_every_component_has_the_fields_of_the_specification(bill: dict) -> None:
     for component in [bill["metadata"]["component"], *bill["components"]]:
         assert set(component) <= {"type", "bom-ref", "name", "version", "purl", "scope", "licenses"}
         assert component["type"] in ("library", "application") and component["scope"] in (
@@ -50,7 +50,7 @@ def test_references_are_unique_and_lead_to_components(bill: dict) -> None:
     assert {to for entry in bill["dependencies"] for to in entry["dependsOn"]} <= set(known)
 
 
-def test_it_holds_what_deodar_requires_directly_and_through_others(bill: dict) -> None:
+def test_it_lists_the_direct_and_the_indirect_requirements_of_deodar(bill: dict) -> None:
     found = {
         c["purl"].split("/")[1].split("@")[0]: c
         for c in bill["components"]

@@ -168,7 +168,7 @@ def test_the_file_that_leads_to_the_studio_is_removed_when_the_studio_is_termina
     assert list((tmp_path / "tmp").glob("deodar-studio-*")) == []
 
 
-def test_a_taken_port_is_told(
+def test_a_taken_port_is_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -187,7 +187,7 @@ def test_wrong_calls_end_with_2(words: list[str], tmp_path: Path, monkeypatch: p
     assert stopped.value.code == 2
 
 
-def test_a_world_that_is_not_there_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_world_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["studio", "--no-browser", "--world", "pictur:x.png"]) == 1
     assert "picture" in capsys.readouterr().err
 

@@ -87,7 +87,7 @@ def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.
     assert not set(old) <= set(place.iterdir())
 
 
-def test_it_stands_in_the_users_own_cache_folder() -> None:
+def test_it_is_in_the_cache_folder_of_the_user() -> None:
     code = "from deodar.compiler.cache import folder; print(folder())"
     environment = {k: v for k, v in os.environ.items() if k != "DEODAR_CACHE"} | {
         "XDG_CACHE_HOME": "/somewhere/else"

@@ -29,7 +29,7 @@ def ring(n: int) -> dd.Model:
     return model
 
 
-def test_equal_structure_is_one_group_whatever_the_number() -> None:
+def test_elements_of_equal_structure_are_one_group() -> None:
     small, large = plan(ring(3).document), plan(ring(40).document)
     assert [type(g.like.element).__name__ for g in small.groups] == [
         type(g.like.element).__name__ for g in large.groups
@@ -75,7 +75,7 @@ def test_it_does_not_depend_on_the_order_of_declaration() -> None:
     assert seen[0] == seen[1]
 
 
-def test_what_changes_the_program_makes_another_group() -> None:
+def test_a_parameter_that_changes_the_program_makes_another_group() -> None:
     model = dd.Model("kinds")
     model.add(dd.Field("a", [x], tau=10))
     model.add(dd.Field("b", [x], tau=20, resting_level=-3, global_inhibition=1))  # the same program
@@ -88,7 +88,7 @@ def test_what_changes_the_program_makes_another_group() -> None:
     assert groups == {frozenset("abg"), frozenset("c"), frozenset("d"), frozenset("e"), frozenset("f")}
 
 
-def test_what_stands_still_is_computed_once_a_chunk() -> None:
+def test_constant_parts_are_computed_once_a_chunk() -> None:
     model = dd.Model("still")
     s = model.add(dd.GaussianStimulus("s", [x]))
     t = model.add(dd.GaussianStimulus("timed", [x], windows=[(0, 5)]))
@@ -156,7 +156,7 @@ def test_uniform_weights_in_large_batches_are_finite() -> None:
     assert np.isfinite(data["u.activation"].values).all()
 
 
-def test_a_port_that_takes_what_comes_takes_the_largest_whatever_the_ids() -> None:
+def test_a_port_without_axes_takes_the_largest_input_for_any_ids() -> None:
     y = dd.Axis("y", 0, 5, samples=6)
     for names in (("a", "b"), ("b", "a"), ("wide", "narrow")):
         model = dd.Model("sum")

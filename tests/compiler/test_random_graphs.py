@@ -267,7 +267,7 @@ WAYS = ("", "waves", "fourier")
 
 @pytest.mark.parametrize("way", WAYS)
 @given(graph=graphs(), seed=st.integers(0, 9))
-def test_every_planned_convolution_gives_what_its_matrix_gives(way: str, graph: Graph, seed: int) -> None:
+def test_every_convolution_strategy_agrees_with_its_matrix(way: str, graph: Graph, seed: int) -> None:
     """One application, to 1e-5 of the sum of absolute weights."""
     y = np.random.default_rng(seed).random([a.samples for a in graph.axes]).astype(np.float32)
     with dear(way):
@@ -317,7 +317,7 @@ def test_double_precision_is_exact(graph: Graph) -> None:
 
 
 @given(graph=graphs())
-def test_what_couplings_show_is_the_same_however_it_travels(graph: Graph) -> None:
+def test_the_output_of_a_coupling_does_not_depend_on_the_strategy(graph: Graph) -> None:
     """Inputs and outputs of couplings can be read although they travel as waves."""
     graph = graph.contractive()
     model, paths = graph.model()

@@ -28,7 +28,7 @@ def model(resting_level: float = -5.0, kernel: Sequence[Any] = (), name: str = "
     return made
 
 
-def test_a_model_built_again_finds_what_was_compiled() -> None:
+def test_a_model_built_again_uses_the_compiled_program() -> None:
     assert executable(model()) is executable(model())
     assert executable(model(resting_level=-3.0)) is executable(model()), "a live parameter is an argument"
     assert executable(model(), precision="float64") is not executable(model())

@@ -111,18 +111,18 @@ def _with(coupling: dd.Coupling) -> dd.Model:
 
 
 @pytest.mark.parametrize("kind", [dd.Field, Doubled])
-def test_what_declares_a_convolution_shares_transforms(kind: type[dd.Field]) -> None:
+def test_elements_that_declare_a_convolution_share_transforms(kind: type[dd.Field]) -> None:
     assert shares(coupled(kind), "w")
 
 
 @pytest.mark.parametrize("kind", [Follower, Halved])
-def test_a_class_with_functions_of_its_own_does_not_take_over_the_declaration(kind: type[dd.Field]) -> None:
+def test_a_subclass_with_other_functions_does_not_inherit_the_declaration(kind: type[dd.Field]) -> None:
     model = coupled(kind)
     assert roles(model)["w"] == "" and not shares(model, "w")
 
 
 @pytest.mark.parametrize("kind", [Doubled, Follower])
-def test_classes_of_ones_own_compute_what_they_state(kind: type[dd.Field]) -> None:
+def test_custom_classes_compute_their_equations(kind: type[dd.Field]) -> None:
     model = coupled(kind)
     given, exact = (
         dd.simulate(model, 20, record=["w.activation"], precision=precision)["w.activation"].values[-1]

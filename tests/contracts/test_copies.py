@@ -113,7 +113,7 @@ def test_a_copied_model_runs_to_the_same_bits():
         )
 
 
-def test_a_session_goes_on_from_a_copied_snapshot_as_from_the_snapshot(again):
+def test_a_session_continues_from_a_copied_snapshot_as_from_the_snapshot(again):
     model = around(any_example("Field"), noisy=True)
     one = session(model, seed=5)
     one.step(7)

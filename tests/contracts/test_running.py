@@ -57,7 +57,7 @@ def test_every_port_can_be_read_and_has_the_axes_it_declares(kind):
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
-def test_one_copy_gives_just_what_it_declares(kind, precision):
+def test_one_copy_has_exactly_the_declared_outputs(kind, precision):
     """The element's own functions, outside a program: shapes and precision of outputs and of the state."""
     element = any_example(kind)
     here = node(around(element))
@@ -86,7 +86,7 @@ def test_one_copy_gives_just_what_it_declares(kind, precision):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_what_is_passed_on_in_the_same_instant_is_declared(kind):
+def test_outputs_that_depend_on_inputs_of_the_same_step_are_declared(kind):
     """A port that declares no input of the same instant must not depend on one."""
     element = any_example(kind)
     model = around(element)
@@ -102,7 +102,7 @@ def test_what_is_passed_on_in_the_same_instant_is_declared(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_at_a_step_of_its_own(kind):
+def test_an_element_with_a_step_of_its_own(kind):
     """Every part may run at a multiple of the step: its state then changes at that multiple only."""
     element = any_example(kind)
     model = around(element, every=3)

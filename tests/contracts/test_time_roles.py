@@ -64,7 +64,7 @@ def test_a_declaration_in_units_of_time_without_a_role_is_refused() -> None:
         Slow()
 
 
-def test_what_limits_the_step_is_this() -> None:
+def test_the_limits_of_the_step() -> None:
     assert {kind: found for kind, found in LIMITED.items() if found} == {
         "AdaptiveWeights": {"rate": "rate"},
         "Attractor": {"tau": "time scale"},

@@ -40,7 +40,7 @@ def test_some_sensor_of_the_example_shows_something(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
-def test_what_is_seen_from_above_lies_inside_its_border(kind):
+def test_the_scene_lies_inside_its_border(kind):
     world = WORLDS[kind].example()
     world.reset(3)
     scene = world.scene()
@@ -58,7 +58,7 @@ def test_what_is_seen_from_above_lies_inside_its_border(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
-def test_a_sensor_in_a_model_shows_what_the_world_reads(kind):
+def test_a_sensor_in_a_model_has_the_reading_of_the_world(kind):
     for sensor, signal in WORLDS[kind].example().sensors.items():
         world, axes = WORLDS[kind].example(), example_axes(kind, sensor)
         model = dd.Model("sensing")
@@ -71,7 +71,7 @@ def test_a_sensor_in_a_model_shows_what_the_world_reads(kind):
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", WORLDS)
-def test_the_same_run_however_it_is_cut_and_again_after_a_reset(kind, precision):
+def test_a_run_is_the_same_for_any_chunks_and_after_a_reset(kind, precision):
     """The world sets the times of the exchange: neither chunks nor reading the model change it."""
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]

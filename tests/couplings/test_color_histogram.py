@@ -106,6 +106,6 @@ def test_where_a_colour_is_and_which_colours_there_are():
         ([COLUMNS, dd.Axis("hue", 0, 360, 36)], "must be periodic"),
     ],
 )
-def test_what_does_not_fit_is_told(axes, what):
+def test_axes_that_do_not_fit_are_reported(axes, what):
     with pytest.raises(ModelError, match=what):
         shown(PIXELS, ColorHistogram(axes, name="h"))

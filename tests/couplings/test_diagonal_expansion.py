@@ -18,7 +18,7 @@ def test_each_place_goes_to_its_diagonal():
     assert found.tolist() == [[float((i + j) ** 2) for j in range(3)] for i in range(4)]
 
 
-def test_what_does_not_fit_is_told():
+def test_axes_that_do_not_fit_are_reported():
     for axes, says in (
         ([X], "between two"),
         ([X, X], "two of its axes"),

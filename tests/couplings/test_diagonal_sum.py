@@ -21,7 +21,7 @@ def test_each_diagonal_is_added_up():
     assert np.allclose(found, wanted)
 
 
-def test_what_does_not_fit_is_told():
+def test_axes_that_do_not_fit_are_reported():
     for source, own, says in (([X], 6, "two axes"), ([X, Y], 5, "are 6")):
         model = dd.Model("misfit")
         model.add(dd.GaussianStimulus("in", source)) >> DiagonalSum([dd.Axis("z", 0, 1, own)], name="out")

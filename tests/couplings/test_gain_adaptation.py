@@ -36,7 +36,7 @@ def test_gains_grow_with_the_error_where_the_peak_is():
     assert end(model(initial=0.2), 30, "g.output") == pytest.approx(np.sum(f * (0.2 + 0.18 * f)), abs=1e-12)
 
 
-def test_an_error_of_its_own_decays_as_the_closed_form_says_at_any_sampling():
+def test_an_initial_error_decays_by_the_closed_form_at_any_sampling():
     wanted, found = 5.0, []
     for n in (40, 80):
         m = model(n, error=None)

@@ -182,7 +182,7 @@ def test_the_order_of_declaration_does_not_matter():
 
 
 @pytest.mark.parametrize("rule", ["outstar", "oja"])
-def test_trials_rows_and_sweeps_are_what_they_are_alone(rule):
+def test_trials_rows_and_sweeps_equal_single_runs(rule):
     m = dd.Model("batch", dt=1)
     for k in (0, 1):  # two of one kind: rows of a group
         w = m.add(Hebbian([Z], rule, name=f"w{k}", rate=0.1, decay=0.01, random=True, initial=0.5, seed=3))

@@ -83,7 +83,7 @@ def test_in_the_plane():
     np.testing.assert_allclose(y, 2 * bumps[0] + 6 * bumps[1], rtol=1e-12)
 
 
-def test_mistakes_are_told():
+def test_mistakes_are_reported():
     with pytest.raises(ParameterError, match=r"tuning: has shape \[3, 4\]"):
         PopulationActivity(np.ones((3, 4)), [X])
     with pytest.raises(ParameterError, match="one value for each of 2 axes"):

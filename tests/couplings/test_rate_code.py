@@ -59,7 +59,7 @@ def test_on_a_ring(sigma):
 
 
 @pytest.mark.parametrize(("sigmas", "wrong"), [(6, 6.1e-9), (4, 1.4e-4), (2, 0.06)])
-def test_what_is_cut_off_draws_the_mean_inwards(sigmas, wrong):
+def test_truncation_moves_the_mean_inwards(sigmas, wrong):
     """By the density of the normal distribution where the last cell ends: the mean of a Gaussian of which a
     tail is missing.
     """

@@ -30,7 +30,7 @@ def test_a_place_in_the_plane() -> None:
 
 
 @pytest.mark.parametrize("turns", [0, 3, -2])
-def test_an_angle_wraps_however_often_it_has_turned(turns: int) -> None:
+def test_an_angle_wraps_after_any_number_of_turns(turns: int) -> None:
     angle = np.deg2rad(170) + 2 * np.pi * turns
     y = shown(Boost("angle", [], angle), SpaceCode([RING], 20.0, gain=180 / np.pi, offset=20.0, name="code"))
     near = (RING.points + 170 + 180) % 360 - 180

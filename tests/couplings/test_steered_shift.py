@@ -77,7 +77,7 @@ def test_from_the_eye_to_the_world_and_back():
     np.testing.assert_allclose(data["back.output"].values[-1], data["seen.output"].values[-1], atol=1e-12)
 
 
-def test_it_follows_what_steers_in_every_step():
+def test_it_follows_the_steering_input_in_every_step():
     model, source = scene()
     position = model.add(dd.Field("position", [], tau=5, resting_level=0, sigmoid=dd.Logistic(1.0)))
     model.add(Boost("push", [], 3.0)) >> position
@@ -92,7 +92,7 @@ def test_it_follows_what_steers_in_every_step():
         np.testing.assert_allclose(y[inside], np.array(wanted).T[inside], atol=1e-12)
 
 
-def test_mistakes_are_told():
+def test_mistakes_are_reported():
     with pytest.raises(ParameterError, match="along: is empty"):
         SteeredShift([])
     with pytest.raises(ParameterError, match="contains a name twice"):

@@ -65,7 +65,7 @@ def test_several_connections_become_one_of_their_signs(signs: str, sign: str) ->
     )
 
 
-def test_a_wide_architecture_becomes_narrow() -> None:
+def test_folding_makes_a_wide_architecture_narrow() -> None:
     model = dd.load(EXAMPLES / "spa.json")
     whole, folded = dd.draw(model), dd.draw(model, depth=0)
     assert folded.size[0] < whole.size[0] / 3

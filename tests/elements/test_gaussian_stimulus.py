@@ -29,7 +29,7 @@ def test_normalised_its_amplitude_is_the_integral():
     assert not seen(axes=[LINE], center=1.5, sigma=1e-6, normalized=True).any()
 
 
-def test_ends_of_its_own():
+def test_custom_arrow_ends():
     wrapped, cut = (
         seen(axes=[LINE], center=0, sigma=6, boundary="periodic"),
         seen(axes=[RING], center=0, sigma=60, boundary="zero"),

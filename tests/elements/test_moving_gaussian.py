@@ -42,7 +42,7 @@ def test_round_a_ring():
     assert (RING.points[y.argmax(1)][[0, 10, 80]] == [300, 340, 300]).all()
 
 
-def test_a_path_stands_before_its_first_and_after_its_last_moment():
+def test_the_position_is_constant_before_the_first_and_after_the_last_waypoint():
     waypoints = [[5, 3.0], [15, 23.0], [20, 10.0]]
     t, y = seen(axes=[X], sigma=2, waypoints=waypoints)
     np.testing.assert_allclose(y, plain(X, np.interp(t, [5, 15, 20], [3, 23, 10]), 2), atol=1e-12)

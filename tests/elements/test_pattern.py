@@ -18,7 +18,7 @@ def test_the_values_times_the_amplitude_while_it_is_on():
     assert np.array_equal(found, [0.5 * VALUES * (2 <= t < 4) for t in range(6)])
 
 
-def test_values_of_another_shape_are_told():
+def test_values_of_another_shape_are_reported():
     model = dd.Model("misfit")
     model.add(Pattern("s", [Y, X], VALUES))
     assert any("[4, 2]" in p.what and "[2, 4]" in p.what for p in model.check())

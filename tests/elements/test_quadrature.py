@@ -46,7 +46,7 @@ def test_the_rule(g, axes):
 
 
 @pytest.mark.parametrize("axes", [[LINE], [LINE, RING]], ids=["1-D", "2-D"])
-def test_a_field_sums_the_means_wherever_its_output_goes(axes):
+def test_a_field_sums_cell_means_for_every_target(axes):
     model, s = (
         dd.Model("cells"),
         dd.GaussianStimulus(
@@ -128,7 +128,7 @@ def test_the_sum_of_output_times_slope_is_zero_round_a_ring_as_the_integral_is(g
     assert abs(points) > 1e-3 or type(g) is Linear
 
 
-def test_a_memory_stays_between_two_samples():
+def test_a_memory_keeps_a_position_between_two_samples():
     axis = dd.Axis("x", 0, 100, 51)
     model = dd.Model("between")
     u = model.add(

@@ -33,7 +33,7 @@ def test_straight_lines():
     np.testing.assert_allclose(y, -2 * lines(t), atol=1e-12)
 
 
-def test_what_is_held_stands_until_the_next_moment():
+def test_a_held_value_lasts_until_the_next_sample():
     t, y = seen(interpolation="hold")
     which = np.maximum(np.searchsorted(TIMES, t, side="right") - 1, 0)
     np.testing.assert_array_equal(y, VALUES[which])
@@ -78,7 +78,7 @@ def test_of_a_function():
     assert TimeSeries.of("s", lambda t: 1.0, [0, 1], []).values.data.tolist() == [1, 1]
 
 
-def test_mistakes_are_told():
+def test_mistakes_are_reported():
     with pytest.raises(ParameterError, match="times: does not rise"):
         TimeSeries("s", [], [0.0, 0.0], [1.0, 2.0])
     with pytest.raises(ParameterError, match="times: has shape"):

@@ -43,6 +43,6 @@ def test_a_steady_rise_gives_its_slope_times_tau():
     assert on[-1, 0] == pytest.approx(0.1 * TAU, rel=1e-4)
 
 
-def test_what_is_there_from_the_start_may_be_old():
+def test_an_input_of_the_first_step_may_be_long_past():
     _, on, off = seen([0], [4.0], initial=4.0)
     assert not on[:, 0].any() and not off[:, 0].any() and off[0, 1] == pytest.approx(12.0)

@@ -107,7 +107,7 @@ def _raising(error: BaseException) -> Callable[..., int]:
         (dd.errors.MissingExtra("cv2", "vision", "the camera"), "pip install 'deodar[vision]'"),
     ],
 )
-def test_what_stops_a_command_is_told_in_one_line(
+def test_an_error_of_a_command_is_one_line(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], error: BaseException, says: str
 ) -> None:
     monkeypatch.setattr(cli.commands()["elements"], "run", _raising(error))

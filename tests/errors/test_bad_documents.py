@@ -370,7 +370,7 @@ CHANGES: dict[str, Callable[[dict[str, Any]], object]] = {
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_what_loads_but_cannot_run_is_told_by_check(name: str) -> None:
+def test_a_document_that_loads_and_cannot_run_fails_check(name: str) -> None:
     data = json.loads(TEXT)
     CHANGES[name](data)
     model = dd.Model(document=files.from_data(data, ARRAYS))

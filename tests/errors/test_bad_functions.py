@@ -191,7 +191,7 @@ def test_a_module_that_raises_when_it_is_imported(tmp_path: Path, monkeypatch: p
     )
 
 
-def test_where_a_users_function_raised_stays_visible() -> None:
+def test_the_place_of_an_error_in_a_user_function_is_visible() -> None:
     """The message is ours; the cause, with its line, is kept for those who look."""
     model = dd.Model("m")
     model.add(Function("f", [X], function=raises))

@@ -12,7 +12,7 @@ from deodar.errors import DeodarError, Interrupted, MissingExtra, Problem, did_y
 KINDS = [e for e in vars(errors).values() if isinstance(e, type) and issubclass(e, DeodarError)]
 
 
-def test_what_where_and_fix_stand_in_one_paragraph() -> None:
+def test_what_where_and_fix_are_one_paragraph() -> None:
     error = errors.ParameterError(
         "is -1, below its lower bound 0", where="u.noise", fix="Take a number above 0"
     )
@@ -46,7 +46,7 @@ def test_did_you_mean(name: str, known: list[str], hint: str) -> None:
     assert did_you_mean(name, known) == hint
 
 
-def test_a_missing_extra_says_what_to_install() -> None:
+def test_a_missing_extra_names_the_package_to_install() -> None:
     error = MissingExtra("cv2", "vision", "the camera")
     assert (
         str(error)

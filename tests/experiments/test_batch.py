@@ -78,7 +78,7 @@ def test_fields_are_looked_at_too():
     } == {"time"}
 
 
-def test_each_trial_has_a_world_of_its_own_and_leaves_with_it():
+def test_each_trial_has_its_own_world_and_drops_it_when_it_ends():
     model, starts = straight(), [(10, 20, 0), (60, 20, 0), (35, 20, 0), (75, 20, 0)]
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
     arena, there = (

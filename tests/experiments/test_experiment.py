@@ -116,7 +116,7 @@ def test_a_batch_gives_the_rows_of_single_trials():
     )
 
 
-def test_what_cannot_be_swept_has_batches_of_its_own():
+def test_factors_that_cannot_be_swept_have_separate_batches():
     experiment = choice(
         factors=[Factor("width", [4.0, 6.0], "u.kernel.0.sigma"), Factor("noise", [0.0, 1.0], "u.noise")]
     )
@@ -157,7 +157,7 @@ def test_conditions_of_conditions_and_the_one_awaited():
     assert (data["late"] == 40).all() and np.isnan(data["both"]).all()
 
 
-def test_a_stopped_experiment_goes_on_with_the_same_table(tmp_path, monkeypatch):
+def test_a_stopped_experiment_resumes_with_the_same_table(tmp_path, monkeypatch):
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 5)
     experiment = choice()
     whole = experiment.run(tmp_path / "whole")
@@ -320,7 +320,7 @@ def test_pushes_ramps_and_resets():
     )
 
 
-def test_a_world_is_moved_after_what_happens():
+def test_a_world_is_moved_after_an_event():
     moved = Experiment(
         "robot",
         straight(),
@@ -385,7 +385,7 @@ def test_what_cannot_be_is_refused_before_anything_runs(tmp_path, changes, where
     assert not (tmp_path / "out").exists() and experiment.check()
 
 
-def test_all_problems_of_a_file_are_told_at_once(tmp_path):
+def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
     file = tmp_path / "e.json"
     data = {
         "experiment": 1,

@@ -52,7 +52,7 @@ def test_workers_give_the_same_rows(tmp_path, rows):
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows
 
 
-def test_a_run_that_is_killed_goes_on_with_the_same_rows(tmp_path, rows):
+def test_a_killed_run_resumes_with_the_same_rows(tmp_path, rows):
     file = tmp_path / "runs.jsonl"
     code = (
         "from pathlib import Path; from deodar.experiments.jobs import carry_out; from"

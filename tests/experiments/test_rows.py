@@ -19,7 +19,7 @@ def test_rows_are_found_again(tmp_path):
 
 
 @pytest.mark.parametrize("cut", range(1, 120, 7))
-def test_a_file_cut_off_anywhere_goes_on(tmp_path, cut):
+def test_a_file_cut_off_anywhere_can_be_resumed(tmp_path, cut):
     file = tmp_path / "runs.jsonl"
     Rows(file, ABOUT).append(ROWS)
     whole = file.read_bytes()
@@ -111,7 +111,7 @@ def test_an_extension_that_is_cut_off_is_extended_again(tmp_path, cut):
 
 
 @pytest.mark.parametrize("text", ["hello", '{"key": 1}\n', "[1]\n", '{"about": {}}\nhello\n'])
-def test_what_holds_no_rows_is_refused_and_left_alone(tmp_path, text):
+def test_a_file_without_rows_is_refused_and_unchanged(tmp_path, text):
     file = tmp_path / "runs.jsonl"
     file.write_text(text)
     with pytest.raises(RecordError):
@@ -119,7 +119,7 @@ def test_what_holds_no_rows_is_refused_and_left_alone(tmp_path, text):
     assert file.read_text() == text
 
 
-def test_a_folder_that_is_not_there_is_named(tmp_path):
+def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(OutputError, match=r"the folder .* does not exist"):
         Rows(tmp_path / "none" / "runs.jsonl", ABOUT)
 

@@ -40,7 +40,7 @@ def test_an_event_may_need_several_looks_and_need_not_end_the_trial():
     assert course.outcome == "touched" and course.events["touched"] > course.events["reached"]
 
 
-def test_the_limit_ends_what_nothing_else_does():
+def test_the_limit_ends_a_trial_without_another_end():
     course = run_trial(straight(0.0), 20, room(), events=[GOAL], every=5)
     assert course.outcome == "time" and course.duration == 20
     np.testing.assert_array_equal(course.times, [0, 5, 10, 15, 20])
@@ -62,7 +62,7 @@ def test_the_first_look_may_end_a_trial():
     assert run_trial(straight(), 100, room(goal=(12, 20)), events=[GOAL]).duration == 0
 
 
-def test_a_thing_that_comes_stops_the_robot_and_one_that_goes_lets_it_on():
+def test_an_object_that_appears_stops_the_robot_until_it_is_removed():
     there = Place(60, "box", (50, 20), (4, 30))
     world = room()
     course = run_trial(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
@@ -89,7 +89,7 @@ def test_a_goal_that_moves_is_put_back_after_the_trial():
     assert run_trial(straight(), 500, world, events=[GOAL]).duration == early
 
 
-def test_an_action_between_two_looks_comes_at_its_own_time():
+def test_an_action_between_two_samples_has_its_own_time():
     often, seldom = (
         run_trial(
             straight(),
@@ -116,7 +116,7 @@ def test_a_parameter_is_set_at_a_time():
     assert x[30] > x[29] > x[1] and (x[30:] == x[30]).all()
 
 
-def test_the_same_arguments_give_the_same_course_whatever_ran_before():
+def test_a_trial_does_not_depend_on_earlier_trials():
     world = room(slip=0.3, place_noise=0.5, start=[(10, 15, 0), (10, 25, 0.2)])
     given = {"limit": 80, "world": world, "watch": ["pose", "place"], "seed": 4}
     first = run_trial(straight(), trial=1, **given)

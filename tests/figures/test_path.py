@@ -65,7 +65,7 @@ def test_the_film_of_a_view_shows_its_trial(walked: xarray.DataArray, tmp_path: 
     assert films[1] == films[2] != films[0]
 
 
-def test_what_is_no_path_is_refused(walked: xarray.DataArray, tmp_path: Path) -> None:
+def test_a_value_that_is_not_a_path_is_refused(walked: xarray.DataArray, tmp_path: Path) -> None:
     with pytest.raises(RecordError, match="is not a path"):
         path.path_figure(walked.isel(of=0))
     with pytest.raises(RecordError, match="not into a Picture"):

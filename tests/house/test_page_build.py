@@ -48,7 +48,7 @@ def studio(tmp_path: Path) -> Path:
     return tmp_path / "studio"
 
 
-def test_the_stamp_follows_what_the_page_is_made_of(page: ModuleType, studio: Path) -> None:
+def test_the_stamp_follows_the_sources_of_the_page(page: ModuleType, studio: Path) -> None:
     def stamp() -> str:
         return str(page.digest(page.sources(studio), studio))
 
@@ -175,7 +175,7 @@ def test_the_lock_file_is_portable_and_whole() -> None:
         assert f"node_modules/@rolldown/binding-{machine}" in packages
 
 
-def test_what_the_page_depends_on_makes_uv_build_it_anew(page: ModuleType) -> None:
+def test_uv_builds_the_page_again_after_a_change_of_its_sources(page: ModuleType) -> None:
     keys = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["uv"]["cache-keys"]
     watched = {path for key in keys for path in ROOT.glob(key.get("file", "pyproject.toml"))}
     assert set(page.sources()) <= watched

@@ -197,7 +197,7 @@ def test_an_unknown_attribute_of_a_model_raises_an_error_of_python() -> None:
         deodar.Model("m").chnge  # noqa: B018
 
 
-def test_a_module_that_names_have_left_says_what_else_it_lacks() -> None:
+def test_a_module_with_moved_names_reports_unknown_names() -> None:
     from deodar.analysis import paths
 
     with pytest.raises(AttributeError, match=r"^module 'deodar.analysis.paths' has no attribute 'nothing'$"):

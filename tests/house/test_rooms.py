@@ -52,7 +52,7 @@ def test_every_file_of_a_room_registers_exactly_one_kind(module: str) -> None:
     assert len([cls for cls in registry.kinds().values() if cls.__module__ == module]) == 1
 
 
-def test_the_rooms_hold_what_a_first_model_needs() -> None:
+def test_the_groups_contain_the_parts_of_a_first_model() -> None:
     for room, some in {
         "elements": {"Field", "GaussianStimulus", "Boost", "Noise", "Sensor"},
         "couplings": {"Gain", "Project", "Resample", "Weights"},

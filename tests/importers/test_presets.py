@@ -114,7 +114,7 @@ def one_field(**kernel):
         ("zero", ["zero"], False),
     ],
 )
-def test_what_lies_beyond_the_ends_stays_and_a_difference_is_listed(here, there, said):
+def test_values_outside_the_range_are_unchanged_and_differences_are_listed(here, there, said):
     model = one_field(amplitude=1.0, boundary=here)
     doc, lines = applied(model.document, one_field(amplitude=2.0, boundary=there).document)
     (u,) = doc.entries

@@ -66,7 +66,7 @@ def test_every_parameter_has_a_meaning_and_a_default_that_fits(name: str) -> Non
 
 
 @pytest.mark.parametrize("name", INSIDE)
-def test_what_stands_inside_parts_has_a_value_to_start_from(name: str) -> None:
+def test_parameters_inside_parts_have_an_initial_value(name: str) -> None:
     holder, p = next((kind, p) for kind in KINDS.values() for p in kind.parameters if name in p.of)
     start = KINDS[name].example
     example = registry.kind(holder.name).example()

@@ -76,7 +76,7 @@ def test_steps_and_a_shot_of_them(driven: Driven) -> None:
     assert not engine.running
 
 
-def test_what_was_asked_for_before_there_was_a_session_is_shown(driven: Driven) -> None:
+def test_a_port_requested_before_a_session_exists_is_shown(driven: Driven) -> None:
     engine, place = driven.engine, (driven.u, "activation")
     driven.do(lambda: engine.load(None))
     driven.do(lambda: engine.show([place], [TraceRequest(place)]))
@@ -134,7 +134,7 @@ def test_as_fast_as_possible_is_faster(driven: Driven) -> None:
     assert engine.pace.speed is None
 
 
-def test_what_needs_a_session_says_that_there_is_none(driven: Driven) -> None:
+def test_a_request_without_a_session_is_an_error(driven: Driven) -> None:
     engine = driven.engine
     driven.do(lambda: engine.load(None))
     for function in (engine.measure, lambda: engine.lengthen(2.0)):
@@ -142,7 +142,7 @@ def test_what_needs_a_session_says_that_there_is_none(driven: Driven) -> None:
             driven.do(function)
 
 
-def test_nobody_looking_means_no_shots(driven: Driven) -> None:
+def test_without_requested_ports_no_state_is_published(driven: Driven) -> None:
     engine = driven.engine
     driven.until(lambda: engine.shot.number > 0)
     driven.do(lambda: engine.play(True))
@@ -191,7 +191,7 @@ def test_a_live_change_acts_at_once_and_a_structural_one_when_it_is_compiled(dri
     assert engine.running and not engine.failure[0]
 
 
-def test_what_cannot_go_on_is_refused_and_nothing_changes(driven: Driven) -> None:
+def test_a_document_that_cannot_continue_is_refused_and_nothing_changes(driven: Driven) -> None:
     engine, m = driven.engine, driven.model
     session = engine.session
     assert session is not None

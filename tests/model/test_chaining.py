@@ -35,7 +35,7 @@ def _edges(model: dd.Model) -> list[tuple[str, str, str, str]]:
     ]
 
 
-def test_couplings_are_named_after_what_they_follow(model: dd.Model) -> None:
+def test_couplings_are_named_after_their_source(model: dd.Model) -> None:
     a, b = model["a"], model["b"]
     a >> dd.Gain(2) >> b
     a >> dd.Gain(3) >> b
@@ -60,7 +60,7 @@ def test_a_name_of_ones_own(model: dd.Model) -> None:
     assert _paths(model)[2] == "push"
 
 
-def test_couplings_stand_in_the_group_of_what_they_follow() -> None:
+def test_couplings_are_in_the_group_of_their_source() -> None:
     model = dd.Model("m")
     a = model.add(dd.Field("a", [X]), group="g")
     b = model.add(dd.Field("b", [X]))
@@ -81,14 +81,14 @@ def test_paths_connect_as_handles_do(model: dd.Model) -> None:
     assert _edges(model) == [("a", "activation", "b", "input")]
 
 
-def test_the_right_side_is_what_a_chain_gives(model: dd.Model) -> None:
+def test_a_chain_returns_its_right_side(model: dd.Model) -> None:
     gain = model["a"] >> dd.Gain(2)
     assert gain.path == "a>Gain"
     assert repr(gain) == "<Gain a>Gain: factor=2.0>"
 
 
 @pytest.mark.parametrize("other", ["b", 2.0, None, dd.Gaussian(), dd.Gain])
-def test_what_is_no_element_is_refused(model: dd.Model, other: object) -> None:
+def test_a_value_that_is_not_an_element_is_refused(model: dd.Model, other: object) -> None:
     before = model.document
     with pytest.raises(ModelError, match="is not an element"):
         model["a"] >> other  # type: ignore[operator]
@@ -110,7 +110,7 @@ def test_one_arrow_is_one_change() -> None:
 
 
 @pytest.mark.parametrize("chain", [lambda u: dd.Gain(2) >> u, lambda u: dd.GaussianStimulus("s", []) >> u])
-def test_what_stands_in_no_model_says_so(chain: Callable[[Any], Any]) -> None:
+def test_an_element_without_a_model_is_an_error(chain: Callable[[Any], Any]) -> None:
     model = dd.Model("m")
     with pytest.raises(ModelError, match="has not been added to a model"):
         chain(model.add(dd.Field("u", [])))

@@ -165,7 +165,7 @@ def test_a_stimulus_repeats_no_axes_and_a_number_for_a_coupling_inhibits_nothing
     assert wires(model) == [("s", "a", "-", ()), ("place", "and", "+", ())]
 
 
-def test_names_are_text_whatever_they_hold():
+def test_names_may_contain_any_text():
     name = '<script>alert("x")</script> & ]]> \' \x07'
     model = dd.Model(name)
     u = model.add(dd.Field(name, [dd.Axis(name, 0, 1, 3, unit="<b>")]), group="<i>")

@@ -92,7 +92,7 @@ def test_undo_goes_back_through_everything_to_the_start() -> None:
         assert model.document is expected
 
 
-def test_a_new_change_forgets_what_was_undone() -> None:
+def test_a_new_change_discards_undone_changes() -> None:
     model = make()
     model.set("g.u.resting_level", -4)
     model.undo()
@@ -229,7 +229,7 @@ def test_the_document_is_immutable() -> None:
         model["g.u"].element.tau = 5  # type: ignore[misc]
 
 
-def test_layout_stays_apart_from_science() -> None:
+def test_layout_is_separate_from_the_model() -> None:
     doc = make().document
     arranged = edit.arrange(doc, {"left": [1, 2]})
     assert (arranged.entries, arranged.connections, arranged.parameters) == (
@@ -249,7 +249,7 @@ def test_setting_the_same_value_is_no_surprise() -> None:
     assert model.get("b.amplitude") == 1.0
 
 
-def test_what_a_document_knows_of_its_entries_is_passed_on_as_elements_are_added():
+def test_indices_of_a_document_are_extended_as_elements_are_added():
     """Computed again for each element, thousands of names would take time with the square of their number."""
     model, seen = dd.Model("many"), []
     for k in range(3):

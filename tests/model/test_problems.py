@@ -229,7 +229,7 @@ def test_a_field_that_reads_its_own_current_output_is_a_loop() -> None:
 
 
 @pytest.mark.parametrize("reads", ["previous", "current"])
-def test_what_leaves_a_coupling_has_no_instant_of_its_own(reads: str) -> None:
+def test_the_output_of_a_coupling_has_no_step_of_its_own(reads: str) -> None:
     model = dd.Model("m")
     u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [X]))
     gain = u >> dd.Gain(2)
@@ -249,7 +249,7 @@ def test_delayed_is_allowed_everywhere() -> None:
     assert model.check() == []
 
 
-def test_a_coupling_without_a_source_is_told_to_be_connected() -> None:
+def test_a_coupling_without_a_source_is_a_problem() -> None:
     model = dd.Model("m")
     model.add(dd.Gain(2, name="g"))
     (problem,) = model.check()
@@ -290,7 +290,7 @@ def test_a_product_of_fields_over_different_axes() -> None:
     )
 
 
-def test_problems_of_what_stands_before_are_not_repeated() -> None:
+def test_problems_of_a_source_are_not_repeated() -> None:
     """A coupling whose source is wrong adds no problem of its own: one cause, one line."""
     model = dd.Model("m")
     loose = model.add(dd.Gain(1, name="loose"))

@@ -58,7 +58,7 @@ def test_refreshing_without_a_change_changes_nothing() -> None:
     assert all(np.array_equal(data[name], again[name]) for name in data.data_vars)
 
 
-def test_what_is_new_comes_what_is_gone_goes_and_the_outside_stays() -> None:
+def test_a_refresh_adds_new_elements_removes_missing_ones_and_keeps_the_others() -> None:
     model, changed = host(), template()
     changed.remove("drives")
     changed["a"] >> changed.add(dd.Field("middle", []), group="inner") >> changed["b"]

@@ -121,7 +121,7 @@ def test_reflection_keeps_the_integral_and_ones(kernel):
     np.testing.assert_allclose(convolved(kernel, (LINE,), np.ones(161)), 1.0, rtol=1e-12)
 
 
-def test_zero_boundaries_lose_what_leaves():
+def test_zero_boundaries_drop_values_beyond_the_ends():
     y = np.zeros(161)
     y[0] = 1.0
     assert convolved(Gaussian(1.0, 2.0, normalized=True), (LINE,), y).sum() == pytest.approx(0.5, abs=0.03)

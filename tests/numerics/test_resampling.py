@@ -21,7 +21,7 @@ def weights(axis, points, how="linear", dtype=jnp.float64):
 
 @pytest.mark.parametrize("how", resampling.INTERPOLATIONS)
 @pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
-def test_samples_stay_what_they_are(axis, how):
+def test_samples_are_unchanged(axis, how):
     assert np.array_equal(weights(axis, axis.points, how), np.eye(axis.samples))
 
 

@@ -43,7 +43,7 @@ def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, p
 
 @pytest.mark.parametrize("way", ["waves", "fourier"])
 @pytest.mark.parametrize(("first", "second"), list(itertools.product(BOUNDARIES, repeat=2)))
-def test_every_way_gives_what_matrices_give(
+def test_every_strategy_agrees_with_matrices(
     first: str, second: str, way: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """To 1e-5 of the sum of absolute weights, for kernels of different widths, one of them anisotropic, on a
@@ -75,7 +75,7 @@ def choose_waves(
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_taps_give_what_a_matrix_gives(boundary: str) -> None:
+def test_taps_agree_with_a_matrix(boundary: str) -> None:
     axes = (Axis("x", 0, 199, 200),)
     kernels = [
         dd.Gaussian(7, 3.0, boundary=[boundary]),
@@ -93,7 +93,7 @@ def test_buckets_hold_their_widths() -> None:
         assert low <= width * (1 + 1e-9) and width < high * (1 + 1e-9) and high / low < 1.2
 
 
-def test_what_is_chosen_where() -> None:
+def test_the_chosen_strategies() -> None:
     line = (Axis("x", 0, 99, 100),)
     square, large = (
         tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"),

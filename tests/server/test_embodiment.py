@@ -18,7 +18,7 @@ def driving() -> dd.Model:
     return model
 
 
-def test_an_example_that_has_all_sensors_and_motors_stands_in() -> None:
+def test_an_example_with_all_sensors_and_motors_is_the_default() -> None:
     found = Embodiment()
     assert isinstance(found.world(saliency().document), Picture) and found.label == "Picture: an example"
     assert isinstance(found.world(driving().document), Arena) and found.label == "Arena: an example"

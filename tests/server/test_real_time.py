@@ -9,7 +9,7 @@ from tests.server.conftest import EXAMPLES
 from tests.server.page import Page, play, studio
 
 
-def test_the_clock_tells_how_late_the_run_is(root: Path) -> None:
+def test_the_clock_states_the_lag_of_the_run(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.open("open_file", path="selection.json")
         assert p.clock["overruns"] == p.clock["lag"] == p.clock["lost"] == 0 and p.clock["longest"] is None
@@ -48,7 +48,7 @@ def test_a_step_that_may_grow_grows_and_is_as_planned_after_a_pause(root: Path) 
         play(address, scene)
 
 
-def test_costs_are_measured_while_the_run_goes_on(root: Path) -> None:
+def test_costs_are_measured_during_the_run(root: Path) -> None:
     shutil.copy(EXAMPLES / "projection.json", root)
 
     async def scene(p: Page) -> None:

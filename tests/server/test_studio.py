@@ -261,7 +261,7 @@ def test_two_pages_are_in_step_and_the_run_outlives_both(root: Path) -> None:
         asyncio.run(main(address))
 
 
-def test_a_stalled_page_is_sent_nothing_more_and_holds_nobody_up(root: Path) -> None:
+def test_a_stalled_page_gets_no_more_frames_and_delays_no_other_page(root: Path) -> None:
     async def main(address: str) -> None:
         async with page(address, draws=False) as stalled, page(address) as other:
             await other.runs()
@@ -316,7 +316,7 @@ def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
         play(address, scene)
 
 
-def test_what_is_compiled_late_is_shown_when_it_is_there(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_late_program_is_shown_when_it_is_compiled(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = engine.port_reader
 
     def slowly(*what: Any) -> Any:

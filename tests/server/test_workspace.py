@@ -75,7 +75,7 @@ def test_a_digest_is_of_the_content(tmp_path: Path) -> None:
     assert first and space.digest(path) not in (first, UNREADABLE)
 
 
-def test_what_cannot_be_compared_is_not_taken_for_absent(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_compared_does_not_count_as_missing(tmp_path: Path) -> None:
     """Saving asks before it replaces what has a digest."""
     space = Workspace(tmp_path)
     os.mkfifo(tmp_path / "pipe.json")

@@ -172,7 +172,7 @@ class Told(World):
         return np.asarray(time)
 
 
-def test_a_world_is_read_at_its_own_period_to_a_step_whatever_the_step_is() -> None:
+def test_a_world_is_read_at_its_period_for_every_step() -> None:
     model = dd.Model("m")
     u = model.add(dd.Field("u", [], tau=50))
     model.add(Sensor("eye", [], sensor="time")) >> u

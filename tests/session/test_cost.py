@@ -78,7 +78,7 @@ def work(monkeypatch: pytest.MonkeyPatch) -> Work:
     return Work(monkeypatch)
 
 
-def test_a_plane_costs_more_than_a_node_and_what_stands_still_nothing(work: Work) -> None:
+def test_a_plane_costs_more_than_a_node_and_constant_parts_cost_nothing(work: Work) -> None:
     model = dd.Model("m")
     plane = model.add(dd.Field("plane", [X, Y], kernel=[dd.Gaussian(1, 5), dd.Gaussian(-0.5, 9)]))
     model.add(dd.Field("node", [], kernel=[dd.Gaussian(2)]))
@@ -114,7 +114,7 @@ def test_the_parts_add_up_to_the_whole(work: Work) -> None:
     assert 0.7 < found.sum / found.step < 1.5
 
 
-def test_a_coupling_that_nobody_reads_is_not_computed_and_costs_nothing(work: Work) -> None:
+def test_a_coupling_without_readers_is_not_computed_and_costs_nothing(work: Work) -> None:
     model = dd.Model("m")
     u = model.add(dd.Field("u", [X]))
     u >> model.add(dd.Gain(2, name="loose"))
@@ -134,7 +134,7 @@ def test_the_run_is_not_touched() -> None:
         np.testing.assert_array_equal(one.read(path), other.read(path))
 
 
-def test_an_element_goes_by_the_name_it_has_now() -> None:
+def test_costs_have_the_present_names_of_elements() -> None:
     model = dd.Model("m")
     model.add(dd.Field("before", [X]))
     session = dd.Session(model)

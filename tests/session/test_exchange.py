@@ -112,7 +112,7 @@ def test_an_edit_inside_a_period_leaves_the_world_where_it_is() -> None:
     np.testing.assert_allclose(edited.read("u"), plain.read("u"), rtol=1e-6)
 
 
-def test_periods_are_milliseconds_whatever_the_unit_of_the_document() -> None:
+def test_periods_are_milliseconds_for_every_unit_of_the_document() -> None:
     for unit, dt in (("1 = 4 ms", 1.0), ("1 = 2 ms", 0.5), ("s", 0.004)):
         world = Tank()
         dd.simulate(closed(True, time_unit=unit), 20 * dt, dt=dt, record=["u.activation"], world=world)

@@ -13,7 +13,9 @@ from deodar.session.interrupt import stoppable
 from deodar.session.run import Run
 
 
-def test_it_is_met_between_chunks_and_the_handler_comes_back(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupt_acts_between_chunks_and_the_handler_is_restored(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", []))
     before, chunk, calls = signal.getsignal(signal.SIGINT), Run._chunk, []

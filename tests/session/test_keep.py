@@ -63,7 +63,7 @@ def test_snapshots_hold_weights(precision):
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_a_document_takes_them_and_goes_on_from_its_file(precision, tmp_path):
+def test_a_document_stores_them_and_a_run_continues_from_its_file(precision, tmp_path):
     m = model()
     s = dd.Session(m, precision=precision)
     s.step(100)
@@ -80,7 +80,7 @@ def test_a_document_takes_them_and_goes_on_from_its_file(precision, tmp_path):
     assert np.array_equal(opened.get("p.start").data, fresh.read("p.output")) and len(again) == 4
 
 
-def test_keeping_is_one_step_of_the_history_and_leaves_the_session_alone():
+def test_keep_is_one_step_of_the_history_and_does_not_change_the_session():
     m = model()
     before, s = m.document, dd.Session(m)
     s.step(20)

@@ -76,7 +76,7 @@ def test_a_window_that_is_changed_swept_or_linked_keeps_its_digits() -> None:
 
 
 @pytest.mark.parametrize("velocity", [0.1, -1 / 3])
-def test_a_moving_stimulus_goes_on_moving(velocity: float) -> None:
+def test_a_moving_stimulus_continues_to_move(velocity: float) -> None:
     t0 = 30 * DAY
     model = begun(t0)
     model.add(
@@ -123,7 +123,7 @@ def test_a_step_that_is_no_binary_fraction_counts_right() -> None:
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_times_that_are_not_told_apart_are_refused(precision: str) -> None:
+def test_times_that_cannot_be_distinguished_are_refused(precision: str) -> None:
     model = begun(2.0**45)
     model.add(dd.Field("u", []))
     with pytest.raises(

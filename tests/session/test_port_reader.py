@@ -46,7 +46,7 @@ def test_elements_of_one_structure_are_one_array_of_the_reader() -> None:
     assert few.fits([(model["u1"].id, "activation")]) and not few.fits([(model["u2"].id, "output")])
 
 
-def test_what_is_not_there_is_left_out() -> None:
+def test_missing_places_are_omitted() -> None:
     model = ring(2)
     session = dd.Session(model)
     places = [("feedbeef", "activation"), (model["u0"].id, "nonsense")]

@@ -30,7 +30,7 @@ def driving(turn: float = 0.0) -> dd.Model:
     return model
 
 
-def test_things_move_come_and_go_and_the_journal_tells() -> None:
+def test_the_journal_records_objects_that_move_appear_and_disappear() -> None:
     session = dd.Session(driving(), world=Arena(OPEN))
     session.move("crate", (0.6, 1.5))
     session.move("crate", (0.7, 1.5))
@@ -69,7 +69,7 @@ def test_the_journal_repeats_the_run() -> None:
     assert np.array_equal(again.read("pose"), first.read("pose"))
 
 
-def test_what_is_refused_changes_nothing_and_is_not_written_down() -> None:
+def test_a_refused_change_has_no_effect_and_is_not_recorded() -> None:
     session = dd.Session(driving(), world=Arena(OPEN))
     before = session.scene()
     for wrong, said in [

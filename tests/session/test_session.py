@@ -149,7 +149,7 @@ def test_not_finite_names_element_step_and_remedy() -> None:
         dd.simulate(model, 500, record=["v.activation"], trials=2)
 
 
-def test_ctrl_c_hands_over_what_was_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_returns_the_record_until_then(monkeypatch: pytest.MonkeyPatch) -> None:
     from deodar.session.run import Run
 
     model, chunk, calls = relaxing(), Run._chunk, []
@@ -186,7 +186,7 @@ class Ramp(World):
         return np.full([a.samples for a in axes], time)
 
 
-def test_a_world_is_sensed_at_its_own_period_however_the_run_is_cut() -> None:
+def test_a_world_is_sensed_at_its_period_for_any_chunks() -> None:
     model = dd.Model("sensing")
     model.add(Sensor("eye", [x], sensor="clock"))
     expected = [4.0 * (t // 4) for t in range(21)]

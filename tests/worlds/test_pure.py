@@ -62,7 +62,7 @@ def test_worlds_of_another_structure_and_other_axes_do_not_share() -> None:
     assert compiled() == before + 1, "the sensor over other axes"
 
 
-def test_what_a_world_becomes_later_does_not_reach_another_one() -> None:
+def test_a_change_of_a_world_does_not_affect_another_world() -> None:
     one = Counter(4.0)
     assert counted(one) == [4.0]
     one.by = 9.0

@@ -58,7 +58,7 @@ def test_places_that_do_not_fit_are_refused_by_name(name: str, center: Any, size
         SCENE.require_room(name, center, size)
 
 
-def test_what_is_not_there_or_fixed_cannot_be_taken_hold_of() -> None:
+def test_a_missing_or_fixed_object_cannot_be_moved() -> None:
     assert SCENE.thing("goal") == SCENE.marks[0] and SCENE.thing("crate") == SCENE.boxes[1]
     with pytest.raises(UnknownName, match=r"'crat'\. Did you mean 'crate'"):
         SCENE.thing("crat")
@@ -85,7 +85,7 @@ def test_an_arena_shows_its_things_its_goal_and_its_vehicle_in_its_unit() -> Non
     assert arena.scene().bodies[0].center[0] > 90.3
 
 
-def test_an_arena_shows_what_stands_there_now_and_a_body_for_each_copy() -> None:
+def test_a_scene_has_the_present_objects_and_a_body_for_each_copy() -> None:
     arena = Arena(LAYOUT, unit="cm", goal=[(110, 40), (110, 60)])
     arena.place("guest", (60, 20), (5, 5), windows=(64, 128))
     arena.reset(0, [0, 1])

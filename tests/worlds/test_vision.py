@@ -46,7 +46,7 @@ def test_the_film_runs_with_the_time_of_the_model(film: Path) -> None:
     assert all((abs(a - b) < 0.1) == (k % 8 != 7) for k, (a, b) in enumerate(itertools.pairwise(seen)))
 
 
-def test_after_its_end_it_stands_still_or_begins_again(film: Path) -> None:
+def test_after_its_end_a_video_keeps_its_last_picture_or_begins_again(film: Path) -> None:
     last = Video(film).sense("picture", FINE, 960.0)
     np.testing.assert_array_equal(Video(film).sense("picture", FINE, 5000.0), last)
     again = Video(film, loop=True)
@@ -108,7 +108,9 @@ def test_a_camera_that_is_not_there_is_an_error(tmp_path: Path) -> None:
         Camera.again({})
 
 
-def test_without_opencv_it_is_said_what_to_install(film: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_opencv_the_error_names_the_package_to_install(
+    film: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setitem(sys.modules, "cv2", None)
     says = r"needs the package opencv-python-headless.*pip install 'deodar\[vision\]'"
     with pytest.raises(MissingExtra, match=says):

@@ -290,7 +290,7 @@ def test_one_element_may_stand_without_a_list(tmp_path):
     assert len(dd.load(tmp_path / "one.json").document.entries) == 1
 
 
-def test_wrong_values_are_told_and_replaced(tmp_path):
+def test_wrong_values_are_reported_and_replaced(tmp_path):
     done = read(
         written(
             tmp_path,
@@ -315,7 +315,7 @@ def test_wrong_values_are_told_and_replaced(tmp_path):
     assert done.model["u"].element.tau == 10 and done.model["u"].element.resting_level == -5
 
 
-def test_connections_that_cannot_be_are_told(tmp_path):
+def test_impossible_connections_are_reported(tmp_path):
     parts = [
         element(
             "u",

@@ -76,7 +76,7 @@ def test_a_film_and_a_camera(way: str) -> None:
     assert not blue.places and abs(red.motor[0] - red.places[0][0]) < 4
 
 
-def test_a_film_or_camera_that_is_not_there(tmp_path: Path) -> None:
+def test_a_missing_video_or_camera(tmp_path: Path) -> None:
     for options, says in (
         (["--video", "none.mp4"], "there is no such video"),
         (["--camera", "77"], "there is no camera"),

@@ -69,7 +69,7 @@ def test_claims_follow_from_the_record() -> None:
     assert "never planned" in narrative.sentence(narrative.read(record(pose, intention * 0), maze("z")))
 
 
-def test_the_command_writes_what_it_says(
+def test_the_command_writes_the_printed_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(narrative, "DURATION", 300)

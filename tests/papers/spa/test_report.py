@@ -33,7 +33,7 @@ def said(change, quick=False):
     return {c.name: c for part in (targets, sentences, variations) for c in part.claims(runs)}
 
 
-def test_all_required_claims_hold_where_all_goes_as_told():
+def test_all_required_claims_hold_for_rows_as_in_the_paper():
     found = {name: c for name, c in required(lambda c, k: {}).items() if c.kind == "required"}
     assert len(found) == 18
     assert {c.holds for c in found.values()} == {True} and not failed(list(found.values()))
@@ -297,7 +297,7 @@ def test_what_goes_wrong_is_said(change, words):
     assert 1 <= len(failed(list(found.values()))) <= 3
 
 
-def test_few_runs_leave_open_what_they_cannot_tell():
+def test_few_runs_leave_claims_undecided():
     found = required(lambda c, k: {"success": k % 12 > 0} if c.name == "z/planner/high" else {}, quick=True)
     assert not failed(list(found.values()))
     assert {c.holds for c in only(found, ["case 3, full", "before t = 130"])} <= {None, True}

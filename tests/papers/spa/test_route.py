@@ -30,7 +30,7 @@ def through(*cells):
         ([(50, 60), (52, 60), (15, 57), (15, 30), (40, 40)], "north"),
     ],
 )
-def test_a_route_is_told_by_its_rows(cells, way):
+def test_a_route_follows_from_its_rows(cells, way):
     assert route(through(*cells)) == way
 
 

@@ -222,7 +222,7 @@ def test_things_come_move_and_go_without_a_new_program() -> None:
     assert {key: world._compiled[key]._cache_size() for key in compiled} == compiled
 
 
-def test_a_thing_with_windows_stands_between_them_for_each_trial_its_own() -> None:
+def test_an_object_with_windows_is_present_in_them_for_each_trial() -> None:
     world = Arena(EMPTY, start=(1.3, 1.5, 0.0))
     world.place(
         "gate", (1.5, 1.5), (0.1, 2.9), windows=[(0, 64 * 200), (64 * 100, 64 * 200), (64 * 200, 64 * 300)]
@@ -361,7 +361,7 @@ def begun_as(world: Arena) -> Arena:
     return world
 
 
-def test_a_motor_that_is_told_no_number_is_named() -> None:
+def test_a_motor_that_gets_a_value_that_is_not_finite_is_named() -> None:
     model = dd.Model("broken", dt=64)
     model.add(Boost("huge", [], 1e38)) >> dd.Gain(1e10) >> model.add(Motor("wheel", [], "left"))
     with pytest.raises(dd.errors.NotFinite, match="motor 'left' received"):

@@ -78,7 +78,7 @@ def test_no_step_leads_into_a_wall_or_out_of_a_closed_room(longest: float, stick
         assert (ends > 0).all() and (ends < 1).all()
 
 
-def test_it_stays_in_its_half_of_the_room_behind_a_wall_thinner_than_the_step() -> None:
+def test_it_stays_on_its_side_of_a_wall_thinner_than_the_step() -> None:
     rng = np.random.default_rng(1)
     boxes = np.asarray([(0.5, -1, 0.5005, 2)], np.float32)
     start = np.stack([rng.uniform(0.1, 0.45, 200), rng.uniform(0, 1, 200)], -1).astype(np.float32)
@@ -119,7 +119,7 @@ def test_it_rounds_a_corner_and_stops_in_one() -> None:
     np.testing.assert_allclose(end[0, 0], [-RADIUS, -RADIUS], atol=1e-5)
 
 
-def test_what_is_not_there_is_not_met_and_what_is_put_on_it_pushes_it_out() -> None:
+def test_an_absent_wall_has_no_contact_and_a_new_one_moves_the_body_out() -> None:
     box = np.asarray([(-0.05, -0.5, 0.2, 0.5)], np.float32)
     start, still = np.zeros((1, 2), np.float32), np.zeros((1, 1, 2), np.float32)
     end, _ = mover(False)(start, still, box, np.zeros(1, bool))

@@ -68,7 +68,7 @@ def test_files_units_and_names(tmp_path: Path) -> None:
             load(wrong)
 
 
-def test_what_it_says_of_itself_is_read_as_the_same() -> None:
+def test_its_description_is_read_as_the_same_world() -> None:
     for name in builtin():
         again = load(load(name).to_data())
         assert (
