@@ -53,7 +53,9 @@ def test_what_judges_bits_exists() -> None:
     root = Path(conftest.__file__).parents[1]
     places = [place.partition("::") for place in conftest.DEFAULT_PROGRAM]
     assert all((root / file).exists() for file, _, _ in places)
-    assert all(f"def {name}" in (root / file).read_text() for file, _, name in places if name)
+    assert all(
+        f"def {durations.function(name)}" in (root / file).read_text() for file, _, name in places if name
+    )
 
 
 def test_processes_keep_byte_code(tmp_path: Path) -> None:
