@@ -26,7 +26,7 @@ FIELDS = ("date", "commit", "python", "cores", "busy", "minutes", "status", "pas
 COMPUTE = "while True: pass"
 START = (
     "import subprocess, sys; a = [subprocess.Popen([sys.executable, '-c', sys.argv[2]]) "
-    "for _ in range(int(sys.argv[1]))]; sys.stdin.read(); [x.kill() for x in a]"
+    "for _ in range(int(sys.argv[1]))]; sys.stdin.read(); [x.kill() for x in a]; [x.wait() for x in a]"
 )
 
 
