@@ -64,7 +64,7 @@ async function choosePreset(name: string): Promise<void> {
   const { page } = studio;
   await file(page, /^Take over values/);
   await page
-    .getByRole("dialog", { name: "Take over the values of a file" })
+    .getByRole("dialog", { name: "Apply the values of a file" })
     .getByRole("button", { name })
     .click();
 }
@@ -165,7 +165,7 @@ test("the values of a preset file are one undo step, and values without a match 
 test("a preset may come from another folder, and an invalid document is refused with a reason", async () => {
   const { page, folder } = studio;
   await file(page, /^Take over values/);
-  const dialog = page.getByRole("dialog", { name: "Take over the values of a file" });
+  const dialog = page.getByRole("dialog", { name: "Apply the values of a file" });
   const [chooser] = await Promise.all([
     page.waitForEvent("filechooser"),
     dialog.getByRole("button", { name: /^From elsewhere/ }).click(),

@@ -64,7 +64,7 @@ test("save as asks for a name, refuses what is none, and warns of a file that is
   await name.fill("selection");
   await dialog.getByText("A file of this name is there; you will be asked.").waitFor();
   await save.click();
-  const replace = question("Write over the file?");
+  const replace = question("Overwrite the file?");
   await replace.getByText("selection.json is there already.").waitFor();
   await replace.getByRole("button", { name: "Save as…" }).click();
   await name.fill("copy");
@@ -80,7 +80,7 @@ test("saving over a file that changed on disk asks", async () => {
   await edit(51);
   writeFileSync(join(folder, "node.json"), `${onDisk("node.json")}\n`);
   await page.keyboard.press("Control+s");
-  const replace = question("Write over the file?");
+  const replace = question("Overwrite the file?");
   await replace.getByText("was changed on disk since it was opened or saved here.").waitFor();
   await replace.getByRole("button", { name: "Cancel" }).click();
   await replace.waitFor({ state: "detached" });

@@ -21,7 +21,7 @@ export class Gesture<T> {
   private held = false;
   private idle: ReturnType<typeof setTimeout> | undefined;
 
-  // `settled` is called when everything was sent and answered, and no button is pressed any more.
+  // `settled` is called when everything was sent and answered, and no button is pressed.
   constructor(
     private send: SendValue<T>,
     private settled: () => void,

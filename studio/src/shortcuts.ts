@@ -1,4 +1,4 @@
-// The keys of the page: what they do is listed once, here; the help shows the same list.
+// The keys of the page and their actions, listed once; the help shows the same list.
 
 import { useEffect } from "react";
 
@@ -17,7 +17,7 @@ export type Shortcut = {
   always?: boolean;
   // Again and again while the key is held.
   repeats?: boolean;
-  // Also while one is typing; what was typed is taken first.
+  // Also while the user types; the typed value is committed first.
   typing?: boolean;
 };
 

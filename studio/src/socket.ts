@@ -1,4 +1,4 @@
-// The one connection to the server: it comes back when it is lost, and then asks for everything again.
+// The one connection to the server: it reconnects after a loss, and then requests everything again.
 
 import { addressed } from "./addressed";
 import { decode } from "./frames";
@@ -57,7 +57,7 @@ class Socket {
     this.open();
   }
 
-  // Say something without waiting for an answer; dropped while there is no connection.
+  // Sends a message without waiting for an answer; dropped without a connection.
   post(message: ToServer): void {
     if (this.socket?.readyState === WebSocket.OPEN) {
       this.socket.send(JSON.stringify(addressed(message, useStudio.getState().session)));

@@ -89,7 +89,7 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
         document: message.document,
         elements,
         selected: fresh ? [] : state.selected.filter((id) => elements.has(id)),
-        // what was said of the document before is over
+        // messages on the previous document no longer apply
         notices: fresh ? [] : state.notices,
       };
     }

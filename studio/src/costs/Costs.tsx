@@ -1,4 +1,4 @@
-// The panel of costs: what each element takes of a step, measured when it is asked for.
+// The panel of costs: the time of each element in a step, measured on request.
 
 import "./costs.css";
 

@@ -1,4 +1,4 @@
-// The rows of the table of costs: what was measured, beside what the document calls it now.
+// The rows of the table of costs: measured times with the present names of elements.
 
 import type { CostView, Costs, ElementView } from "../protocol";
 

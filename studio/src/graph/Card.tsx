@@ -1,4 +1,4 @@
-// What the pointer rests on, in short: what it is, its equation, its main values, what is wrong with it.
+// The tooltip of an element: kind, equation, main values and problems.
 
 import { Popover } from "@mantine/core";
 import { useEffect } from "react";

@@ -1,4 +1,4 @@
-// An open group: a frame around what is in it, moved by its title.
+// An open group: a frame around its elements, moved by its title.
 
 import { ActionIcon } from "@mantine/core";
 import { IconChevronDown } from "@tabler/icons-react";

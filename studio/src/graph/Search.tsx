@@ -1,4 +1,4 @@
-// The search box of the canvas: what is chosen is selected and comes into the middle.
+// The search box of the canvas: the chosen element is selected and centred.
 
 import { CloseButton, Combobox, TextInput, useCombobox } from "@mantine/core";
 import { IconSearch } from "@tabler/icons-react";

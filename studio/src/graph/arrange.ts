@@ -18,7 +18,7 @@ export function unfold(keys: string[]): void {
   void request({ type: "arrange", layout: { folded }, undoable: false });
 }
 
-// Where boxes stand from now on: one step of undo.
+// Sets the positions of boxes, as one step of undo.
 export function place(boxes: Map<string, Point>): Promise<Answer> {
   const rounded = [...boxes].map(([id, { x, y }]) => [id, { x: Math.round(x), y: Math.round(y) }]);
   return request({ type: "arrange", layout: { boxes: Object.fromEntries(rounded) }, undoable: true });

@@ -1,4 +1,4 @@
-// The box of an element: how large it is, what it shows, where its ports are.
+// The box of an element: its size, its content and the positions of its ports.
 
 import type { ElementView } from "../protocol";
 import type { Point, Size } from "./layout";
@@ -6,12 +6,12 @@ import type { Point, Size } from "./layout";
 export const BOX = { width: 156, title: 40, port: 18, pad: 8 };
 export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20 };
 
-// The port whose values stand inside the box.
+// The port whose values the box shows.
 export function livePort(element: ElementView): string | null {
   return element.outputs.includes("activation") ? "activation" : (element.outputs[0] ?? null);
 }
 
-// How high the live picture is: a number needs less than a curve; what is not known yet may become anything.
+// The height of the live picture: a number needs less than a curve; an unknown content gets the full height.
 export function liveHeight(element: ElementView): number {
   const port = livePort(element);
   return port === null ? 0 : element.axes[port]?.length === 0 ? LIVE.number : LIVE.curve;

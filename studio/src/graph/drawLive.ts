@@ -1,4 +1,4 @@
-// One live picture inside a box: what it shows follows from the shape of the data alone.
+// One live picture inside a box; its form follows from the shape of the data alone.
 
 import { diverging, portColor, sequential, shade, type Shade } from "../plots/colors";
 import { paintCurve, paintHeat, paintPicture } from "../plots/paint";

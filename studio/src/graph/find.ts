@@ -1,4 +1,4 @@
-// Elements by what a person types: parts of the path, the name, or the kind.
+// Finds elements by typed words: parts of the path, the name, or the kind.
 
 import type { ElementView, Kind } from "../protocol";
 
@@ -6,7 +6,7 @@ export type Found = { element: string; path: string; title: string };
 
 const MOST = 50;
 
-// Every word has to be somewhere; names that begin with what was typed come first.
+// Every word must occur; names that begin with the typed text come first.
 export function find(text: string, elements: ElementView[], kinds: Map<string, Kind>): Found[] {
   const words = text
     .toLowerCase()

@@ -1,4 +1,4 @@
-// Which course each edge takes, so that edges side by side do not run on each other.
+// The course of each edge, so that edges side by side do not overlap.
 
 import type { Rect } from "./layout";
 import type { Wire } from "./scene";

@@ -1,6 +1,6 @@
 // All live pictures on one canvas over the boxes: a browser pays for every canvas that it puts on the page,
 // and hundreds of small ones cost more than one large one. Each box draws its picture on a canvas of its own
-// that is not on the page; here they are copied to where the boxes stand.
+// that is not on the page; here they are copied to the positions of the boxes.
 
 import type { Viewport } from "@xyflow/react";
 
@@ -14,7 +14,7 @@ export class LiveLayer {
   private from: Viewport | null = null;
   private still = 0;
 
-  // The canvas that shows them; what is returned takes it away.
+  // Adds the canvas that shows them; returns a function that removes it.
   attach(canvas: HTMLCanvasElement): () => void {
     const observer = new ResizeObserver(() => this.change());
     observer.observe(canvas);

@@ -1,11 +1,11 @@
-// Where boxes stand after something was dragged: everything that is shown is kept where it is, so that
+// Positions of boxes after something was dragged: everything shown keeps its position, so that
 // nothing else moves.
 
 import type { Places, Point } from "./layout";
 import { groupNode, type SceneNode } from "./scene";
 import { below, type Tree } from "./tree";
 
-// The boxes of all elements, from the present nodes; what a folded group hides goes with it.
+// The boxes of all elements, from the present nodes; elements of a folded group move with it.
 export function moved(nodes: SceneNode[], found: Tree, places: Places): Map<string, Point> {
   const known = new Map(nodes.map((node) => [node.id, node]));
   const at = (node: SceneNode): Point => {
@@ -36,7 +36,7 @@ export function moved(nodes: SceneNode[], found: Tree, places: Places): Map<stri
   return boxes;
 }
 
-// Whether any box stands elsewhere than before (to the pixel that is kept).
+// Whether any box has another position than before (in stored pixels).
 export function differ(boxes: Map<string, Point>, places: Places): boolean {
   return [...boxes].some(([id, { x, y }]) => {
     const before = places.elements.get(id);

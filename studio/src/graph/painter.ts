@@ -32,7 +32,7 @@ export class Painter {
     this.waiting.delete(owner);
   }
 
-  // While the canvas is moved nothing is drawn; what is newest then comes after.
+  // While the canvas is moved nothing is drawn; afterwards the newest values are.
   hold(held: boolean): void {
     this.held = held;
     this.ask();
@@ -67,7 +67,7 @@ export class Painter {
     this.ask();
   }
 
-  // A long pause says nothing: then there was nothing to draw.
+  // A long pause is no measure: there was nothing to draw.
   private adapt(since: number): void {
     if (since < FAST_MS) {
       this.share = Math.min(MOST, this.share + 1);

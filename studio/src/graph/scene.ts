@@ -1,4 +1,4 @@
-// What the canvas shows of a document: nodes and edges as xyflow takes them. Pure; live values and parameters
+// The nodes and edges of a document, in the form of xyflow. Pure; live values and parameters
 // are no part of it.
 
 import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";

@@ -33,7 +33,7 @@ export function useNodes(scene: GraphScene) {
     const { nodes: now, scene: of } = latest.current;
     const boxes = moved(now, of.tree, of.places);
     if (differ(boxes, of.places)) {
-      // Where it was not done, everything goes back to where the document has it.
+      // If it was refused, all boxes return to their positions in the document.
       void place(boxes).then(
         ({ problems }) => (problems?.length ?? 0) > 0 && setNodes(latest.current.scene.nodes),
       );
@@ -61,7 +61,7 @@ export function useNodes(scene: GraphScene) {
   return { nodes: shown, onNodesChange, settle };
 }
 
-// What xyflow says was selected becomes the selection of the store. Couplings on edges are no nodes: xyflow
+// The selection of xyflow becomes that of the store. Couplings on edges are not nodes: xyflow
 // cannot take them out.
 function choose(changes: NodeChange<SceneNode>[], nodes: SceneNode[], several: boolean): void {
   const choices = changes.filter((change) => change.type === "select");

@@ -8,7 +8,7 @@ const LANE = 28;
 const BELOW = 20;
 const BEND = 32;
 
-// Whether an edge has to go around: its target does not stand to the right.
+// Whether an edge must go around: its target is not to the right.
 export function goesBack(from: Point, to: Point): boolean {
   return to.x < from.x + 16;
 }
@@ -47,7 +47,7 @@ function around(from: Point, to: Point, y: number, lane: number): Course {
   return { path, middle: { x: (from.x + to.x) / 2, y } };
 }
 
-// A height below both ends at which nothing is in the way.
+// A height below both ends without obstacles.
 function below(from: Point, to: Point, ends: Rect[], others: Rect[], lane: number): number {
   let y = Math.max(...ends.map((end) => end.y + end.height)) + BELOW;
   const near = others

@@ -1,4 +1,4 @@
-// One document parameter: its value, and what it drives.
+// One document parameter: its value and its links.
 
 import { ActionIcon, Menu, UnstyledButton } from "@mantine/core";
 import { IconLink, IconLinkOff, IconPin, IconPinnedOff, IconTrash } from "@tabler/icons-react";

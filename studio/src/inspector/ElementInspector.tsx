@@ -1,4 +1,4 @@
-// One element: what it is, its equation, and its parameters.
+// One element: its kind, its equation and its parameters.
 
 import { useMemo } from "react";
 

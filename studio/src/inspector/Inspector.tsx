@@ -1,4 +1,4 @@
-// What is selected, to read and to change: an element, or the document where nothing is selected.
+// The inspector of the selected element, or of the document without a selection.
 
 import "./inspector.css";
 

@@ -1,4 +1,4 @@
-// A number to type: Enter or leaving the field takes it, Escape goes back, arrow keys step (with Shift ten
+// A number field: Enter or leaving the field commits it, Escape resets it, arrow keys step (with Shift ten
 // steps).
 
 import { TextInput } from "@mantine/core";
@@ -23,7 +23,7 @@ export type NumberBoxProps = {
   onLeave?: () => void;
 };
 
-// A unit stands inside the field as far as there is room.
+// A unit is shown inside the field if there is space.
 const MOST_UNIT = 5;
 
 export function NumberBox(props: NumberBoxProps) {

@@ -44,7 +44,7 @@ export function NumberControl({
     setComplaint(null);
     forget();
   }, [forget]);
-  // The field shows its old value again: what was wrong with the other one can be read for a while.
+  // The field shows its old value again; the error of the refused value stays for a while.
   const onLeave = () => {
     end();
     later.current = setTimeout(onForget, READING_MS);
@@ -95,7 +95,7 @@ export function NumberControl({
   );
 }
 
-// An end to read: what is less than a step is nothing.
+// An end for display, rounded to the step.
 function endText(end: number, { step, logarithmic }: SliderRange): string {
   return numberText(logarithmic ? end : Math.round(end / step) * step);
 }

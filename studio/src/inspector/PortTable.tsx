@@ -1,4 +1,4 @@
-// The ports of an element: what comes in and goes out, and over which axes.
+// The ports of an element, inputs and outputs, with their axes.
 
 import type { AxisView, ElementView, Kind } from "../protocol";
 import { Prose } from "./Prose";

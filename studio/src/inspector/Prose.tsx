@@ -1,4 +1,4 @@
-// A sentence of the manual, in which names stand between backticks.
+// A sentence of the manual, with names in backticks.
 
 export function Prose({ text }: { text: string }) {
   return text.split("`").map((piece, i) => (i % 2 === 1 ? <code key={i}>{piece}</code> : piece));

@@ -145,7 +145,7 @@ function Meaning({ form, path }: { form: ParameterForm; path: string }) {
   );
 }
 
-// A default in few words; nothing where it would be long.
+// A default as short text; empty if it would be long.
 function DefaultText({ value }: { value: unknown }) {
   const kinds = useStudio((state) => state.kinds);
   switch (typeof value) {

@@ -18,7 +18,7 @@ type ValueSliderProps = {
 
 const UP = ["ArrowRight", "ArrowUp", "PageUp"];
 const DOWN = ["ArrowLeft", "ArrowDown", "PageDown"];
-// So fine that the slider goes where the pointer is; values are rounded afterwards.
+// Fine enough for the slider to follow the pointer; values are rounded afterwards.
 const FINE = 1e4;
 
 export function ValueSlider({ label, value, range, disabled, onMove, onEnd, onNudge }: ValueSliderProps) {

@@ -1,4 +1,4 @@
-// Parameters by their path, at any depth: what a path such as kernel.0.sigma names, and which of them are
+// Parameters by their path, at any depth: the target of a path such as kernel.0.sigma, and which of them are
 // numbers that can be driven.
 
 import type {

@@ -2,7 +2,7 @@
 
 const DIGITS = 6;
 
-// Short, for reading: what is beyond six digits is rounded away.
+// A short text for reading, rounded to six digits.
 export function numberText(value: number): string {
   if (!Number.isFinite(value)) {
     return String(value);

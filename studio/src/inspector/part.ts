@@ -1,4 +1,4 @@
-// Parts as values: what they say in one line, another kind in the place of one, items of a list.
+// Parts as values: their summary in one line, a change of kind, items of a list.
 
 import type { Kind, ParameterForm } from "../protocol";
 import type { Values } from "../values";

@@ -1,4 +1,4 @@
-// Where the forms of an inspector stand: the element, its axes, and what a document parameter drives there.
+// The context of the inspector's forms: the element, its axes, and the linked document parameters.
 
 import { createContext, useContext } from "react";
 

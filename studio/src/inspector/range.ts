@@ -1,4 +1,4 @@
-// The range of a slider: what is sensible for a parameter, from its declaration, its default and its value.
+// The range of a slider, from the declaration, the default and the value of a parameter.
 
 import type { AxisView, ParameterForm } from "../protocol";
 import { valueAt } from "../values";
@@ -137,7 +137,7 @@ function within(lower: number, upper: number, low: number, high: number): Omit<S
     : { lower: high - upper, upper: high, logarithmic: false };
 }
 
-// For a value of 0 with a default of 0 nothing is known of the size: what is usual in this unit.
+// For a value of 0 with a default of 0: the usual size in this unit.
 function ifZero(unit: string): number {
   return unit === "activation" ? 10 : unit === "time" ? 1000 : 1;
 }
@@ -180,7 +180,7 @@ export function defaultAt(form: ParameterForm, path: string): unknown {
 // ---------------------------------------------------------------------------------------------- values on a
 // slider
 
-// The value nearest to where the slider stands that is round.
+// The round value nearest to the position of the slider.
 export function snapped(value: number, range: SliderRange): number {
   const round = range.logarithmic
     ? Number(value.toPrecision(3))

@@ -53,7 +53,7 @@ function contentOf(asked: Asked) {
 const WANTED = {
   files: "Open a file",
   pictures: "Choose a picture",
-  values: "Take over the values of a file",
+  values: "Apply the values of a file",
 };
 
 function titleOf(asked: Asked): string {
@@ -61,7 +61,7 @@ function titleOf(asked: Asked): string {
     case "unsaved":
       return "Keep the unsaved edits?";
     case "replace":
-      return "Write over the file?";
+      return "Overwrite the file?";
     case "choose":
       return WANTED[asked.question.wants];
     case "save_as":

@@ -1,4 +1,4 @@
-// An example of the gallery: what one sees when it runs, and what it is about.
+// An example of the gallery: its picture and its first sentence.
 
 import { useState } from "react";
 

@@ -10,7 +10,7 @@ import type { useFolder } from "./useFolder";
 import classes from "./FolderBrowser.module.css";
 
 type Props = {
-  // Where one is, and what is there; from useFolder.
+  // The present folder and its content; from useFolder.
   path: string;
   listing: ReturnType<typeof useFolder>;
   wants: "files" | "pictures";

@@ -1,4 +1,4 @@
-// Where one begins: a file, what was open before, or an example.
+// The first page: a file, a recent document, or an example.
 
 import { Button, Group } from "@mantine/core";
 import { IconArrowLeft, IconFile, IconFolderOpen } from "@tabler/icons-react";
@@ -26,7 +26,7 @@ export function GalleryPage() {
           <Mark size={40} />
           <div className={classes.titles}>
             <h1>deodar studio</h1>
-            <p>Open an architecture of neural fields, run it, and see it answer.</p>
+            <p>Open an architecture of neural fields, run it, and watch its response.</p>
           </div>
           {title !== null && (
             <Button

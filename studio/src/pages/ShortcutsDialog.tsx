@@ -1,4 +1,4 @@
-// The keys of the page, and what the mouse does in the panels.
+// The keys of the page, and the actions of the mouse in the panels.
 
 import { Kbd } from "@mantine/core";
 import { Fragment } from "react";

@@ -7,7 +7,7 @@ import classes from "./Splash.module.css";
 const WORDS = {
   connecting: "Connecting",
   open: "Connecting",
-  lost: "Nothing answers. Is deodar studio running?",
+  lost: "The studio does not answer. Is deodar studio running?",
   refused: "The studio was started again: open the address that it printed",
 };
 

@@ -1,4 +1,4 @@
-// What becomes of unsaved edits, before something else is opened.
+// Asks about unsaved edits before another document is opened.
 
 import { Button, Group, Text } from "@mantine/core";
 

@@ -1,9 +1,9 @@
-// The one question that may stand before the page, and the promise of its answer. Dialogs.tsx draws it.
+// The one open question, and the promise of its answer. Dialogs.tsx draws it.
 
 import { create } from "zustand";
 
 type Conversations = {
-  // What becomes of unsaved edits, before something else is opened.
+  // Asks about unsaved edits before another document is opened.
   unsaved: { question: { title: string }; answer: "save" | "discard" | "cancel" };
   // A file is in the way; where it is the document's own, it was changed by something else.
   replace: { question: { path: string; own: boolean }; answer: "replace" | "elsewhere" | "cancel" };
@@ -50,7 +50,7 @@ const CANCELLED: { [K in Name]: AnswerTo<K> } = {
   shortcuts: null,
 };
 
-// Ask the person. A question that still stands is cancelled.
+// Asks the user. An open question is cancelled.
 export function ask<K extends Name>(name: K, question: Question<K>): Promise<AnswerTo<K>> {
   useDialogs.getState().cancel();
   return new Promise((resolve) => {

@@ -16,7 +16,7 @@ import { useStudio } from "../store";
 import { ask } from "./dialogs";
 import { sortOf } from "./paths";
 
-// What the server takes in one message, base64 included.
+// The largest message that the server accepts, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;
 
 type Leaving = OpenFile | OpenExample | OpenText | OpenPackage | Recover | Close;

@@ -1,4 +1,4 @@
-// A server and a person that answer as a test says, and what was asked of them.
+// A server and a user with the answers of a test, and a record of the questions.
 
 import { vi } from "vitest";
 import type { Answer, ToServer } from "../protocol";
@@ -32,7 +32,7 @@ export function person(...answers: unknown[]): Asked[] {
 
 export const notices = () => useStudio.getState().notices.map((n) => `${n.level}: ${n.problem.what}`);
 
-// Nothing asked, nothing told, as before the first test.
+// Resets questions and answers, as before the first test.
 export function fresh(): void {
   sent.length = 0;
   useStudio.setState(useStudio.getInitialState(), true);

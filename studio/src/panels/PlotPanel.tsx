@@ -46,7 +46,7 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
   if (element === undefined) {
     return (
       <div className="dock-gone" role="status">
-        <p>The element of this plot is not in the document any more.</p>
+        <p>The element of this plot is no longer in the document.</p>
         <button type="button" className="dock-button" onClick={() => api.close()}>
           Close this plot
         </button>

@@ -45,7 +45,7 @@ export function arrangeFirst(api: DockviewApi): void {
   api.getPanel("graph")?.api.setActive();
 }
 
-// The arrangement kept with the document; the first one where there is none or it cannot be used.
+// The arrangement stored in the document, or the default if it is missing or invalid.
 export function restore(api: DockviewApi, stored: unknown): void {
   if (isArrangement(stored)) {
     try {
@@ -54,7 +54,7 @@ export function restore(api: DockviewApi, stored: unknown): void {
         return;
       }
     } catch {
-      // What a document holds may be of any make; the first arrangement stands for it.
+      // A document may contain any data; the default arrangement replaces invalid ones.
     }
   }
   arrangeFirst(api);
@@ -83,7 +83,7 @@ export function signature(arrangement: SerializedDockview): string {
 
 type PanelBranch = { type: string; data: unknown; size?: number };
 
-// Sizes as hundredths of what they are a part of.
+// Sizes in percent of their container.
 function shares(node: PanelBranch): unknown {
   if (!Array.isArray(node.data)) {
     return node.data;

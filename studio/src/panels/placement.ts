@@ -1,4 +1,4 @@
-// Where a new plot goes: beside the other plots while there is room, or else onto them as a tab.
+// The place of a new plot: beside the other plots while there is space, else as a tab.
 
 import type { AddPanelPositionOptions, DockviewApi, DockviewGroupPanel } from "dockview-react";
 
@@ -7,7 +7,7 @@ export type Box = { width: number; height: number };
 const WIDE = 640;
 const HIGH = 460;
 
-// How a box is shared between what is in it and something new.
+// Divides a box between its content and a new panel.
 export function share({ width, height }: Box): "right" | "below" | "within" {
   return width >= WIDE ? "right" : height >= HIGH ? "below" : "within";
 }

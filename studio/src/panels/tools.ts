@@ -1,4 +1,4 @@
-// The panels that exist once: what they are called, and where they go.
+// The panels that exist once: their names and places.
 
 export type Tool = "graph" | "inspector" | "pins" | "costs" | "world";
 

@@ -1,4 +1,4 @@
-// One pinned parameter: what it is, its slider with the ends of its range, its number.
+// One pinned parameter: its label, its slider with the ends of its range, its number.
 
 import { Tooltip, UnstyledButton } from "@mantine/core";
 import { IconGripVertical, IconLink } from "@tabler/icons-react";
@@ -153,7 +153,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
   );
 }
 
-// The end of a path says most: what is before it is cut first.
+// The end of a path is the most specific part: the beginning is cut first.
 function PinName({ pin, path }: { pin: Pin; path: string }) {
   if (pin.label !== undefined) {
     return <span className="one-line pin-label">{pin.label}</span>;

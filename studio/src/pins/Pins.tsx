@@ -16,7 +16,7 @@ import { isAt, keepPins, pinsOf, withPin } from "./pins";
 export function Pins() {
   const pins = useStudio((state) => pinsOf(state.document?.layout));
   const open = useStudio((state) => state.document !== null);
-  // The row that is dragged, and the one before which it would stand.
+  // The dragged row, and the row before which it would be placed.
   const [dragged, setDragged] = useState<number | null>(null);
   const [over, setOver] = useState<number | null>(null);
 

@@ -68,7 +68,7 @@ export function withoutPin(pins: Pin[], element: string, parameter: string): Pin
   return pins.filter((pin) => !isAt(pin, element, parameter));
 }
 
-// Another range or label for one pin; undefined takes it away.
+// Sets the range or label of one pin; undefined removes it.
 export function changedPin(
   pins: Pin[],
   pin: Pin,

@@ -1,4 +1,4 @@
-// An entry of a legend, which shows and hides what it stands for.
+// An entry of a legend, which shows and hides its curve.
 
 type Entry = { label: string; color: string; dashed?: boolean; on: boolean; toggle: () => void };
 

@@ -1,4 +1,4 @@
-// Settings of a time course: how far back it goes, its range, and what else is drawn into it.
+// Settings of a time course: its duration, its range, and additional curves.
 
 import { Button, NumberInput, SegmentedControl, Select, Text } from "@mantine/core";
 import { useState } from "react";

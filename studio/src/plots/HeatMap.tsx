@@ -1,4 +1,4 @@
-// An array over two axes as colours; what has more axes comes as the maximum over the others.
+// An array over two axes as colours; with more axes it is the maximum over the others.
 
 import { NativeSelect } from "@mantine/core";
 import { useMemo, useRef } from "react";

@@ -1,4 +1,4 @@
-// The range of values of a plot: it follows the data, or stands.
+// The range of values of a plot: it follows the data or is fixed.
 
 import { NumberInput, Switch } from "@mantine/core";
 import type { Range } from "./paint";

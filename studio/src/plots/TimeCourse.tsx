@@ -130,7 +130,7 @@ export function TimeCourse(props: PlotProps) {
             <CloseButton
               size={16}
               iconSize={12}
-              aria-label={`Take ${label} out of this plot`}
+              aria-label={`Remove ${label} from this plot`}
               onClick={() => remove(i)}
             />
           )}

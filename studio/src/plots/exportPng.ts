@@ -80,7 +80,7 @@ function sheet(width: number, height: number, title: string): HTMLCanvasElement 
   return canvas;
 }
 
-// Where the entries of a legend stand, in lines no longer than the sheet.
+// The positions of the entries of a legend, in lines no longer than the sheet.
 function placed(entries: LegendEntry[], width: number): { entry: LegendEntry; x: number; line: number }[] {
   const ctx = document.createElement("canvas").getContext("2d");
   if (ctx === null) {

@@ -33,7 +33,7 @@ export function isPicture(axes: AxisView[]): boolean {
   return axes.length === 3 && last?.name === "channel" && last.samples === CHANNELS;
 }
 
-// Every port of an element, what it gives before what it gets.
+// Every port of an element, outputs before inputs.
 export function portsOf(element: ElementView): string[] {
   return [...new Set([...element.outputs, ...element.inputs])];
 }

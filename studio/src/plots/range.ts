@@ -71,7 +71,7 @@ export class CalmRange {
   }
 }
 
-// A number for ticks that stand `step` apart.
+// A number for ticks at a distance of `step`.
 export function tick(value: number, step: number): string {
   if (value !== 0 && (Math.abs(value) >= 1e6 || Math.abs(step) < 1e-4)) {
     return signed(value.toExponential(1));

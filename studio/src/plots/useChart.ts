@@ -21,7 +21,7 @@ export type Chart = {
   label: string;
   // What lies at the cursor, in words; the cursor is inside.
   read?: (chart: uPlot) => string;
-  // Whatever else hangs on the chart; the function returned takes it away.
+  // Adds other content to the chart; returns a function that removes it.
   attach?: (chart: uPlot, look: Look) => () => void;
 };
 

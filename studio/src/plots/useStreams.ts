@@ -1,5 +1,5 @@
 // Live arrays for a component: drawing happens once for each picture of the browser and past React; the
-// component renders again only when what the streams hold changes.
+// component renders again only when the content of the streams changes.
 
 import { useEffect, useState } from "react";
 import type { Announced, ListedProblem } from "../protocol";
@@ -10,7 +10,7 @@ import { useLatest } from "./useLatest";
 export type Streaming = {
   // What each stream holds; null as long as it is not known.
   forms: (Announced | null)[];
-  // Why a stream gives nothing, if one does not.
+  // The reason of a stream without data.
   lost: ListedProblem | null;
   // Whether anything came yet.
   seen: boolean;

@@ -1,4 +1,4 @@
-// What is being made at the moment, such as a new program. Its place is kept free, so that nothing moves.
+// The present background task, such as a new program. Its space is reserved, so that nothing moves.
 
 import { Loader } from "@mantine/core";
 

@@ -1,4 +1,4 @@
-// Why the run stopped, below the header, until it is reset or the cause is gone.
+// The reason why the run stopped, below the header, until a reset or until the cause is removed.
 
 import { Button } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";

@@ -32,7 +32,7 @@ import {
 } from "./place";
 
 const HELP =
-  "Drag a thing. A double click places a box, Delete takes one away, arrow keys move what is chosen.";
+  "Drag an object. A double click places a box, Delete removes the selected one, arrow keys move it.";
 // A box that is placed, and a step of an arrow key, as shares of the shorter and of the longer side.
 const BOX = 0.06;
 const STEP = 0.01;

@@ -7,7 +7,7 @@ import type { PlanPoint } from "./place";
 type Ask = (message: ToServer) => Promise<Answer>;
 
 export class Carrier {
-  // What is being carried, and where to; null: nothing.
+  // The dragged object and its target; null: none.
   held: { name: string; at: PlanPoint } | null = null;
   // Why the last place was refused; empty where it was not.
   refused = "";

@@ -15,7 +15,7 @@ export type PlanFrame = {
 };
 
 const MARGIN = { left: 46, right: 14, top: 12, bottom: 36 };
-// How near to a mark a pointer takes hold of it, in pixels.
+// The distance in pixels at which a pointer picks a mark.
 const NEAR = 9;
 
 export function frameOf(border: number[], width: number, height: number): PlanFrame {
@@ -43,7 +43,7 @@ export function inside({ border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
   return { x: Math.min(border[2], Math.max(border[0], x)), y: Math.min(border[3], Math.max(border[1], y)) };
 }
 
-// What can be taken hold of, marks first: they lie above what is solid.
+// Objects that can be picked, marks first: they lie above solid objects.
 export function things({ boxes, marks }: SceneView): Thing[] {
   return [...marks.map((mark) => ({ ...mark, width: 0, height: 0 })), ...[...boxes].reverse()];
 }
@@ -88,7 +88,7 @@ export function placeText({ x, y }: PlanPoint, border: number[], unit: string): 
   return `${x.toFixed(digits)}, ${y.toFixed(digits)} ${unit}`.trim();
 }
 
-// A name for something new that nothing has yet.
+// An unused name for a new object.
 export function freeName({ boxes, marks }: SceneView): string {
   const taken = new Set([...boxes, ...marks].map(({ name }) => name));
   for (let n = 1; ; n++) {

@@ -1,4 +1,4 @@
-// An array: what is known of it, to read only.
+// An array: its shape and range, read only.
 
 import { numberText } from "../number";
 import { Row } from "../Row";

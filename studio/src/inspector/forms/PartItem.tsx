@@ -1,4 +1,4 @@
-// One part of a list: a line that says what it is, and its parameters, which fold.
+// One part of a list: a summary line and its parameters, which fold.
 
 import { Menu, UnstyledButton } from "@mantine/core";
 import { IconChevronDown, IconChevronRight, IconTrash } from "@tabler/icons-react";

@@ -1,4 +1,4 @@
-// Text to type: Enter or leaving the field takes it, Escape goes back.
+// A text field: Enter or leaving the field commits it, Escape resets it.
 
 import { TextInput } from "@mantine/core";
 import { useState, type KeyboardEvent } from "react";
