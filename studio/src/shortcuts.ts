@@ -13,7 +13,7 @@ export type Shortcut = {
   keys: readonly string[];
   does: string;
   run: () => unknown;
-  // Also while nothing is open.
+  // Also without an open document.
   always?: boolean;
   // Again and again while the key is held.
   repeats?: boolean;
@@ -72,7 +72,7 @@ export function isTyping(target: Element | null): boolean {
   );
 }
 
-// Whether keys with Ctrl, too, belong to the text: in a choice from a list they have nothing to do.
+// Whether the text field uses keys with Ctrl too: a choice from a list does not.
 function isWriting(target: Element | null, press: Press): boolean {
   return (
     isTyping(target) && !((press.ctrlKey || press.metaKey) && target?.closest("input:read-only") != null)
@@ -86,8 +86,8 @@ const PRESSED =
 
 export function useShortcuts(): void {
   useEffect(() => {
-    // A button that was clicked keeps the focus, but shows no focus ring: then Space plays. Asked when the
-    // focus comes, because the first key makes it visible.
+    // A clicked button keeps the focus, but shows no focus ring: then Space plays. Read on focus, because the
+    // first key makes the ring visible.
     let focusSeen = false;
     const onFocus = (event: FocusEvent) => {
       focusSeen = event.target instanceof Element && event.target.matches(":focus-visible");

@@ -8,7 +8,7 @@ import { History } from "./history";
 export type Wish = Omit<Watch, "stream" | "request"> | Omit<WatchTrace, "stream" | "request">;
 
 export type Live = {
-  // What the stream holds; null until the server has said it.
+  // The format of the stream; null until the server has sent it.
   form: Announced | null;
   // The newest frame; null until one came. Of a time course use `history`.
   frame: Frame | null;

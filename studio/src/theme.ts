@@ -1,5 +1,5 @@
-// How Mantine's controls look: deodar green, calm greys, system fonts, small sizes. Everything else takes its
-// colours from theme.css.
+// The theme of Mantine's controls: deodar green, calm greys, system fonts, small sizes. All other colours are
+// in theme.css.
 
 import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from "@mantine/core";
 

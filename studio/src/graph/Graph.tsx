@@ -101,8 +101,7 @@ function Canvas({ structure }: { structure: Structure }) {
     }
   }, [structure, kinds, flow]);
 
-  // While the canvas is moved it is one layer that the browser only shifts: live boxes rest, and nothing is
-  // painted again.
+  // While the canvas is moved it is one layer that the browser only shifts: live boxes are not painted.
   const move = useCallback(
     (moving: boolean) => {
       useHover.getState().close();

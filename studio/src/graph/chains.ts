@@ -38,7 +38,7 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
       edges.push(follow(first, links, from, couplings));
     }
   }
-  // What is left are rings of nothing but couplings: they have no node to begin at, so each becomes one.
+  // The remaining couplings form rings without a node to begin at, so each becomes a node.
   for (const lone of connections.filter((c) => links.has(c.source) && !couplings.has(c.source))) {
     edges.push(edge(lone, lone, [], lone.reads));
   }
@@ -70,8 +70,8 @@ function edge(first: ConnectionView, last: ConnectionView, couplings: string[], 
   return { id, source, source_port, target, target_port, couplings, reads };
 }
 
-// Kinds of outside packages do not say whether they are couplings: one with axes or levels of its own is
-// something to look at.
+// Kinds of other packages do not declare whether they are couplings: one with its own axes or levels gets a
+// box.
 function isCoupling(element: ElementView, kind: Kind | undefined): boolean {
   if (kind === undefined || element.inputs.length !== 1 || element.outputs.length !== 1) {
     return false;

@@ -1,4 +1,4 @@
-// What the card of an element says: its main parameters with their present values and units.
+// The content of an element's tooltip: its main parameters with their present values and units.
 
 import { unitText } from "../inspector/unit";
 import type { DocumentView, ElementView, Kind, ParameterForm } from "../protocol";

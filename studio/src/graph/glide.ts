@@ -1,5 +1,5 @@
-// How long the canvas takes where it moves by itself, in milliseconds: no time for those who asked their
-// system for less motion.
+// Duration of automatic movements of the canvas, in milliseconds; 0 for users who set their system to less
+// motion.
 export function glide(ms: number): number {
   return matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : ms;
 }

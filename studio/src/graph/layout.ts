@@ -1,5 +1,5 @@
-// Where everything stands: boxes as the document gives them, the rest by dagre from left to right, group by
-// group from inside out.
+// The layout: boxes at the positions of the document, the others by dagre from left to right, group by group
+// from inside out.
 
 import { Graph, layout as arrange } from "@dagrejs/dagre";
 import type { Branch } from "./tree";
@@ -57,8 +57,8 @@ function level(branch: Branch, sizes: Map<string, Size>, bonds: Bond[], boxes: M
   return { items, rect: frameAround(items), placed };
 }
 
-// dagre for the items that have no place yet; those that have one stay, and the others come to stand as dagre
-// sees them from there.
+// Uses dagre for the items without a position; items with a position keep it, and the others are placed
+// relative to them.
 function spread(items: Item[], bonds: Bond[]): void {
   const free = items.filter((item) => !item.placed);
   if (free.length === 0) {
@@ -122,8 +122,8 @@ function lifted(branch: Branch, bonds: Bond[]): Bond[] {
   });
 }
 
-// An open group that grew (unfolded, or given another element) pushes what it covers to the right or down,
-// whichever is less.
+// An open group that grew (unfolded, or with a new element) moves the items that it covers to the right or
+// down, by the smaller distance.
 function makeRoom(items: Item[]): void {
   const order = [...items].sort((a, b) => a.rect.x - b.rect.x || a.rect.y - b.rect.y);
   const settled: Item[] = [];

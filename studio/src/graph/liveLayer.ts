@@ -46,8 +46,8 @@ export class LiveLayer {
     }
   }
 
-  // While the view is moved the layer moves with it as it is, which costs a browser nothing; null: it is at
-  // rest, and is painted again.
+  // While the view is moved the layer is only shifted, which costs nothing; null: the view is at rest,
+  // and the layer is painted.
   move(view: Viewport | null): void {
     if (this.canvas === null) {
       return;

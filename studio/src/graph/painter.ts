@@ -5,8 +5,8 @@ type Draw = () => void;
 
 const BUDGET_MS = 5;
 
-// What a browser pays for a box comes after the drawing, when it puts the page together: it shows in the time
-// between pictures.
+// The cost of a box arises after the drawing, when the browser composes the page: the time between pictures
+// measures it.
 const FAST_MS = 24;
 const SLOW_MS = 36;
 const LEAST = 2;

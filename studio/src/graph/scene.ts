@@ -72,8 +72,8 @@ export function pillsWidth(names: string[]): number {
   );
 }
 
-// Folded groups hide what is in them; an open group is a frame and precedes what is in it, as xyflow
-// wants parents.
+// Folded groups hide their elements; an open group is a frame and precedes its elements, because xyflow
+// requires parents first.
 function nodesOf(
   branch: Branch,
   names: Map<string, ElementView>,

@@ -1,5 +1,5 @@
-// What is wrong with an element, in words; empty where nothing is. A warning marks an element too: it runs,
-// but probably not as it was meant.
+// The problems of an element as text; empty without one. A warning marks an element too: it runs, but
+// probably not as intended.
 
 import { isWarning } from "../pages/problems";
 import type { ListedProblem } from "../protocol";

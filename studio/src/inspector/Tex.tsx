@@ -1,4 +1,4 @@
-// TeX, typeset. KaTeX is large and comes when it is first needed; until then, and where it cannot read the
+// TeX, typeset. KaTeX is large and is loaded when it is first needed; until then, and if it cannot read the
 // source, the source is shown.
 
 import type Katex from "katex";

@@ -1,5 +1,4 @@
-// The first field of a small form that a menu opens. A menu gives the focus back when it closes; the field
-// takes it after that.
+// Focuses the first field of a small form that a menu opens, after the closed menu has restored the focus.
 
 import { useEffect, useRef } from "react";
 

@@ -68,7 +68,7 @@ export function moved<T>(items: T[], from: number, to: number): T[] {
     : [...rest.slice(0, to), item, ...rest.slice(to)];
 }
 
-// A name that is not taken yet.
+// A name that is not used yet.
 export function fresh(taken: string[], name = "name"): string {
   for (let i = 1; ; i++) {
     const candidate = i === 1 ? name : `${name}${i}`;

@@ -10,7 +10,7 @@ export type SliderRange = {
   step: number;
 };
 
-// Where a parameter stands: its path below the element, the axes of the element, and whether they are the
+// The context of a parameter: its path below the element, the axes of the element, and whether they are the
 // element's own parameter.
 export type Standing = {
   path: string;

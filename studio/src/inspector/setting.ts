@@ -1,5 +1,5 @@
-// One parameter as a control holds it: what the server says, or one's own value while it is dragged; and what
-// is wrong with the last try.
+// The state of a parameter in a control: the value of the server, or the local value during a drag, and the
+// error of the last change.
 
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 
@@ -11,7 +11,7 @@ import { noteChange } from "./lastChange";
 export type Setting<T = unknown> = {
   value: T;
   problem: ListedProblem | null;
-  // Send a value at once; true where it was taken.
+  // Sends a value at once; true if it was accepted.
   commit: (value: T) => Promise<boolean>;
   // A value while a pointer drags, and the end of the drag.
   move: (value: T) => void;

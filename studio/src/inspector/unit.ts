@@ -2,8 +2,7 @@
 
 import type { AxisView } from "../protocol";
 
-// Document time is counted in this; no unit is written for abstract time, and for steps of one's own what a
-// step is.
+// The unit of document time; none for abstract time, and the definition of a step for custom units.
 export function timeText(timeUnit: string): string {
   if (timeUnit === "abstract") {
     return "";

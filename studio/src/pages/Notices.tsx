@@ -1,5 +1,4 @@
-// What the studio has to say, at the lower right: errors and offers stay until they are put away, the rest
-// goes by itself.
+// Notices at the lower right. Errors and offers stay until dismissed, others disappear after some time.
 
 import { Button, CloseButton } from "@mantine/core";
 import { IconAlertTriangle, IconCircleCheck } from "@tabler/icons-react";

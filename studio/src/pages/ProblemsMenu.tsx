@@ -1,4 +1,4 @@
-// Problems and warnings of the open document, in a list; a click goes to the element. Absent without either.
+// Problems and warnings of the open document, in a list; a click selects the element. Absent without either.
 
 import { Button, Popover, UnstyledButton } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";

@@ -1,4 +1,4 @@
-// Before the server has said anything.
+// Shown before the first message of the server.
 
 import { useStudio } from "../store";
 import { Mark } from "./Mark";

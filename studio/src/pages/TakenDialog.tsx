@@ -1,4 +1,4 @@
-// What did not match when the values of a file were taken over.
+// The values of a file that did not match when they were applied.
 
 import { Button, Group, Text } from "@mantine/core";
 

@@ -77,7 +77,7 @@ export async function saveAs(): Promise<boolean> {
   return path === null ? false : save(path);
 }
 
-// A file that was dropped or chosen: a document is opened, a picture is what the sensors read from now on.
+// Opens a dropped or chosen file: a document, or a picture for the sensors.
 export async function takeFile(file: File): Promise<boolean> {
   if (isTooLarge(file)) {
     return false;
@@ -94,7 +94,7 @@ export async function takeFile(file: File): Promise<boolean> {
   }
 }
 
-// Whether a file is more than one message may hold; then that is said.
+// Whether a file is too large for one message; then a notice states it.
 export function isTooLarge(file: File): boolean {
   if (file.size > MOST_BYTES) {
     refuse({
@@ -132,7 +132,7 @@ async function showPicture(picture: string | File): Promise<boolean> {
   return (answer.problems ?? []).length === 0;
 }
 
-// What became of a file of another tool is said where it was opened.
+// Shows the report of a file of another tool.
 function arrived({ imported = "" }: Answer): boolean {
   if (imported !== "") {
     useStudio

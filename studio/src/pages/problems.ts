@@ -1,4 +1,4 @@
-// Problems and warnings, counted in words and told apart.
+// Numbers of problems and of warnings in words.
 
 import type { ListedProblem } from "../protocol";
 

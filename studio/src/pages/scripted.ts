@@ -10,7 +10,7 @@ import { type Asked, useDialogs } from "./dialogs";
 export const sent: ToServer[] = [];
 let leaves = () => {};
 
-// A server that gives these answers in turn, and then says that all is done.
+// A server that gives these answers in turn, and then reports success.
 export function server(...answers: Partial<Answer>[]): void {
   vi.spyOn(socket, "ask").mockImplementation(async (message) => {
     sent.push(message);

@@ -1,4 +1,4 @@
-// The values of another file, taken over by the document that is open.
+// The values of another file, applied to the open document.
 
 import type { Answer } from "../protocol";
 import { request, socket } from "../socket";
@@ -7,8 +7,8 @@ import { ask } from "./dialogs";
 import { done, isTooLarge } from "./flows";
 import { lastPart } from "./paths";
 
-// Ask for a file and take its values over. What did not match is shown. True where something was taken over
-// and kept.
+// Asks for a file, applies its values and shows those that did not match. True if values were applied and
+// kept.
 export async function takeValues(): Promise<boolean> {
   const chosen = await ask("choose", { wants: "values" });
   if (chosen === null || (chosen instanceof File && isTooLarge(chosen))) {

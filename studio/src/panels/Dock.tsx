@@ -73,7 +73,7 @@ export function Dock() {
     };
   }, [api, session]);
 
-  // A world that can be seen from above is shown, unless the document says how panels stand.
+  // A world with a view from above is shown, unless the document stores an arrangement of panels.
   const seen = useSyncExternalStore(live.listen, () => live.scene() !== null);
   useEffect(() => {
     if (api !== null && seen && useStudio.getState().document?.layout["panels"] === undefined) {

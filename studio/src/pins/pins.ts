@@ -4,8 +4,8 @@ import type { DocumentView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 
-// `element` is empty for a document parameter. `lower` and `upper` are a range that was chosen, `label` a
-// name of one's own.
+// `element` is empty for a document parameter. `lower` and `upper` are a chosen range, `label` a custom
+// name.
 export type Pin = {
   element: string;
   parameter: string;
@@ -19,7 +19,7 @@ type Layout = DocumentView["layout"];
 const NONE: Pin[] = [];
 const read = new WeakMap<object, Pin[]>();
 
-// What can be read of what is kept; anything else is left out, and of equal pins the first one counts.
+// The valid entries of the stored pins; others are omitted, and of equal pins the first one counts.
 export function pinsOf(layout: Layout | undefined): Pin[] {
   const kept = layout?.["pins"];
   if (!Array.isArray(kept)) {

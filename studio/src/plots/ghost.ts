@@ -1,5 +1,5 @@
-// The outline of what is injected: the Gaussian above one axis, its one- and two-sigma lines over two, a
-// frame where it is the same everywhere.
+// The outline of the injected input: the Gaussian above one axis, its one- and two-sigma lines over two axes,
+// a frame for a homogeneous input.
 
 import type uPlot from "uplot";
 import type { Injection } from "./spot";

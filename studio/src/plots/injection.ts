@@ -1,5 +1,4 @@
-// Injecting by hand into a field that is drawn: with the right button, or with the key i. A drawing of the
-// Gaussian goes with it.
+// Injection into a field with the mouse (the right button) or with the key i. An outline shows the Gaussian.
 
 import type uPlot from "uplot";
 import { socket } from "../socket";
@@ -7,8 +6,8 @@ import { paintGhost } from "./ghost";
 import { Pusher } from "./pusher";
 import { type Injection, spot } from "./spot";
 
-// Listen on a chart; `ask` gives what is injected at present, null where nothing can be. The function
-// returned ends it.
+// Listens on a chart; `ask` returns the input to inject, or null if the element takes none. Returns a
+// function that ends it.
 export function attachInjection(
   chart: uPlot,
   host: HTMLElement,

@@ -46,7 +46,7 @@ export function portsAlike(element: ElementView, port: string): string[] {
   );
 }
 
-// The port that says most about an element: one with levels, or else its first.
+// The most informative port of an element: one with levels, or else its first.
 export function mainPort(element: ElementView, kind: Kind | undefined): string {
   const ports = portsOf(element);
   return (

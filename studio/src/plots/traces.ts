@@ -1,4 +1,4 @@
-// Time courses side by side: samples that were taken at different times, brought onto one axis.
+// Several time courses: samples of different times on one axis.
 
 import type { History } from "../history";
 

@@ -50,7 +50,7 @@ export function useStreams(wishes: Wish[], on: boolean, draw: (lives: Live[]) =>
         drawing.current(lives as Live[]);
       }
     };
-    // Streams are notified one after another within one task: a microtask comes after all of them.
+    // Streams are notified one after another within one task: a microtask runs after all of them.
     const later = () => {
       if (!due) {
         due = true;

@@ -1,8 +1,8 @@
 // How times and speeds are written. All of one length as far as possible, so that read-outs keep still while
 // they count.
 
-// What the unit of time is in seconds, for units with a name; a unit of its own ("abstract", "1 = 64 ms") is
-// counted as it is.
+// The unit of time in seconds, for units with a name; a custom unit ("abstract", "1 = 64 ms") is used without
+// conversion.
 const SECONDS: Record<string, number> = { us: 1e-6, ms: 1e-3, s: 1, min: 60 };
 
 const SYMBOLS: Record<string, string> = { us: "µs" };
@@ -21,7 +21,7 @@ export function timeText(time: number, unit: string, dt: number): string {
   return `${grouped(time, decimals(dt))} ${unitText(unit)}`;
 }
 
-// A unit of time beside a number; nothing for units of the model's own.
+// A unit of time beside a number; empty for custom units.
 export function unitText(unit: string): string {
   return unit in SECONDS ? (SYMBOLS[unit] ?? unit) : "";
 }

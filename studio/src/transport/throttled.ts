@@ -4,7 +4,7 @@ import { useEffect, useState } from "react";
 
 import { type Studio, useStudio } from "../store";
 
-// A value of the store, taken at once and then at most once in the given time.
+// A value of the store, read at once and then at most once in the given time.
 export function useThrottled<T>(select: (state: Studio) => T, every = 100): T {
   const [value, setValue] = useState(() => select(useStudio.getState()));
   useEffect(() => {

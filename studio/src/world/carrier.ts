@@ -15,17 +15,17 @@ export class Carrier {
   private due = false;
   private down = false;
 
-  // `told` runs when something of the above changed.
+  // `changed` is called when the state above changed.
   constructor(
     private ask: Ask,
-    private told: () => void,
+    private changed: () => void,
   ) {}
 
   carry(name: string, at: PlanPoint): void {
     this.held = { name, at };
     this.down = false;
     this.due = true;
-    this.told();
+    this.changed();
     void this.go();
   }
 
@@ -38,7 +38,7 @@ export class Carrier {
   // An earlier refusal is no longer shown.
   forgive(): void {
     this.refused = "";
-    this.told();
+    this.changed();
   }
 
   private async go(): Promise<void> {
@@ -55,7 +55,7 @@ export class Carrier {
         problem === undefined
           ? ""
           : [problem.where, problem.what].filter((part) => part !== undefined && part !== "").join(": ");
-      this.told();
+      this.changed();
     }
     this.asking = false;
     this.settle();
@@ -65,7 +65,7 @@ export class Carrier {
     if (this.down && !this.asking) {
       this.held = null;
       this.down = false;
-      this.told();
+      this.changed();
     }
   }
 }

@@ -14,7 +14,7 @@ export function ArrayForm({ form, path, value }: FormProps) {
   );
 }
 
-// Shape and range where the server says them, else the name under which the array is kept.
+// Shape and range if the server states them, else the name of the stored array.
 export function arrayText(value: unknown): string {
   if (typeof value !== "object" || value === null) {
     return "none";

@@ -1,5 +1,4 @@
-// Which form shows which value. A form that is new in the protocol is missing here until it has a component:
-// the compiler says so.
+// The component of each form. A new form of the protocol without a component is an error of the compiler.
 
 import type { ComponentType } from "react";
 
