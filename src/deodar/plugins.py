@@ -26,6 +26,7 @@ GROUPS = {
     "worlds": "worlds, by the name of their class",
     "measures": "measures of experiments: classes derived from dd.BaseMeasure, by their names",
     "figures": "modules with ACROSS, size and fill; with paint where ACROSS is true",
+    "plots": "modules with TITLE, FILE and AXES: plots of the studio, drawn by an ES module",
     "importers": "modules with NAME, sniff and read",
     "commands": "modules with HELP, arguments and run",
     "papers": "modules with HELP, about, jobs, report and so on",

@@ -473,6 +473,19 @@ export type Play = {
   request?: number;
 };
 
+// A plot from an installed package, in addition to those of the page.
+//
+// `axes` is the number of axes that it draws: 1; 2 (of more axes, the maximum over the others); 3: pictures.
+// `periodic`: all axes have to be periodic. `module` is the address of its ES module on the server.
+export type PlotView = {
+  name: string;
+  title: string;
+  package: string;
+  axes: number;
+  periodic: boolean;
+  module: string;
+};
+
 // Add an input to an element until `release`.
 //
 // The input is a Gaussian around `center` (axis units), or constant over the axes if that is None.
@@ -755,6 +768,7 @@ export type Welcome = {
   root: string;
   kinds: Kind[];
   examples: ExampleView[];
+  plots: PlotView[];
 };
 
 // The world from above, sent whenever a box or mark changed; None: the world has no view from above.

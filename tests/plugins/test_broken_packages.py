@@ -158,6 +158,7 @@ GROUPS = {
     "deodar.worlds": ("", "odd:Odd", "Odd", "Arena"),
     "deodar.measures": (MEASURE.format(name="Odd"), "odd:Odd", "Odd", "Measure"),
     "deodar.figures": (FIGURE, "odd", "odd", "snapshot"),
+    "deodar.plots": ("", "odd", "odd", "heat"),
     "deodar.importers": ("", "odd", "odd", "cosivina"),
     "deodar.commands": ("", "odd", "odd", "run"),
     "deodar.papers": ("", "odd", "odd", "spa"),

@@ -213,6 +213,7 @@ def test_doctor_lists_what_it_brings(capsys: pytest.CaptureFixture[str]) -> None
             "worlds Lamp",
             "measures Width",
             "figures histogram",
+            "plots polar",
             "commands change",
         )
     ]

@@ -1,4 +1,4 @@
-"""The web application: the built page, the pictures of the gallery, and one socket."""
+"""The web application: the built page, the pictures of the gallery, the plots of packages, and one socket."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
 from deodar.errors import DeodarError
-from deodar.server import gallery
+from deodar.server import gallery, plots
 from deodar.server.connection import PageConnection
 from deodar.server.guard import Guard
 from deodar.server.hub import Hub
@@ -59,6 +59,7 @@ class Studio:
         routes = [
             Route("/", self._page),
             Route("/examples/{name}", self._picture),
+            Route("/plots/{name}", self._plot),
             WebSocketRoute("/ws", self._socket),
             Mount("/assets", _Assets(directory=STATIC / "assets", check_dir=False)),
             Route("/{name}", self._file_of_page),
@@ -102,6 +103,15 @@ class Studio:
         except DeodarError:
             path = None
         return FileResponse(path) if path is not None else PlainTextResponse("not found", 404)
+
+    async def _plot(self, request: Request) -> Response:
+        """Serve the ES module of a plot from a package; no other file of the package."""
+        name, dot, suffix = request.path_params["name"].rpartition(".")
+        path = plots.file(name) if dot and suffix == "js" else None
+        if path is None:
+            return PlainTextResponse("not found", 404)
+        # a browser runs a module of this media type only; a package that is edited may change at any time
+        return FileResponse(path, media_type="text/javascript", headers={"cache-control": "no-cache"})
 
     async def _socket(self, socket: WebSocket) -> None:
         assert self._hub is not None

@@ -9,7 +9,7 @@ from pathlib import Path
 from deodar import __version__
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
-from deodar.server import gallery, view
+from deodar.server import gallery, plots, view
 from deodar.server.aside import attempt
 from deodar.server.embodiment import Embodiment
 from deodar.server.keeper import Keeper, state_folder
@@ -49,6 +49,7 @@ class Hub:
             root=str(self.workspace.root),
             kinds=view.kinds(),
             examples=gallery.examples(),
+            plots=plots.views(),
         )
         self._keeping = asyncio.create_task(self._keep())
 

@@ -155,6 +155,21 @@ class ExampleView(Data, frozen=True):
     picture: str
 
 
+class PlotView(Data, frozen=True):
+    """A plot from an installed package, in addition to those of the page.
+
+    `axes` is the number of axes that it draws: 1; 2 (of more axes, the maximum over the others); 3: pictures.
+    `periodic`: all axes have to be periodic. `module` is the address of its ES module on the server.
+    """
+
+    name: str
+    title: str
+    package: str
+    axes: int
+    periodic: bool
+    module: str
+
+
 class Recovery(Data, frozen=True):
     """Stored unsaved edits: name, title, the file they belong to, and the time of storing (ISO 8601)."""
 
@@ -172,6 +187,7 @@ class Welcome(Message, frozen=True, tag="welcome"):
     root: str
     kinds: list[Kind]
     examples: list[ExampleView]
+    plots: list[PlotView]
 
 
 @MESSAGES.register
