@@ -43,6 +43,7 @@ export default defineConfig({
   server: {
     proxy: {
       "/ws": { target: STUDIO, ws: true, changeOrigin: true, headers },
+      "/plots": { target: STUDIO, changeOrigin: true, headers },
       "/examples": { target: STUDIO, changeOrigin: true, headers },
     },
   },

@@ -23,6 +23,8 @@ export interface StudioOptions extends ServerOptions {
   copies?: string[];
   /** Further files in it: their names and what they hold. */
   files?: Record<string, string>;
+  /** Folders in it: their names, and for each the names of its files and what they hold. */
+  folders?: Record<string, Record<string, string>>;
   colours?: "light" | "dark";
   /** Messages of the browser's console that belong to the test, such as those of a lost connection. */
   expected?: RegExp[];
@@ -57,6 +59,10 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
     cpSync(join(ROOT, name), join(folder, basename(name)), { recursive: true });
   for (const [name, content] of Object.entries(options.files ?? {}))
     writeFileSync(join(folder, name), content);
+  for (const [name, files] of Object.entries(options.folders ?? {})) {
+    mkdirSync(join(folder, name));
+    for (const [file, content] of Object.entries(files)) writeFileSync(join(folder, name, file), content);
+  }
 
   const closing: (() => Promise<void>)[] = [
     async () => rmSync(home, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 }),

@@ -4,7 +4,8 @@ import type { IDockviewPanelProps } from "dockview-react";
 import { type ComponentType, useEffect, useState } from "react";
 import { FieldCurve } from "../plots/FieldCurve";
 import { HeatMap } from "../plots/HeatMap";
-import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import { isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import { PackagedPlot } from "../plots/PackagedPlot";
 import { Picture } from "../plots/Picture";
 import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
@@ -12,7 +13,7 @@ import { TimeCourse } from "../plots/TimeCourse";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 
-const PLOTS: Record<PlotKind, ComponentType<PlotProps>> = {
+const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   course: TimeCourse,
   curve: FieldCurve,
   heat: HeatMap,
@@ -30,11 +31,13 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
   const offered = useStudio((state) =>
     element === undefined || state.document === null
       ? "course"
-      : plotKinds(portAxes(state.document, element, port)).join(),
+      : plotKinds(portAxes(state.document, element, port), state.welcome?.plots).join(),
   );
   const visible = useVisible(api);
-  const kinds = offered.split(",") as PlotKind[];
+  const kinds = offered.split(",");
   const kind = plot.kind !== null && kinds.includes(plot.kind) ? plot.kind : (kinds[0] ?? "course");
+
+  const packaged = useStudio((state) => state.welcome?.plots.find((other) => other.name === kind));
 
   const title = element === undefined ? null : plotTitle({ element: plot.element, kind });
   useEffect(() => {
@@ -54,19 +57,20 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
     );
   }
   const change = (next: Partial<PlotParams>) => api.updateParameters({ ...plot, kind, port, ...next });
-  const Plot = PLOTS[kind];
-  return (
-    <Plot
-      key={kind}
-      element={element}
-      port={port}
-      kinds={kinds}
-      settings={readSettings(plot.settings)}
-      visible={visible}
-      change={change}
-      set={(settings) => change({ settings: { ...plot.settings, ...settings } })}
-    />
-  );
+  const props: PlotProps = {
+    element,
+    port,
+    kinds,
+    settings: readSettings(plot.settings),
+    visible,
+    change,
+    set: (settings) => change({ settings: { ...plot.settings, ...settings } }),
+  };
+  if (isOwn(kind)) {
+    const Plot = PLOTS[kind];
+    return <Plot key={kind} {...props} />;
+  }
+  return packaged === undefined ? null : <PackagedPlot key={kind} plot={packaged} {...props} />;
 }
 
 function useVisible(api: IDockviewPanelProps["api"]): boolean {

@@ -6,7 +6,7 @@ import { IconAdjustmentsHorizontal, IconDots, IconPhotoDown } from "@tabler/icon
 import type { ReactNode } from "react";
 import type { ElementView } from "../protocol";
 import { useStudio } from "../store";
-import { PLOT_TITLES, type PlotKind } from "./kinds";
+import { type PlotKind, titleOf } from "./kinds";
 import type { PlotParams, PlotSettings } from "./settings";
 import type { Streaming } from "./useStreams";
 import "./plots.css";
@@ -39,9 +39,10 @@ export function PlotFrame(props: PlotFrameProps) {
   const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } =
     props;
   const running = useStudio((state) => state.clock?.running ?? false);
+  const packaged = useStudio((state) => state.welcome?.plots) ?? [];
   const { lost, seen } = streaming;
   return (
-    <section className="plot" aria-label={`${PLOT_TITLES[kind]} of ${element.path}`}>
+    <section className="plot" aria-label={`${titleOf(kind, packaged)} of ${element.path}`}>
       <header className="plot-head">
         <div className="plot-what">
           <span className="plot-path one-line" title={element.path}>
@@ -84,7 +85,7 @@ export function PlotFrame(props: PlotFrameProps) {
             {kinds.length > 1 &&
               kinds.map((other) => (
                 <Menu.Item key={other} disabled={other === kind} onClick={() => change({ kind: other })}>
-                  {PLOT_TITLES[other]}
+                  {titleOf(other, packaged)}
                 </Menu.Item>
               ))}
             {kinds.length > 1 && <Menu.Divider />}

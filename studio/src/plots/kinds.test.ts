@@ -1,8 +1,10 @@
 import { describe, expect, it } from "vitest";
-import type { AxisView, DocumentView, ElementView, Kind } from "../protocol";
+import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 import {
   axisLabel,
   firstToPlot,
+  fits,
+  isOwn,
   isPicture,
   mainPort,
   plotKinds,
@@ -11,6 +13,7 @@ import {
   portsAlike,
   runsDown,
   stepOf,
+  titleOf,
 } from "./kinds";
 
 const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView => ({
@@ -64,6 +67,34 @@ describe("kinds of plots", () => {
     expect(plotKinds([x, y, hue])).toEqual(["heat", "course"]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
+  });
+
+  it("of packages come last, where the axes fit", () => {
+    const [x, y, hue, channel] = AXES as [AxisView, AxisView, AxisView, AxisView];
+    const plot = (axes: number, periodic = false) =>
+      ({ name: "odd", title: "Odd", axes, periodic }) as PlotView;
+    expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "odd"]);
+    expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course"]);
+    expect([[], [x], [x, y], [x, y, hue], [x, y, channel]].map((axes) => fits(plot(2), axes))).toEqual([
+      false,
+      false,
+      true,
+      true,
+      false,
+    ]);
+    expect([[x], [x, y, hue], [x, y, channel]].map((axes) => fits(plot(3), axes))).toEqual([
+      false,
+      false,
+      true,
+    ]);
+    expect([[x], [hue]].map((axes) => fits(plot(1, true), axes))).toEqual([false, true]);
+  });
+
+  it("have the titles of the page or of the package", () => {
+    const polar = { name: "polar", title: "Polar plot" } as PlotView;
+    expect(titleOf("heat", [polar])).toBe("Heat map");
+    expect(titleOf("polar", [polar])).toBe("Polar plot");
+    expect(isOwn("heat") && !isOwn("polar") && !isOwn("toString")).toBe(true);
   });
 
   it("know no axes where the document does not", () => {

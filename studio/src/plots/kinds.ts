@@ -1,10 +1,13 @@
 // How a port can be shown. It follows from its axes alone.
 
-import type { AxisView, DocumentView, ElementView, Kind } from "../protocol";
+import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 
-export type PlotKind = "course" | "curve" | "heat" | "picture";
+export type OwnPlot = "course" | "curve" | "heat" | "picture";
 
-export const PLOT_TITLES: Record<PlotKind, string> = {
+// A plot of the page, or the name of one of an installed package.
+export type PlotKind = string;
+
+export const PLOT_TITLES: Record<OwnPlot, string> = {
   course: "Time course",
   curve: "Curves",
   heat: "Heat map",
@@ -20,12 +23,30 @@ export function portAxes(document: DocumentView, element: ElementView, port: str
   return found === undefined || found.includes(undefined) ? null : (found as AxisView[]);
 }
 
-// The kinds of plot for an array over these axes, the best one first.
-export function plotKinds(axes: AxisView[] | null): PlotKind[] {
+// The kinds of plot for an array over these axes, the best one first; those of packages come last.
+export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = []): PlotKind[] {
   if (axes === null || axes.length === 0) {
     return ["course"];
   }
-  return [axes.length === 1 ? "curve" : isPicture(axes) ? "picture" : "heat", "course"];
+  return [
+    axes.length === 1 ? "curve" : isPicture(axes) ? "picture" : "heat",
+    "course",
+    ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
+  ];
+}
+
+// Whether a plot of a package can show an array over these axes.
+export function fits(plot: PlotView, axes: AxisView[]): boolean {
+  const drawn = isPicture(axes) ? 3 : Math.min(axes.length, 2);
+  return plot.axes === drawn && (!plot.periodic || axes.every((axis) => axis.periodic));
+}
+
+export function isOwn(kind: PlotKind): kind is OwnPlot {
+  return Object.hasOwn(PLOT_TITLES, kind);
+}
+
+export function titleOf(kind: PlotKind, packaged: PlotView[]): string {
+  return isOwn(kind) ? PLOT_TITLES[kind] : (packaged.find((plot) => plot.name === kind)?.title ?? kind);
 }
 
 export function isPicture(axes: AxisView[]): boolean {

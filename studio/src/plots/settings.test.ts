@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 import { readParams, readSettings } from "./settings";
 
 it("what a document holds is read with care", () => {
-  expect(readParams({ element: 3, kind: "toString", port: null, settings: [1] })).toEqual({
+  expect(readParams({ element: 3, kind: 7, port: null, settings: [1] })).toEqual({
     element: "",
     kind: null,
     port: "",

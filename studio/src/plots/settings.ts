@@ -3,7 +3,6 @@
 
 import { SCALES, type ScaleName } from "./colors";
 import type { PlotKind } from "./kinds";
-import { PLOT_TITLES } from "./kinds";
 import type { Range } from "./paint";
 
 export type TraceSetting = { element: string; port: string; reduce: "at" | "max" | "mean"; at: number[] };
@@ -36,7 +35,8 @@ export function readParams(params: Record<string, unknown>): PlotParams {
   const { element, kind, port, settings } = params;
   return {
     element: typeof element === "string" ? element : "",
-    kind: typeof kind === "string" && Object.hasOwn(PLOT_TITLES, kind) ? (kind as PlotKind) : null,
+    // The panel shows a kind that it does not know, or whose package is missing, as the first that fits.
+    kind: typeof kind === "string" ? kind : null,
     port: typeof port === "string" ? port : "",
     settings: isRecord(settings) ? settings : {},
   };

@@ -1,0 +1,97 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { button, choose, colours, drawn, reopen } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+const PACKAGE = join(import.meta.dirname, "..", "..", "examples", "package");
+
+/** A plot that draws nothing, and says why. */
+const FAILING = 'export function draw() { throw new RangeError("no radius"); }';
+const ABOUT = 'TITLE = "Failing plot"\nFILE = "failing.js"\nAXES = 1\n';
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  // The server finds packages in its working folder, which is on Python's path: the one of the repository,
+  // installed by its pyproject.toml, and one whose plot fails.
+  const project = readFileSync(join(PACKAGE, "pyproject.toml"), "utf8");
+  const entries = project
+    .slice(project.indexOf("[project.entry-points"))
+    .replace(/\[project\.entry-points\."(.+)"\]/g, "[$1]")
+    .replaceAll('"', "");
+  studio = await startStudio({
+    copies: ["examples/motor_attractor.json", "examples/package/deodar_change"],
+    files: { "failing.py": ABOUT, "failing.js": FAILING },
+    folders: {
+      "deodar_change-0.1.0.dist-info": infoOf("deodar-change", entries),
+      "failing-0.1.0.dist-info": infoOf("failing", "[deodar.plots]\nfailing = failing\n"),
+    },
+    file: "motor_attractor.json",
+    expected: [/RangeError: no radius/],
+  });
+  observer = await studio.observe();
+});
+
+beforeEach(() => reopen(studio.page, observer, "motor_attractor.json"));
+
+afterAll(() => studio.stop());
+
+function infoOf(name: string, entries: string): Record<string, string> {
+  return {
+    METADATA: `Metadata-Version: 2.1\nName: ${name}\nVersion: 0.1.0\n`,
+    "entry_points.txt": entries,
+  };
+}
+
+async function step(n: number): Promise<void> {
+  await observer.ask({ type: "step", n });
+  await observer.until(() => observer.clock?.tick === n);
+}
+
+test("a plot of a package is shown, follows the values and the size, and is exported", async () => {
+  const { page } = studio;
+  await choose(page, "Menu of this plot", "Polar plot");
+  const plot = page.getByRole("region", { name: "Polar plot of target", exact: true });
+  const drawing = plot.getByRole("img", { name: "Polar plot of activation of target", exact: true });
+  await step(100);
+  await plot.getByText("Press play to see values").waitFor({ state: "detached" });
+  await expect.poll(() => colours(drawing)).toBeGreaterThan(5);
+  const before = await drawn(drawing);
+  await observer.ask({ type: "step", n: 300 });
+  await observer.until(() => observer.clock?.tick === 400);
+  await expect.poll(() => drawn(drawing)).not.toBe(before);
+  await shot(page, "plot-packaged");
+
+  const coming = page.waitForEvent("download");
+  await choose(page, "Menu of this plot", "Export PNG");
+  expect((await coming).suggestedFilename()).toBe("target_activation.png");
+
+  const width = await drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width);
+  await page.setViewportSize({ width: 1100, height: 700 });
+  await expect
+    .poll(() => drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width))
+    .toBeLessThan(width);
+  await expect.poll(() => colours(drawing)).toBeGreaterThan(5);
+  await page.setViewportSize({ width: 1280, height: 800 });
+});
+
+test("a plot that raises an exception says so with its package, and the page works on", async () => {
+  const { page } = studio;
+  await choose(page, "Menu of this plot", "Failing plot");
+  const plot = page.getByRole("region", { name: "Failing plot of target", exact: true });
+  await step(10);
+  await plot
+    .getByText('The plot "Failing plot" of the package failing 0.1.0 failed: RangeError: no radius')
+    .waitFor();
+  await choose(page, "Menu of this plot", "Curves");
+  const curves = page.getByRole("region", { name: "Curves of target", exact: true });
+  await expect.poll(() => colours(curves.locator("canvas").first())).toBeGreaterThan(5);
+  await button(page, "Play").click();
+  await observer.until(() => (observer.clock?.tick ?? 0) > 10);
+  await button(page, "Pause").click();
+});
