@@ -6,10 +6,9 @@
     python tools/mutate.py show                      print the share that is killed, and every survivor
 
 A place is drawn from all comparisons, arithmetic, constants, conditions, returned values, statements and
-calls below `src`. A mutant is killed when a test that calls its function fails. One that takes too long
-survives, and so does one that no test covers. Rows are written one by one, so a run that was stopped
-continues. Mutants that no test can distinguish from the package are listed with the reason in
-evidence/equivalent_mutants.csv and are not counted.
+calls below `src`. A mutant is killed when a test that covers it fails. One that takes too long survives. Rows
+are written one by one, so a run that was stopped continues. Mutants that no test can distinguish from the
+package are listed with the reason in evidence/equivalent_mutants.csv and are not counted.
 
 `map` runs the tests in one process and adds to the map of a commit, which can so be filled folder by folder.
 """
@@ -32,7 +31,7 @@ import tarfile
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import CodeType, FrameType
 
@@ -264,8 +263,11 @@ def calls(file: Path) -> Calls:
 
 
 def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
-    """Tests that call the function of a mutant, the quickest first; outside of functions, those that call any
-    function of its file.
+    """Tests that call the function of a mutant: those of its module's own test file first, then the quickest.
+
+    Outside of functions, and where no test was seen to call the function (it is called at import, or in a
+    process that a test starts), these are the tests that call any function of its file; without such tests
+    the quickest of all, which at least imports the package.
     """
     around = [
         node
@@ -273,15 +275,16 @@ def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
         and node.body[0].lineno <= mutant.line <= (node.end_lineno or 0)
     ]
+    own = f"/test_{Path(mutant.file).stem}.py::"
+    order = sorted(found, key=lambda test: (own not in test, found[test][0], test))
+    tests: list[str] = []
     if around:
         inner = max(around, key=lambda node: node.lineno)
         first = min([inner.lineno, *(d.lineno for d in inner.decorator_list)])
-        wanted = {f"{mutant.file}:{first}"}
-        fits: Callable[[set[str]], bool] = wanted.__le__
-    else:
-        fits = lambda called: any(c.startswith(mutant.file + ":") for c in called)  # noqa: E731
-    tests = [(seconds, test) for test, (seconds, called) in found.items() if fits(called)]
-    return [test for _, test in sorted(tests)]
+        tests = [test for test in order if f"{mutant.file}:{first}" in found[test][1]]
+    if not tests:
+        tests = [test for test in order if any(c.startswith(f"{mutant.file}:") for c in found[test][1])]
+    return tests or [test for test in order if own not in test][:1]
 
 
 # One mutant after another.
@@ -289,7 +292,7 @@ def covering(mutant: Mutant, text: str, found: Calls) -> list[str]:
 
 @dc.dataclass(frozen=True)
 class Row:
-    """What became of a mutant: killed, survived, timed out or not covered."""
+    """What became of a mutant: killed, survived or timed out."""
 
     commit: str
     place: str
@@ -317,14 +320,12 @@ def judge(root: Path, mutant: Mutant, found: Calls, commit: str) -> Row:
     text = path.read_text(encoding="utf-8")
     tests = covering(mutant, text, found)[:TESTS]
     began = time.monotonic()
-    outcome, test = "not covered", ""
-    if tests:
-        allowed = PATIENCE[0] * sum(found[t][0] for t in tests) + PATIENCE[1]
-        path.write_text(mutant.applied(text), encoding="utf-8")
-        try:
-            outcome, test = run(root, tests, allowed)
-        finally:
-            path.write_text(text, encoding="utf-8")
+    allowed = PATIENCE[0] * sum(found[t][0] for t in tests) + PATIENCE[1]
+    path.write_text(mutant.applied(text), encoding="utf-8")
+    try:
+        outcome, test = run(root, tests, allowed)
+    finally:
+        path.write_text(text, encoding="utf-8")
     if mutant.file.startswith("src/deodar/compiler/"):  # it may have kept wrong programs
         shutil.rmtree(root / ".pytest_cache", ignore_errors=True)
     seconds = round(time.monotonic() - began, 1)

@@ -86,14 +86,31 @@ def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
     assert [(r.place, r.outcome, r.test) for r in rows] == [
         ("src/toy.py:2:12", "killed", "test_toy.py::test_total"),
         ("src/toy.py:5:12", "survived", ""),
-        ("src/toy.py:8:12", "not covered", ""),
+        ("src/toy.py:8:12", "survived", ""),
     ]
     assert (tmp_path / "src" / "toy.py").read_text() == text
     mutate.write(tmp_path / "rows.csv", rows)
     assert mutate.read(tmp_path / "rows.csv") == rows
     assert mutate.report(rows, {rows[1].key: "the test is about 20 alone"}) == [
         "1 of 2 mutants killed (50.0 %); 1 are equivalent",
-        " not covered  src/toy.py:8:12  arithmetic: a * 2  ->  (a / 2)",
+        "    survived  src/toy.py:8:12  arithmetic: a * 2  ->  (a / 2)",
+    ]
+
+
+def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None:
+    text = "def total(a, b):\n    return a + b\n\nSTART = 1 + 1\n\ndef late(a):\n    return a + 1\n"
+    sums = [m for m in mutate.mutants("src/toy.py", text) if m.kind == "arithmetic"]
+    found = {
+        "tests/test_other.py::quick": (0.1, {"src/other.py:1"}),
+        "tests/test_both.py::slow": (3.0, {"src/toy.py:1"}),
+        "tests/test_both.py::quicker": (1.0, {"src/toy.py:1"}),
+        "tests/test_toy.py::own": (5.0, {"src/toy.py:1"}),
+    }
+    called = ["tests/test_toy.py::own", "tests/test_both.py::quicker", "tests/test_both.py::slow"]
+    # within a function, outside of functions, and in a function that no test was seen to call
+    assert [mutate.covering(m, text, found) for m in sums] == [called, called, called]
+    assert mutate.covering(sums[0], text, {"tests/test_other.py::quick": (0.1, {"src/other.py:1"})}) == [
+        "tests/test_other.py::quick"
     ]
 
 
