@@ -289,3 +289,9 @@ def test_the_command_prints_the_interval_and_discretisation_error_of_every_thres
     )
     low, high = answer["intervals"]["forgetting"]
     assert low < answer["forgetting_boost"] < high and answer["discretisation_not_measured"] is None
+
+
+def test_the_step_of_an_isolated_field_is_the_one_that_is_given() -> None:
+    field = lateral(12, 0, 0.6)
+    assert isolate(field, dt=0.25).session.dt == 0.25
+    assert isolate(field).session.dt == pytest.approx(min(max(1.0, field.tau / 100), field.tau / 10))

@@ -40,7 +40,8 @@ def test_a_start_without_clearance_begins_at_the_nearest_free_cell():
     np.testing.assert_allclose(path[0], (4, 10))
 
 
-@pytest.mark.parametrize("seed", range(6))
+# in the last three arenas an estimate above the true length would give a longer path
+@pytest.mark.parametrize("seed", [*range(6), 14, 19, 22])
 def test_it_is_as_short_as_dijkstras(seed):
     draw = np.random.default_rng(seed)
     low = draw.uniform(0, (28, 18), (9, 2))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from deodar.cli import main
+from deodar.compiler import device
 
 
 def test_it_prints_versions_device_and_folder(
@@ -49,3 +50,15 @@ def test_a_missing_package_is_printed_with_the_line_to_type(
         and "pip install 'deodar[docs]'" in page
         and "DEODAR_CACHE=off" in page
     )
+
+
+@pytest.mark.parametrize(("more", "advice"), [([], device.INSTALL), (["gpu:0"], "Choose one with --device")])
+def test_the_line_of_devices_says_how_to_choose_or_to_install_one(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, more: list[str], advice: str
+) -> None:
+    names, cpu = ["cpu:0", *more], device.find()
+    monkeypatch.setattr(device, "names", lambda: names)
+    monkeypatch.setattr(device, "find", lambda name=None: cpu)
+    main(["doctor"])
+    (line,) = [x for x in capsys.readouterr().out.splitlines() if x.startswith("devices")]
+    assert line.endswith(advice)

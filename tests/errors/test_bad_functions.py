@@ -93,6 +93,18 @@ def test_a_trusted_model_does_not_lend_its_trust(stranger: Path) -> None:
     assert not stranger.exists()
 
 
+def test_a_model_is_trusted_again_after_what_was_inserted_is_undone(stranger: Path) -> None:
+    own = dd.Model("own")
+    own.insert(dd.load(stranger.with_name("strange.json")), "theirs")
+    assert not own.trusted
+    own.undo()
+    assert own.trusted
+    for name in ("u", "v"):
+        own.add(dd.Field(name, []))
+        assert own.trusted
+    dd.simulate(own, 5, record="u")
+
+
 def raises(state: Any, inputs: Any, time: Any) -> Any:
     raise RuntimeError("no luck today\nand a second line")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import itertools
 import json
 from pathlib import Path
@@ -69,6 +70,21 @@ def test_claims_follow_from_the_record() -> None:
     assert "never planned" in narrative.sentence(narrative.read(record(pose, intention * 0), maze("z")))
 
 
+@pytest.mark.parametrize(
+    ("published", "second"), [(True, "another plan: never"), (False, "at the goal: never")]
+)
+def test_the_figure_names_its_moments_and_says_which_never_came(published: bool, second: str) -> None:
+    start = (-45.0, 55.0)
+    pose = np.concatenate([way(start, start, each=110), way(start, (-48.0, 60.0), each=100)])
+    intention = (np.arange(len(pose)) >= 105).astype(float)
+    found = dc.replace(narrative.read(record(pose, intention), maze("z")), published=published)
+    drawn = found.figure()
+    titles = [place.get_suptitle() for half in drawn.subfigs for place in half.subfigs]
+    assert [title for title in titles if title] == ["plan complete, step 210", second]
+    grey = [patch for patch in drawn.subfigs[0].subfigs[0].axes[0].patches if patch.get_width() > 0]
+    assert len(grey) == len(found.arena.layout.things), "the walls are drawn"
+
+
 def test_the_command_writes_the_printed_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -90,6 +106,9 @@ def test_the_command_writes_the_printed_files(
     assert "never at the goal" in said.splitlines()[-1]
     with Image.open(out / "spa.gif") as film:
         assert film.n_frames == 31 and film.size == (400, 400)
+        frame = np.asarray(film.convert("RGB"))
+    # the walls around the arena reach the edges of the picture
+    assert all(len(np.unique(edge, axis=0)) == 1 for edge in (frame[:, 0], frame[:, -1], frame[-1]))
     with Image.open(out / "spa.png") as picture:
         assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100
     assert (out / "spa.zarr").is_dir()

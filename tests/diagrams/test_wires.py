@@ -1,0 +1,42 @@
+"""Connections of a diagram: they begin and end where their segments do, with the mark at the target."""
+
+from __future__ import annotations
+
+import pytest
+
+from deodar.diagrams import paint, wires
+from deodar.diagrams.layout import Segment
+from deodar.diagrams.scene import Drawing, SceneItem, Shape, TextLine
+from deodar.numerics.signs import Sign
+
+RUNS = [Segment(0, 40, 5), Segment(60, 100, 25)]
+
+
+def ends(shape: Shape) -> list[tuple[float, float]]:
+    """The first and the last point of a path."""
+    moves = [move for move in shape.path if move[1:]]
+    return [(float(move[-2]), float(move[-1])) for move in (moves[0], moves[-1])]
+
+
+@pytest.mark.parametrize("sign", ["+", "-", "±"])
+def test_a_connection_runs_from_its_source_to_the_mark_at_its_target(sign: Sign) -> None:
+    line, *mark = wires.path(RUNS, False, sign)
+    (start, end), reach = ends(line), max(float(m[-2]) for shape in mark for m in shape.path if m[1:])
+    assert start == (0, 5) and end[1] == 25
+    assert reach == pytest.approx(100, abs=0.1) and 85 < end[0] < 100
+
+
+def test_backwards_it_runs_the_other_way() -> None:
+    line, mark = wires.path(RUNS, True, "+")
+    (start, end), reach = ends(line), min(float(m[-2]) for m in mark.path if m[1:])
+    assert start == (100, 25) and end[1] == 5
+    assert reach == pytest.approx(0, abs=0.1) and 0 < end[0] < 15
+
+
+def test_the_margin_moves_text_and_shapes_alike() -> None:
+    content = [TextLine("u", 3, 4, 10), Shape((("M", 3, 4), ("L", 5, 6)))]
+    framed = paint._framed(Drawing(20, 10, "", [SceneItem("box", "", content)]))
+    text, shape = framed.parts[0].content
+    assert isinstance(text, TextLine) and isinstance(shape, Shape)
+    assert (text.x, text.y) == shape.path[0][1:] == (3 + paint.MARGIN, 4 + paint.MARGIN)
+    assert (framed.width, framed.height) == (20 + 2 * paint.MARGIN, 10 + 2 * paint.MARGIN)
