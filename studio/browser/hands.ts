@@ -78,10 +78,25 @@ export async function beside(
 /** Choose from the menu of files. */
 export const file = (page: Page, item: string | RegExp): Promise<void> => choose(page, "File menu", item);
 
+/**
+ * A measure of the layout, once two of them agree: the inspector grows above its sliders while equations and
+ * their fonts are loaded.
+ */
+async function settled<T>(page: Page, measure: () => Promise<T>): Promise<T> {
+  let before: T;
+  let now = await measure();
+  do {
+    before = now;
+    await page.waitForTimeout(200);
+    now = await measure();
+  } while (JSON.stringify(before) !== JSON.stringify(now));
+  return now;
+}
+
 /** Move the hand to a slider's place, a share of its length, and let go. */
 export async function drag(page: Page, thumb: Locator, share: number): Promise<void> {
   const track = thumb.locator("xpath=ancestor::*[contains(@class, 'Slider-trackContainer')]");
-  const [from, along] = [await thumb.boundingBox(), await track.boundingBox()];
+  const [from, along] = await settled(page, () => Promise.all([thumb.boundingBox(), track.boundingBox()]));
   if (from === null || along === null) throw new Error("The slider is not visible.");
   await page.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
   await page.mouse.down();

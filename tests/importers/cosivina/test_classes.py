@@ -511,4 +511,5 @@ def test_every_class_of_cosivina_is_translated_or_says_what_is_missing(tmp_path)
     # no peak on one sample; learning needs two inputs
     assert lost == given | {"ScalarToGaussian", "HebbianConnection"}
     assert [done.model[f"a {kind}"].element.amplitude for kind in ("BoostStimulus", "TimedBoost")] == [0, 0]
+    assert done.model["a Sigmoid"].element.sigmoid == dd.Logistic(beta=1, threshold=0)
     dd.simulate(done.model, 3, every=3)

@@ -158,3 +158,13 @@ def test_a_disc_touches_what_is_closer_than_rounding(gap: float, touches: bool) 
     end, touched = mover(False)(start, steps, wall, np.ones(1, bool))
     assert bool(touched[0, 0]) is touches
     np.testing.assert_allclose(end[0, 0, 0], start[0, 0] + (0.0 if touches else 1e-4), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("step", "share"), [((0.0, 1.0), contact.NOT_HIT), ((1.0, 0.0), contact.NOT_HIT), ((-1.0, 0.0), 0.0)]
+)
+def test_a_point_on_a_disc_enters_it_inwards_and_neither_along_it_nor_outwards(
+    step: tuple[float, float], share: float
+) -> None:
+    found = contact._into_disc(np.array([1.0, 0.0]), np.array(step), np.zeros((1, 2)), 1.0)
+    np.testing.assert_array_equal(found, np.float32([share]))
