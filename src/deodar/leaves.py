@@ -181,6 +181,11 @@ def per_axis(value: PerAxis, axes: Sized) -> tuple[float, ...]:
     return tuple(value) if isinstance(value, Sequence) else (value,) * len(axes)
 
 
+def on_axis(value: PerAxis, d: int) -> float:
+    """Return the value for axis number `d`, from one value for all axes or one for each."""
+    return value[d] if isinstance(value, Sequence) else value
+
+
 # -------------------------------------------------------------------------------------- one value by its path
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
+from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import BOUNDARIES
 from deodar.numerics.intervals import ANY, Interval
@@ -88,9 +89,7 @@ class Kernel(Part):
                 or (isinstance(value, tuple) and len(value) != len(axes))
             ):
                 continue
-            for axis, v in zip(
-                axes, value if isinstance(value, tuple) else (value,) * len(axes), strict=True
-            ):
+            for axis, v in zip(axes, per_axis(value, axes), strict=True):
                 if abs(v) > WIDEST * axis.range:
                     yield (
                         f"{p.name} is {v:g}, more than {WIDEST:g} times the axis {axis.name!r}"

@@ -10,7 +10,7 @@ from typing import Annotated
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.leaves import per_axis
+from deodar.leaves import on_axis, per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
@@ -59,7 +59,7 @@ class Box(Kernel):
 
     def terms(self) -> Sequence[Term]:
         def along(d: int, lag: Array, period: float | None, step: float) -> Array:
-            w = self.width[d] if isinstance(self.width, Sequence) else self.width
+            w = on_axis(self.width, d)
             weight = _covered(lag, w, period, step)
             return weight / w if self.normalized else weight
 

@@ -10,7 +10,7 @@ from typing import Annotated
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.leaves import per_axis
+from deodar.leaves import on_axis, per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
@@ -70,7 +70,7 @@ def gaussian_term(amplitude: Scalar, sigma: PerAxis, normalized: bool) -> Term:
     """Return a Gaussian as one separable term."""
 
     def along(d: int, lag: Array, period: float | None, step: float) -> Array:
-        s = sigma[d] if isinstance(sigma, Sequence) else sigma
+        s = on_axis(sigma, d)
         weight = profile(lag, s, period)
         return weight / integral(s, step) if normalized else weight * unresolved(s, step)
 

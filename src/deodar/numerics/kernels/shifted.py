@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
+from deodar.leaves import on_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel, Term
@@ -50,8 +51,7 @@ class Shifted(Kernel):
 
     def _moved(self, term: Term) -> Callable[[int, Array, float | None, float], Array]:
         def along(d: int, lag: Array, period: float | None, step: float) -> Array:
-            by = self.shift[d] if isinstance(self.shift, Sequence) else self.shift
-            return term.along(d, lag - by, period, step)
+            return term.along(d, lag - on_axis(self.shift, d), period, step)
 
         return along
 

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from deodar.leaves import is_neutral, per_axis
+from deodar.leaves import is_neutral, on_axis, per_axis
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.kernels._base import Kernel, Term
@@ -74,8 +74,7 @@ class TruncatedGaussian(Kernel):
         return () if is_neutral(self.amplitude) else (Term(self.amplitude, self._along),)
 
     def _along(self, d: int, lag: Array, period: float | None, step: float) -> Array:
-        sigma = self.sigma[d] if isinstance(self.sigma, Sequence) else self.sigma
-        least = self.least[d] if isinstance(self.least, Sequence) else self.least
+        sigma, least = on_axis(self.sigma, d), on_axis(self.least, d)
         slack = ROUNDING if lag.dtype == jnp.float32 else 0.0
         reach = jnp.ceil(jnp.maximum(self.cutoff * sigma, least) / step - slack) + 0.5
 
