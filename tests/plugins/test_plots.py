@@ -57,7 +57,7 @@ def test_the_page_is_sent_the_plot_of_the_package_and_the_server_serves_its_modu
 
 @pytest.mark.usefixtures("example")
 def test_a_plot_is_not_imported_before_the_studio_starts() -> None:
-    assert [p.name for p in plots.packaged()] == ["polar"]
+    assert [p.name for p in plots.PLOTS.packaged()] == ["polar"]
     assert "deodar_change.polar" not in sys.modules
     assert [view.title for view in plots.views()] == ["Polar plot"]
     assert "deodar_change.polar" in sys.modules and "deodar_change.change" not in sys.modules
@@ -89,7 +89,9 @@ def test_what_is_no_plot_is_a_line_of_doctor_and_the_page_is_not_sent_it(
 
 def test_an_object_that_is_no_module_is_no_plot(install: Install) -> None:
     install("odd", {"odd": "Plot = 3"}, {"deodar.plots": {"odd": "odd:Plot"}})
-    assert [plots.problem(p) for p in plots.packaged()] == ["names odd:Plot as 'odd', which is not a module"]
+    assert [plots.PLOTS.problem(p) for p in plots.PLOTS.packaged()] == [
+        "names odd:Plot as 'odd', which is not a module"
+    ]
 
 
 def test_a_plot_that_fits_is_sent_beside_a_broken_one(install: Install) -> None:

@@ -187,13 +187,13 @@ def _plugins() -> list[dict[str, str]]:
     from deodar.experiments.measures import MEASURES
     from deodar.figures import _panels
     from deodar.importers import opening
-    from deodar.server import plots
+    from deodar.server.plots import PLOTS
 
     registry.kinds()  # names in deodar
     listed = [(p, registry.take(p)) for p in registry.packaged()]
     listed += [(p, MEASURES.problem(p)) for p in MEASURES.packaged()]
     listed += [(p, _panels.KINDS.problem(p)) for p in _panels.KINDS.packaged()]
-    listed += [(p, plots.problem(p)) for p in plots.packaged()]
+    listed += [(p, PLOTS.problem(p)) for p in PLOTS.packaged()]
     listed += [(p, p.load()[1]) for p in (*opening.packaged(), *cli.packaged(), *papers.packaged())]
     return [
         {"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem}

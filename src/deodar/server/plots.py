@@ -19,7 +19,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
 
-from deodar import plugins
+from deodar.errors import UnknownName
+from deodar.extensions import Extensions
 from deodar.plugins import Plugin
 from deodar.server.to_page import PlotView
 
@@ -32,26 +33,18 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
 MOST_AXES = 3
 
 
-def packaged() -> list[Plugin]:
-    """Return the plots of installed packages, without importing them."""
-    return plugins.found("plots", OWN)
-
-
-def problem(plugin: Plugin) -> str:
-    """Import a plot and return its problem; "" without a problem."""
-    found, wrong = plugin.load()
-    return wrong or _problem(plugin, found)
-
-
 def views() -> list[PlotView]:
     """Return the description of every plot from a package; a plot with a problem is left out."""
-    return [_view(plugin, plugin.load()[0]) for plugin in packaged() if not problem(plugin)]
+    return [_view(plugin, plugin.load()[0]) for plugin in PLOTS.packaged() if not PLOTS.problem(plugin)]
 
 
 def file(name: str) -> Path | None:
-    """Return the ES module of a plot, or None if no usable plot has that name."""
-    found = next((p for p in packaged() if p.name == name and not problem(p)), None)
-    return None if found is None else _file(found.load()[0])
+    """Return the ES module of a plot, or None if no usable plot of a package has that name."""
+    try:
+        found = PLOTS[name]
+    except UnknownName:
+        return None
+    return None if found is None else _file(found)
 
 
 def _problem(plugin: Plugin, found: Any) -> str:
@@ -72,6 +65,10 @@ def _problem(plugin: Plugin, found: Any) -> str:
     if not isinstance(plot.FILE, str) or Path(plot.FILE).name != plot.FILE:
         return f"has the FILE {plot.FILE!r}, which is not the name of a file"
     return "" if _file(found) is not None else f"has the FILE {plot.FILE!r}, which is not in its folder"
+
+
+PLOTS: Extensions[ModuleType | None] = Extensions("plots", "plot", lambda: dict.fromkeys(OWN), _problem)
+"""The plots, including those of installed packages; None for a plot of deodar, which has no module."""
 
 
 def _file(found: ModuleType) -> Path | None:
