@@ -1,21 +1,10 @@
 import { defineConfig } from "vitest/config";
 
-/**
- * Programs of the studio compile several times as fast, and their steps take several times as long
- * (`QUICK_PROGRAMS` in tests/conftest.py).
- */
-const XLA_FLAGS = [
-  "--xla_cpu_use_fusion_emitters=false",
-  "--xla_backend_optimization_level=0",
-  "--xla_cpu_parallel_codegen_split_count=1",
-].join(" ");
-
 /** The page in a real browser before a running studio: one file at a time, because each starts both. */
 export default defineConfig({
   test: {
     include: ["browser/**/*.test.ts"],
     globalSetup: "browser/ready.ts",
-    env: { XLA_FLAGS },
     fileParallelism: false,
     testTimeout: 120_000,
     hookTimeout: 120_000,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -48,11 +47,6 @@ def test_programs_are_compiled_quickly_unless_the_default_is_asked_for(
     default = request.config.getoption("--default-programs")
     given = set(os.environ.get("XLA_FLAGS", "").split())
     assert given.isdisjoint(conftest.QUICK_PROGRAMS) if default else given.issuperset(conftest.QUICK_PROGRAMS)
-
-
-def test_browser_tests_run_the_same_quick_programs() -> None:
-    config = Path(conftest.__file__).parents[1] / "studio" / "vitest.browser.ts"
-    assert tuple(re.findall(r'"(--xla\S+)"', config.read_text(encoding="utf-8"))) == conftest.QUICK_PROGRAMS
 
 
 def test_what_judges_bits_exists() -> None:
