@@ -41,7 +41,7 @@ _SINE = (6.2831853, -41.341675, 81.60523, -76.70, 42.0)
 
 def threefry(x0: Array, x1: Array, k0: Array, k1: Array) -> tuple[Array, Array]:
     """Threefry-2x32 with 20 rounds: two uint32 counters and two uint32 key words to two uint32."""
-    # primitives, not operators: tracing an operator takes ten times as long, and there are a hundred here
+    # primitives, not operators: each operator would be traced as a nested function, and there are a hundred
     x0, x1, k0, k1 = jnp.broadcast_arrays(*(jnp.asarray(word, jnp.uint32) for word in (x0, x1, k0, k1)))
     keys = (k0, k1, lax.bitwise_xor(lax.bitwise_xor(k0, k1), lax.full_like(k0, _PARITY)))
     x0, x1 = lax.add(x0, keys[0]), lax.add(x1, keys[1])
