@@ -29,7 +29,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--untuned",
         action="store_true",
         default=None,
-        help="twelve photographs on which no parameter was found",
+        help="twelve photographs that were not used to choose parameters",
     )
     source.add_argument(
         "--video", type=Path, metavar="FILE", help="a video of your own, from its beginning (extra vision)"
@@ -38,7 +38,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--camera",
         type=int,
         metavar="N",
-        help="what a camera sees now, 0 for the first (extra vision)",
+        help="the present image of a camera, 0 for the first camera (extra vision)",
     )
     group.add_argument(
         "--cue",

@@ -16,18 +16,20 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--maze",
         metavar="FILE",
-        help="spa: a maze of your own, as FILE or FILE#NAME, or large; nothing comes on the way",
+        help="spa: a maze of your own, as FILE or FILE#NAME, or large; no obstacle appears",
     )
     group.add_argument(
         "--start",
         type=float,
         nargs="+",
         metavar="CM",
-        help="spa: where the robot starts: x, y and, if wanted, its heading in rad",
+        help="spa: x, y and optionally the heading (rad) at which the robot starts",
     )
     group.add_argument("--goal", type=float, nargs=2, metavar="CM", help="spa: x and y of the goal")
     group.add_argument(
-        "--noise", choices=("none", "low", "high"), help="spa: of its map and place sense (default low)"
+        "--noise",
+        choices=("none", "low", "high"),
+        help="spa: noise of its map and of its sensed position (default low)",
     )
 
 
