@@ -10,7 +10,7 @@ from deodar.analysis.claims import Claim, failed, results
 from deodar.errors import AnalysisError
 
 
-def test_results_hold_all_that_a_claim_says():
+def test_results_contain_every_entry_of_a_claim():
     claim = Claim(
         "a",
         0.5,
@@ -42,7 +42,7 @@ def test_results_hold_all_that_a_claim_says():
     ]
 
 
-def test_an_origin_is_stated():
+def test_a_claim_without_an_origin_is_refused():
     with pytest.raises(TypeError, match="origin"):
         Claim("a", 1, 1, True)  # pyright: ignore[reportCallIssue]
 

@@ -23,7 +23,7 @@ def test_a_path_ends_where_it_enters_the_disc():
     assert paths.path_length(cut) == pytest.approx(5.5)
 
 
-def test_a_path_that_never_enters_has_no_end_and_one_that_begins_inside_no_length():
+def test_a_path_outside_of_the_disc_has_no_end_and_one_that_starts_inside_no_divergence():
     assert paths.path_until(SQUARE, (10, 10), 1.0) is None
     assert len(paths.path_until(SQUARE, (0, 0), 1.0)) == 1
     assert paths.path_divergence(SQUARE, SQUARE, (10, 10), 1.0) is None
@@ -35,17 +35,17 @@ def test_both_lengths_end_at_the_same_radius():
     assert paths.path_divergence(SQUARE, [(0, 0), (3, 4)], (3, 4), 1.0) == pytest.approx(6 / 4)
 
 
-def test_a_path_that_passes_through_the_disc_in_one_piece_is_not_seen_to_enter():
+def test_a_segment_that_crosses_the_disc_without_a_point_inside_does_not_enter_it():
     assert paths.path_until([(-5, 0), (5, 0)], (0, 0), 1.0) is None
 
 
-def test_clearance_is_the_distance_to_the_nearest_thing():
+def test_clearance_is_the_distance_to_the_nearest_obstacle():
     boxes, border = [(2, 2, 4, 4)], (0, 0, 10, 10)
     got = paths.clearance([(1, 3), (7, 8), (3, 3), (12, 5), (5, 5)], boxes, border)
     np.testing.assert_allclose(got, [1, 2, 0, 0, np.sqrt(2)])
 
 
-def test_speeds_are_ways_over_times():
+def test_speeds_are_distances_over_durations():
     np.testing.assert_allclose(paths.speeds([(0, 0), (1, 0), (3, 0)], [0, 2, 4]), [0.5, 1.0])
     np.testing.assert_allclose(paths.speeds([(0, 0), (1, 0), (3, 0)], [0, 2, 4], over=2), [0.75])
 

@@ -22,7 +22,7 @@ def bump(
 
 
 @pytest.mark.parametrize("center", [30.0, 30.3, 47.77, 62.5])
-def test_place_and_width_between_samples(center: float) -> None:
+def test_position_and_width_are_interpolated_between_samples(center: float) -> None:
     (found,) = peaks(bump(x, center), [x])
     assert found.position[0] == pytest.approx(center, abs=0.05)
     assert found.width[0] == pytest.approx(2 * 6.0 * np.sqrt(2 * np.log(4.0)), abs=0.1)
@@ -30,7 +30,7 @@ def test_place_and_width_between_samples(center: float) -> None:
 
 
 @pytest.mark.parametrize("center", [0.0, 2.4, 357.9, 359.99, 180.0])
-def test_a_peak_over_the_seam_of_a_ring_is_one(center: float) -> None:
+def test_a_peak_across_the_ends_of_a_periodic_axis_is_one_peak(center: float) -> None:
     found = peaks(bump(ring, center, sigma=20), [ring])
     assert len(found) == 1
     off = (found[0].position[0] - center + 180) % 360 - 180
@@ -38,18 +38,18 @@ def test_a_peak_over_the_seam_of_a_ring_is_one(center: float) -> None:
     assert found[0].width[0] == pytest.approx(2 * 20 * np.sqrt(2 * np.log(4.0)), abs=1.0)
 
 
-def test_on_a_line_the_ends_do_not_meet() -> None:
+def test_activation_at_both_ends_of_a_line_is_two_peaks() -> None:
     assert len(peaks(np.maximum(bump(x, 0), bump(x, 100)), [x])) == 2
 
 
-def test_several_are_sorted_by_height_and_thresholds_move() -> None:
+def test_peaks_are_sorted_by_height_and_counted_above_the_threshold() -> None:
     u = np.maximum(bump(x, 20, height=2.0), bump(x, 70, height=3.0))
     found = peaks(u, [x])
     assert [round(p.position[0]) for p in found] == [70, 20]
     assert len(peaks(u, [x], threshold=2.5)) == 1 and len(peaks(u, [x], threshold=3.5)) == 0
 
 
-def test_two_dimensions_and_both_seams() -> None:
+def test_a_peak_across_the_ends_of_two_periodic_axes_is_one_peak() -> None:
     a, b = dd.Axis("a", 0, 10, samples=40, periodic=True), dd.Axis("b", 0, 10, samples=40, periodic=True)
     u = -1 + 4 * np.multiply.outer(bump(a, 0.1, 1.0, 1, 0), bump(b, 9.8, 1.0, 1, 0))
     (found,) = peaks(u, [a, b])
@@ -57,11 +57,11 @@ def test_two_dimensions_and_both_seams() -> None:
     assert found.size == pytest.approx(np.pi * 2 * np.log(4.0), rel=0.1)
 
 
-def test_a_node() -> None:
+def test_a_node_above_the_threshold_is_one_peak() -> None:
     assert len(peaks(np.array(0.5), [])) == 1 and len(peaks(np.array(-0.5), [])) == 0
 
 
-def test_a_variable_of_a_record_says_its_own_axes() -> None:
+def test_the_axes_of_a_recorded_variable_are_taken_from_the_record() -> None:
     model = dd.Model("record")
     model.add(dd.Field("u", [ring], resting_level=-2)) and None
     model.add(dd.GaussianStimulus("s", [ring], center=355, sigma=20, amplitude=6)) >> model["u"]
@@ -72,7 +72,7 @@ def test_a_variable_of_a_record_says_its_own_axes() -> None:
     assert "<table>" in peaks(data["u.activation"].isel(time=-1))._repr_html_()
 
 
-def test_what_does_not_fit_is_refused() -> None:
+def test_activation_of_another_shape_or_with_nan_is_refused() -> None:
     with pytest.raises(dd.errors.AnalysisError, match="shape"):
         peaks(np.zeros(5), [x])
     with pytest.raises(dd.errors.AnalysisError, match="finite"):
@@ -89,7 +89,7 @@ def test_each_of_two_peaks_has_a_width_of_its_own(axis: dd.Axis) -> None:
     assert [p.size for p in found] == pytest.approx([p.width[0] for p in found])
 
 
-def test_a_cut_ends_where_its_region_does() -> None:
+def test_the_width_is_measured_within_the_region_of_the_peak() -> None:
     u = -np.ones((5, 7))
     u[0, 1:6], u[0:4, 1], u[0:4, 5] = 1, 1, 1  # a bow: the row of its highest sample meets both legs
     u[2, 1] = 2
@@ -100,7 +100,7 @@ def test_a_cut_ends_where_its_region_does() -> None:
 
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("flipped", [False, True])
-def test_a_peak_that_touches_two_regions_across_the_seam_joins_them(turned: bool, flipped: bool) -> None:
+def test_a_region_that_touches_two_others_across_the_ends_joins_them(turned: bool, flipped: bool) -> None:
     u = -np.ones((6, 9))
     u[0, 1:8], u[-1, 1:3], u[-1, 6:8] = 1, 1, 1
     axes = [dd.Axis("a", 0, 6, samples=6, periodic=True), dd.Axis("b", 0, 8, samples=9)]

@@ -32,7 +32,7 @@ def lateral(excitation: float, inhibition: float, everywhere: float = 0.0, **mor
     return dd.Field("u", [x], **({"tau": 10, "kernel": kernel, "global_inhibition": everywhere} | more))  # type: ignore[arg-type]
 
 
-def test_input_driven_and_selective() -> None:
+def test_a_field_with_weak_excitation_is_input_driven_and_selective() -> None:
     found = regimes(lateral(12, 0, 0.6))
     assert (
         not found.self_sustained
@@ -53,7 +53,7 @@ def test_local_interaction_keeps_two_peaks() -> None:
     assert found.selection is not None and not found.selection.selects and len(found.selection.equal) == 2
 
 
-def test_working_memory_and_what_erases_it() -> None:
+def test_a_working_memory_is_erased_by_inhibition() -> None:
     found = regimes(lateral(18, 6, 0.1))
     assert found.self_sustained and found.memory is not None and len(found.memory.left) == 1
     assert found.forgetting is not None and found.forgetting < 0
@@ -80,7 +80,7 @@ def test_a_boost_makes_a_peak_at_the_position_of_a_subthreshold_input() -> None:
     assert all(b.preshape + b.boost == pytest.approx(found.detection, rel=0.05) for b in found.boosts)  # type: ignore[operator]
 
 
-def test_the_distance_from_which_on_two_peaks_stay() -> None:
+def test_separation_is_the_smallest_distance_at_which_two_peaks_coexist() -> None:
     near, selective = regimes(lateral(11, 6)), regimes(lateral(12, 0, 0.6))
     assert near.separation is not None and 0.1 < near.separation < 0.5 and selective.separation is None
     one = isolate(lateral(11, 6))
@@ -116,7 +116,7 @@ def test_the_ramp_shows_the_hysteresis_between_the_thresholds() -> None:
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
-def test_more_dimensions(dimensions: int) -> None:
+def test_regimes_of_fields_over_several_axes_are_measured(dimensions: int) -> None:
     axes = [dd.Axis(name, 0, 20, samples=11) for name in "abc"[:dimensions]]
     kernel = [dd.Gaussian(16, 3, normalized=True)]
     found = regimes(
@@ -126,7 +126,7 @@ def test_more_dimensions(dimensions: int) -> None:
     assert np.allclose(found.peak.position, 10, atol=1)
 
 
-def test_a_node_against_an_independent_root_finder() -> None:
+def test_thresholds_of_a_node_agree_with_a_root_finder() -> None:
     node = dd.Field("n", [], tau=10, resting_level=-2, sigmoid=dd.Logistic(4), kernel=[dd.Gaussian(3.0)])
 
     def rate(u: float, s: float = 0.0) -> float:
@@ -153,7 +153,7 @@ def test_a_node_against_an_independent_root_finder() -> None:
     )
 
 
-def test_settling_says_whether_it_settled() -> None:
+def test_settle_returns_whether_the_field_has_settled() -> None:
     model = dd.Model("noisy")
     model.add(dd.Field("u", [x], noise=1.0))
     assert not settle(dd.Session(model), limit=5)
@@ -188,7 +188,7 @@ def test_the_command_prints_and_draws(here: Path, capsys: pytest.CaptureFixture[
 @pytest.mark.parametrize(
     ("element", "says"), [("v", "Did you mean"), ("s", "is not a Field"), ("u.activation", "element")]
 )
-def test_what_cannot_be_measured(
+def test_an_element_that_cannot_be_measured_is_an_error_and_writes_nothing(
     here: Path, element: str, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = sorted(here.iterdir())
@@ -231,7 +231,7 @@ def held(samples: int, quadrature: str) -> dd.Field:
     )
 
 
-def test_the_discretisation_error_is_the_move_on_a_grid_twice_as_fine_and_shrinks_with_cells() -> None:
+def test_the_discretisation_error_is_the_change_on_a_grid_twice_as_fine_and_smaller_with_cells() -> None:
     moved = {}
     for quadrature in ("point", "cell"):
         one = isolate(held(25, quadrature), sigma=5.0)
@@ -291,7 +291,7 @@ def test_the_command_prints_the_interval_and_discretisation_error_of_every_thres
     assert low < answer["forgetting_boost"] < high and answer["discretisation_not_measured"] is None
 
 
-def test_the_step_of_an_isolated_field_is_the_one_that_is_given() -> None:
+def test_an_isolated_field_has_the_step_of_the_argument() -> None:
     field = lateral(12, 0, 0.6)
     assert isolate(field, dt=0.25).session.dt == 0.25
     assert isolate(field).session.dt == pytest.approx(min(max(1.0, field.tau / 100), field.tau / 10))

@@ -14,14 +14,14 @@ from deodar.errors import AnalysisError
 BORDER = (0, 0, 30, 20)
 
 
-def test_an_empty_arena_is_crossed_straight():
+def test_the_shortest_path_in_an_empty_arena_is_straight():
     on = arena_grid([], BORDER, least=2.0)
     path = shortest_path(on, (5, 5), (15, 5))
     np.testing.assert_allclose(path, [(x, 5) for x in range(5, 16)])
     assert path_length(shortest_path(on, (5, 5), (15, 10))) == pytest.approx(5 + 5 * np.sqrt(2))
 
 
-def test_a_path_keeps_its_distance():
+def test_a_path_keeps_its_clearance():
     boxes = [(10, 0, 12, 14)]
     on = arena_grid(boxes, BORDER, least=3.0)
     path = shortest_path(on, (5, 5), (20, 5))
@@ -29,7 +29,7 @@ def test_a_path_keeps_its_distance():
     assert path[:, 1].max() == 17
 
 
-def test_no_way_is_none():
+def test_shortest_path_without_a_free_connection_is_none():
     assert shortest_path(arena_grid([(10, 0, 12, 20)], BORDER, least=1.0), (5, 5), (20, 5)) is None
     # the gap of 5 is too narrow
     assert shortest_path(arena_grid([(10, 0, 12, 15)], BORDER, least=3.0), (5, 5), (20, 5)) is None
@@ -42,7 +42,7 @@ def test_a_start_without_clearance_begins_at_the_nearest_free_cell():
 
 # in the last three arenas an estimate above the true length would give a longer path
 @pytest.mark.parametrize("seed", [*range(6), 14, 19, 22])
-def test_it_is_as_short_as_dijkstras(seed):
+def test_the_path_is_as_short_as_that_of_dijkstra(seed):
     draw = np.random.default_rng(seed)
     low = draw.uniform(0, (28, 18), (9, 2))
     boxes = np.concatenate([low, low + draw.uniform(0.5, 5, (9, 2))], axis=1)
@@ -62,7 +62,7 @@ def test_it_is_as_short_as_dijkstras(seed):
     assert (path is None) == (on.regions()[a] != on.regions()[b])
 
 
-def test_a_grid_that_cannot_be_is_refused():
+def test_a_grid_without_a_free_cell_is_refused():
     with pytest.raises(AnalysisError, match="do not fit"):
         arena_grid([], BORDER, cell=40.0)
     with pytest.raises(AnalysisError, match="no free cell"):

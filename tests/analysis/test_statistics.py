@@ -18,7 +18,7 @@ def test_wilson_is_the_published_interval():
     assert statistics.wilson(19, 20) == pytest.approx((other.low, other.high))
 
 
-def test_wilson_at_the_ends():
+def test_the_wilson_interval_is_correct_for_shares_of_0_and_1():
     assert statistics.wilson(0, 0) is None
     assert statistics.wilson(0, 10)[0] == 0.0 and statistics.wilson(10, 10)[1] == pytest.approx(1.0)
     with pytest.raises(AnalysisError):
@@ -40,7 +40,7 @@ def test_too_few_values_have_no_interval():
     assert statistics.ratio_interval([1.0] * 5, [1.0] * 9) is None
 
 
-def test_the_interval_of_a_ratio_holds_it():
+def test_the_interval_of_a_ratio_contains_the_ratio():
     draw = np.random.default_rng(2)
     low, high = statistics.ratio_interval(2 + 0.1 * draw.normal(size=60), 1 + 0.1 * draw.normal(size=60))
     assert low < 2.0 < high and high - low < 0.3
@@ -54,7 +54,7 @@ def test_anova_distinguishes_groups():
     assert statistics.anova([[1.0, 1.0], [1.0, 1.0]]) is None and statistics.anova([[1.0, 2.0]]) is None
 
 
-def test_what_few_runs_may_decide():
+def test_a_claim_is_decided_only_by_enough_runs():
     decided = statistics.decided
     assert decided(None, None, 0, 0, 1) is None
     assert decided(0.97, (0.9, 0.99), 100, 0.95, 1) is True
@@ -85,7 +85,7 @@ def test_equality_is_shown_by_two_one_sided_tests_and_not_by_a_large_p():
         )
 
 
-def test_an_inequality_can_fail_on_its_own_side():
+def test_an_inequality_fails_if_the_difference_is_too_small():
     larger, smaller = statistics.larger, statistics.smaller
     assert larger(0.3, (0.2, 0.4), 0.0, 0.1) is True
     assert larger(0.0, (-0.02, 0.02), 0.0, 0.1) is False  # an effect of 0.1 is excluded
@@ -105,7 +105,7 @@ def test_the_interval_of_a_difference_of_shares_is_the_published_one():
     assert statistics.share_difference((0, 0), (1, 2)) == (None, None)
 
 
-def test_pairs_narrow_the_interval_of_a_ratio():
+def test_paired_values_give_a_narrower_interval_of_a_ratio():
     draw = np.random.default_rng(2)
     base = draw.uniform(1.0, 2.0, 80)
     near = base * draw.normal(1.0, 0.01, 80)

@@ -64,7 +64,9 @@ def field(a: float, sigma: float, c: float, h: float, samples: int) -> dd.Field:
 
 @pytest.mark.parametrize("samples", [160, 320])
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
-def test_the_width_of_a_settled_peak(a: float, sigma: float, c: float, h: float, samples: int) -> None:
+def test_the_width_of_a_settled_peak_is_that_of_theory(
+    a: float, sigma: float, c: float, h: float, samples: int
+) -> None:
     _, stable = widths(a, sigma, c, h)
     one = isolate(field(a, sigma, c, h, samples), precision="float64")
     kept = outlives(one, 1.5 * abs(h))
@@ -74,7 +76,9 @@ def test_the_width_of_a_settled_peak(a: float, sigma: float, c: float, h: float,
 
 
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
-def test_the_width_that_separates_growth_from_decay(a: float, sigma: float, c: float, h: float) -> None:
+def test_the_width_between_growth_and_decay_is_that_of_theory(
+    a: float, sigma: float, c: float, h: float
+) -> None:
     samples = 640
     step = LENGTH / samples
     unstable, stable = widths(a, sigma, c, h)
@@ -97,7 +101,9 @@ def test_the_width_that_separates_growth_from_decay(a: float, sigma: float, c: f
 
 
 @pytest.mark.parametrize(("a", "sigma", "c", "h"), SETS)
-def test_the_level_below_which_no_peak_can_stay(a: float, sigma: float, c: float, h: float) -> None:
+def test_the_resting_level_below_which_peaks_vanish_is_that_of_theory(
+    a: float, sigma: float, c: float, h: float
+) -> None:
     """A step output on a grid sees the edge at its last sample, half a cell inside: an offset of w(0) step /
     2, which two grids remove.
     """
@@ -126,7 +132,7 @@ def test_localised_input_is_detected_where_it_reaches_the_threshold(
     assert found is not None and found.jump and found.value == pytest.approx(-h, rel=0.01)
 
 
-def test_a_smooth_output_settles_on_its_own_equation() -> None:
+def test_a_settled_field_satisfies_its_fixed_point_equation() -> None:
     """The pattern that is left satisfies u = h + w * g(u), recomputed with plain sums."""
     one = isolate(
         dc.replace(field(1.0, 5.0, 0.30, -2.0, 160), sigmoid=dd.Logistic(20.0)), precision="float64"

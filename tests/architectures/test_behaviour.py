@@ -39,7 +39,7 @@ def several(*names: str) -> dd.Model:
     return model
 
 
-def test_it_lasts_until_it_is_satisfied_and_remembers_that_until_its_task_ends() -> None:
+def test_an_intention_ends_when_satisfied_and_satisfaction_lasts_until_the_task_ends() -> None:
     model = several("a")
     tell(model, "a.task", ON, (100, 1000))
     tell(model, "a.satisfaction", SIGNAL, (600, 660))
@@ -50,14 +50,14 @@ def test_it_lasts_until_it_is_satisfied_and_remembers_that_until_its_task_ends()
 
 
 @pytest.mark.parametrize(("task", "signal"), [(True, False), (False, True)])
-def test_neither_the_task_nor_a_signal_alone_satisfies(task: bool, signal: bool) -> None:
+def test_satisfaction_requires_the_task_and_the_signal(task: bool, signal: bool) -> None:
     model = several("a")
     tell(model, "a.task", ON if task else 0.0, (100, 1200))
     tell(model, "a.satisfaction", SIGNAL if signal else 0.0, (300, 1200))
     assert not on(model, ["a.satisfaction"])["a.satisfaction"].any()
 
 
-def test_a_signal_while_another_is_intended_is_not_taken() -> None:
+def test_a_signal_without_an_active_intention_does_not_satisfy() -> None:
     """Task and signal without the intention, which is suppressed."""
     model = several("a")
     tell(model, "a.task", ON, (100, 1200))
@@ -86,7 +86,7 @@ def test_the_percept_must_match_the_intention() -> None:
         assert (states["reach.goal"][:, -1] != satisfied).all()
 
 
-def test_a_precondition_holds_back_without_a_moment_of_activity() -> None:
+def test_a_precondition_prevents_the_second_intention_until_the_first_is_satisfied() -> None:
     model = several("first", "then")
     node = precondition(model, "first", "then")
     for name in ("first", "then"):
@@ -97,7 +97,7 @@ def test_a_precondition_holds_back_without_a_moment_of_activity() -> None:
     assert states["then.intention"][:, 800:].all() and not states["first.intention"][:, 700:].any()
 
 
-def test_suppression_interrupts_and_lets_go_on() -> None:
+def test_suppression_interrupts_a_behaviour_which_then_continues() -> None:
     model = several("walk", "avoid")
     suppression(model, "avoid", "walk")
     tell(model, "walk.task", ON, (100, 1200))
@@ -107,7 +107,7 @@ def test_suppression_interrupts_and_lets_go_on() -> None:
     assert states["walk.intention"][:, 950:].all() and states["avoid.intention"][:, 600:800].all()
 
 
-def test_of_two_that_compete_one_is_active_and_noise_decides_which() -> None:
+def test_of_two_competing_behaviours_noise_selects_the_active_one() -> None:
     model = several("left", "right")
     competition(model, "left", "right")
     for name in ("left", "right"):
@@ -118,7 +118,7 @@ def test_of_two_that_compete_one_is_active_and_noise_decides_which() -> None:
     assert 30 <= left[:, -1].sum() <= 70
 
 
-def test_who_is_first_wins() -> None:
+def test_of_two_competing_behaviours_the_earlier_one_wins() -> None:
     model = several("left", "right")
     competition(model, "left", "right")
     tell(model, "left.task", ON, (100, 1200))

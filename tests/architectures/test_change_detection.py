@@ -42,19 +42,19 @@ def test_an_unchanged_display_is_the_same_and_a_changed_one_different_in_every_t
     assert different[2:].all() and not same[2:].any()
 
 
-def test_a_small_change_is_missed(three: xarray.Dataset) -> None:
+def test_a_small_change_is_not_detected(three: xarray.Dataset) -> None:
     """Fifteen degrees away, the memory still inhibits."""
     same, different = answers(three)
     assert same[1].all() and not different[1].any()
 
 
-def test_nothing_is_said_before_it_is_asked_for_nor_afterwards(three: xarray.Dataset) -> None:
+def test_decision_nodes_are_inactive_before_and_after_the_test(three: xarray.Dataset) -> None:
     for name in ("same", "different"):
         u = three[f"{name}.activation"]
         assert float(u.sel(time=slice(0, TEST[0])).max()) < 0 and float(u.sel(time=LENGTH).max()) < 0
 
 
-def test_contrast_hands_over_to_memory(three: xarray.Dataset) -> None:
+def test_items_move_from_the_contrast_field_to_the_memory_field(three: xarray.Dataset) -> None:
     for k in range(TRIALS):
         one = three.isel({"test 3.center": 2, "trial": k})
         held = sorted(p.position[0] for p in peaks(one["memory.activation"].sel(time=TEST[0])))
@@ -66,7 +66,7 @@ def test_contrast_hands_over_to_memory(three: xarray.Dataset) -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_fewer_items_are_no_harder(count: int) -> None:
+def test_changes_among_fewer_items_are_detected(count: int) -> None:
     sample = SAMPLE[:count]
     same, different = answers(trial(sample, last=[sample[-1], sample[-1] + 60]))
     assert same[0].all() and different[1].all() and not (same & different).any()

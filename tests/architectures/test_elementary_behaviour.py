@@ -33,7 +33,7 @@ def moved(f: np.ndarray, dx: int, dy: int) -> np.ndarray:
     return out
 
 
-def test_sixty_steps_of_a_behaviour_that_leads_north() -> None:
+def test_sixty_steps_of_a_behaviour_agree_with_its_equations() -> None:
     x, y = X.points[:, None], Y.points[None, :]
     goal, place = (
         a * np.exp(-0.5 * (((x - 14) / 3) ** 2 + ((y - at) / 3) ** 2)) for a, at in ((10, 17), (8, 7))

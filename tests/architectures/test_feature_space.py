@@ -45,7 +45,7 @@ def at_end(model: dd.Model, sweep: dict[str, list[float]], duration: float = 700
 
 
 @pytest.mark.parametrize(("cue", "brings"), [(0, 1), (1, 0)], ids=["place to feature", "feature to place"])
-def test_a_cue_brings_what_is_bound_to_it(cue: int, brings: int) -> None:
+def test_a_cue_activates_the_other_feature_of_its_object(cue: int, brings: int) -> None:
     names = ("space", "feature")
     model = scene()
     model.set(f"{names[cue]} cue.amplitude", 6.0)
@@ -60,7 +60,7 @@ def test_a_cue_brings_what_is_bound_to_it(cue: int, brings: int) -> None:
             assert len(peaks(one["bound.activation"])) == 1
 
 
-def test_a_cue_that_meets_nothing_brings_nothing() -> None:
+def test_a_cue_without_a_matching_object_activates_nothing() -> None:
     model = scene()
     model.set("feature cue.amplitude", 6.0)
     found = at_end(model, {"feature cue.center": [60.0, 180.0]}, 390)
@@ -72,7 +72,7 @@ def test_nothing_is_selected_without_a_cue() -> None:
     assert float(found["bound.activation"].max()) < 0
 
 
-def test_a_conflict_of_cues_makes_up_no_object() -> None:
+def test_conflicting_cues_create_no_peak() -> None:
     """The place of one object and the feature of another meet where nothing is."""
     model = scene()
     model.set("space cue.center", 20.0)
@@ -83,7 +83,7 @@ def test_a_conflict_of_cues_makes_up_no_object() -> None:
     assert float(u.sel(space=20, feature=120)) < 0
 
 
-def test_a_selection_outlives_its_cue_and_is_released() -> None:
+def test_a_selection_remains_after_its_cue_until_inhibition_ends_it() -> None:
     model = scene()
     model.set("space cue.center", 50.0)
     model.set("space cue.amplitude", 6.0)

@@ -29,7 +29,7 @@ def planned():
     return [shortest_path(on, s[:2], g) for s, g in zip(START, GOAL, strict=True)]
 
 
-def test_it_turns_towards_the_carrot():
+def test_the_vehicle_turns_towards_the_carrot():
     paths = np.asarray([[(0.0, 0), (0, 1), (0, 5)], [(1.0, 0), (2, 0), (3, 0)], [(0.0, 0), (0, 0), (0, 0)]])
     wheels = Carrot(speed=300, gain=100).wheels(np.zeros((3, 2)), np.asarray([np.pi / 2, 0.3, 0.0]), paths)
     np.testing.assert_allclose(wheels[0], [300, 300])  # straight ahead
@@ -50,7 +50,7 @@ def test_the_carrot_is_the_nearest_point_ahead_on_the_path():
 
 
 @pytest.mark.parametrize("contact", ["slide", "stick"])
-def test_it_reaches_the_goals_round_a_wall(contact):
+def test_the_vehicle_reaches_goals_behind_a_wall(contact):
     world = arena(contact=contact, place_noise=0.5, place_every=2)
     paths = planned()
     done = follow(world, paths, [0, 1], ending=Ending(limit=900))
@@ -61,18 +61,18 @@ def test_it_reaches_the_goals_round_a_wall(contact):
         assert clearance(course[:, :2], [(0, 28, 40, 32)], (0, 0, 60, 60)).min() > 3.69
 
 
-def test_noise_belongs_to_the_trial():
+def test_noise_is_keyed_by_the_trial():
     paths = planned()
     both = follow(arena(place_noise=1.0), paths, [0, 1], ending=Ending(limit=60))
     one = follow(arena(place_noise=1.0), paths[1:], [1], ending=Ending(limit=60))
     np.testing.assert_allclose(both.pose[:, 1], one.pose[:, 0], atol=1e-4)
 
 
-def test_a_copy_stays_at_the_limit():
+def test_a_run_stops_at_the_limit_of_steps():
     done = follow(arena(), planned(), [0, 1], ending=Ending(limit=5))
     assert (done.steps == 5).all() and len(done.pose) == 6
 
 
-def test_parameters_that_cannot_be_are_refused():
+def test_parameters_out_of_range_are_refused():
     with pytest.raises(ParameterError, match="above 0"):
         Carrot(speed=0)

@@ -28,7 +28,7 @@ def test_a_wave_of_constant_speed_spreads_from_the_goal() -> None:
     assert np.abs(front[t] - (speed * t + start)).max() < 3.0, "a step of the behaviour is 5 cm"
 
 
-def test_it_begins_to_act_when_the_wave_has_come_and_plans_anew() -> None:
+def test_the_walker_starts_when_the_wave_arrives_and_follows_a_new_goal() -> None:
     names = [
         "gone.activation",
         "left.strongest.output",

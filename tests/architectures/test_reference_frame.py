@@ -20,7 +20,7 @@ from deodar.elements.pattern import Pattern
 from deodar.errors import ParameterError
 
 
-def test_as_couplings_they_are_the_same_numbers() -> None:
+def test_both_couplings_give_the_same_values() -> None:
     """Any pattern, any gaze on the grid: the product of pattern and gaze, summed along diagonals, is the
     pattern moved by the gaze.
     """
@@ -72,7 +72,7 @@ def test_a_peak_is_at_the_sum_of_place_and_gaze(form: str) -> None:
 
 
 @pytest.mark.parametrize("form", ["diagonal", "steered"])
-def test_several_objects_are_carried_over_together(form: str) -> None:
+def test_several_objects_are_transformed_together(form: str) -> None:
     model = reference_frame(form)
     model.add(Boost("at", [], amplitude=10.0)) >> model["gaze"]
     for place in (-20.0, 0.0, 20.0):
@@ -92,12 +92,12 @@ def test_several_objects_are_carried_over_together(form: str) -> None:
 
 
 @pytest.mark.parametrize("form", ["diagonal", "steered"])
-def test_the_gaze_alone_says_nothing(form: str) -> None:
+def test_gaze_without_an_object_creates_no_peak(form: str) -> None:
     model = reference_frame(form)
     model.add(Boost("at", [], amplitude=10.0)) >> model["gaze"]
     assert float(dd.simulate(model, 500, record=["body.activation"], every=10)["body.activation"].max()) < 0
 
 
-def test_another_form_is_refused() -> None:
+def test_an_unknown_form_is_refused() -> None:
     with pytest.raises(ParameterError, match=r"form is 'diagnal'.*Did you mean 'diagonal'"):
         reference_frame("diagnal")

@@ -11,7 +11,7 @@ from deodar.architectures.saliency import CUE_AT, saliency
 from deodar.worlds.picture import Picture
 
 
-def test_it_is_a_document_that_names_no_file(tmp_path: Path) -> None:
+def test_the_document_of_the_model_names_no_file(tmp_path: Path) -> None:
     model = saliency()
     dd.save(model, tmp_path / "saliency.json")
     again = dd.load(tmp_path / "saliency.json")

@@ -64,7 +64,7 @@ def test_an_action_waits_for_its_own_condition_of_satisfaction() -> None:
     )
 
 
-def test_state_keeps_over_pauses_of_one_to_a_thousand_seconds() -> None:
+def test_the_sequence_continues_after_pauses_of_1_to_1000_s() -> None:
     sequence, pauses = [30.0, 6.0, 30.0, 54.0], [1e3, 1e4, 1e5, 1e6]
     model = lesson(sequence)
     begin = production_start(4)
@@ -121,7 +121,7 @@ def test_a_chain_may_be_longer_than_the_sequence() -> None:
 
 
 @pytest.mark.parametrize("items", [0, 51, 2.5, True])
-def test_a_chain_has_some_items(items: object) -> None:
+def test_a_chain_of_fewer_than_1_or_more_than_50_items_is_refused(items: object) -> None:
     with pytest.raises(ParameterError, match="a chain has 1 to 50 items"):
         serial_order(items)  # type: ignore[arg-type]
 
@@ -131,7 +131,7 @@ def test_a_sequence_must_fit_into_its_chain() -> None:
         lesson([1.0, 2.0, 3.0], items=2)
 
 
-def test_another_order_is_reported() -> None:
+def test_a_transition_in_another_order_is_reported() -> None:
     good = ActionTransition(1, 30.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0)
     assert (
         good.in_order

@@ -22,7 +22,7 @@ def run(arena: Arena, steps: int, *more: str) -> xarray.Dataset:
     )
 
 
-def test_the_numbers_of_the_published_fields() -> None:
+def test_grids_and_starts_are_those_of_the_published_model() -> None:
     x, y = space(maze("z"))
     assert (x.samples, y.samples, x.step, y.step) == (100, 100, 1, 1)
     assert place(100, 1) == (x.lower, y.lower) and place(1, 100) == (x.upper, y.upper)
@@ -31,7 +31,7 @@ def test_the_numbers_of_the_published_fields() -> None:
     assert np.isclose(maze("z").starts[0], [*(v / 100 for v in place(*CASE_3[0])), 0]).all()
 
 
-def test_it_is_a_document_with_one_document_parameter_for_four_behaviours(tmp_path: Path) -> None:
+def test_the_document_has_one_parameter_per_strength_for_all_four_behaviours(tmp_path: Path) -> None:
     model = spa(maze("z"))
     dd.save(model, tmp_path / "spa.json")
     again = dd.load(tmp_path / "spa.json")
@@ -40,7 +40,7 @@ def test_it_is_a_document_with_one_document_parameter_for_four_behaviours(tmp_pa
     assert {again.get(f"{name}.precondition to motivation.factor") for name in DIRECTIONS} == {4.0}
 
 
-def test_the_map_is_the_published_one_before_and_behind_the_walls() -> None:
+def test_the_map_marks_walls_and_margins_as_in_the_published_model() -> None:
     data = run(maze("z", noise="none"), 1, "occupied.output")
     occupied = data["occupied.output"].values[-1]
     assert occupied[:5].all() and occupied[-6:].all() and occupied[:, :6].all() and occupied[:, -5:].all(), (
@@ -53,7 +53,7 @@ def test_the_map_is_the_published_one_before_and_behind_the_walls() -> None:
     assert 0.25 < occupied.mean() < 0.4
 
 
-def test_an_arena_in_metres_is_the_same() -> None:
+def test_arenas_in_metres_and_centimetres_give_equal_inputs() -> None:
     names = ("occupied.output", "goal place.output", "own place.output")
     metres = Arena("z", [v * 0.01 for v in place(*CASE_3[0])] + [0.0], [v * 0.01 for v in place(*CASE_3[1])])
     here, there = run(maze("z", noise="none"), 1, *names), run(metres, 1, *names)
@@ -62,7 +62,7 @@ def test_an_arena_in_metres_is_the_same() -> None:
         np.testing.assert_allclose(there[name].values, here[name].values, atol=1e-3)
 
 
-def test_case_3_plans_for_about_210_steps_and_goes_round_by_the_north() -> None:
+def test_in_case_3_the_robot_plans_for_about_210_steps_and_takes_the_north_route() -> None:
     """Section 5.2 and figure 10: the wave passes west of the start near 150, the plan is complete near 210,
     and the robot leaves.
     """
@@ -79,7 +79,7 @@ def test_case_3_plans_for_about_210_steps_and_goes_round_by_the_north() -> None:
 
 
 @pytest.mark.parametrize("noise", ["low", "high"])
-def test_it_arrives(noise: str) -> None:
+def test_the_robot_reaches_a_nearby_goal(noise: str) -> None:
     """From the east of the maze to a goal 25 cm further north, round no corner."""
     arena = maze("z", noise, start=(-25.0, 50.0, 2.0), goal=(-27.0, 78.0))
     data = dd.simulate(spa(arena, noise), 200, record="pose.output", world=arena, progress=False, seed=2)
@@ -89,7 +89,7 @@ def test_it_arrives(noise: str) -> None:
     assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).max() < 0.5, "it drives, and does not jump"
 
 
-def test_what_there_is_not() -> None:
+def test_unknown_mazes_and_levels_of_noise_are_refused() -> None:
     refused(
         lambda: maze("z", noise="lo"),
         dd.errors.ParameterError,

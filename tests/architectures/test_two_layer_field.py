@@ -108,7 +108,7 @@ def falls_in_proportion(distance):
     assert distance[-1] < 0.2
 
 
-def test_faster_inhibition_brings_the_three_together():
+def test_the_three_forms_converge_as_inhibition_becomes_faster():
     model = selection(X, (), 0.6, pool=True)
     record = ["one.activation", "two.excitatory.activation", "pool.interaction", "slow.activation"]
     data = dd.simulate(
@@ -123,7 +123,7 @@ def test_faster_inhibition_brings_the_three_together():
     np.testing.assert_allclose(pool, two, atol=1e-10)
 
 
-def test_with_local_inhibition_too():
+def test_two_layers_with_local_inhibition_converge_to_one_layer():
     """Mexican-hat interaction: the inhibitory layer's kernel is the negative part of the one-layer
     field's.
     """
@@ -137,7 +137,7 @@ def test_with_local_inhibition_too():
     )
 
 
-def test_slow_inhibition_is_another_dynamics():
+def test_slow_inhibition_overshoots_and_ends_the_peak():
     """Far slower than excitation it overshoots: the peak that was there goes while its input stays."""
     model = selection(X, (), 0.6, pool=False)
     model.set("tau_v", 4 * TAU)
@@ -151,7 +151,7 @@ def test_slow_inhibition_is_another_dynamics():
 
 
 @pytest.mark.parametrize("drive", [(), (dd.Gaussian(1, 3, normalized=True),)])
-def test_it_is_stored_in_a_document(tmp_path, drive):
+def test_a_two_layer_field_is_saved_and_loaded(tmp_path, drive):
     model = dd.Model("two")
     for name in ("perceptual", "memory"):
         model.insert(two_layer_field([X], [dd.Gaussian(15, 5)], [dd.Gaussian(-5, 10)], drive=drive), name)

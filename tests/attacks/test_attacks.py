@@ -10,7 +10,7 @@ import pytest
 from tests.attacks import documents, kills, messages, soak
 
 
-def test_mutated_documents_are_read_or_refused_and_nothing_else() -> None:
+def test_mutated_documents_are_read_or_refused_without_other_errors() -> None:
     outcome = documents.attack(150, seed=2)
     assert outcome.errors == []
     assert outcome.read > 5 and outcome.refused > 50
@@ -22,12 +22,12 @@ def test_hostile_messages_are_answered_and_the_studio_continues(tmp_path: Path) 
     assert outcome.refused > 100 and outcome.connections > 1
 
 
-def test_a_studio_that_is_killed_leaves_a_whole_file(tmp_path: Path) -> None:
+def test_a_killed_studio_leaves_a_complete_file(tmp_path: Path) -> None:
     outcome = kills.attack(tmp_path, 1, seed=4)
     assert outcome.errors == [] and outcome.kills == 1
 
 
-def test_pages_that_come_and_go_leave_nothing(tmp_path: Path) -> None:
+def test_closed_pages_leave_no_data_in_the_studio(tmp_path: Path) -> None:
     outcome = soak.attack(tmp_path, 1)
     assert outcome.visits >= 10 and outcome.errors == []
 

@@ -12,7 +12,7 @@ from tests.attacks import edits
 from tests.server.page import page, studio
 
 
-def test_of_two_pages_that_edit_at_once_both_edits_stay(tmp_path: Path) -> None:
+def test_simultaneous_edits_of_two_pages_are_both_kept(tmp_path: Path) -> None:
     rounds = 20
 
     async def main(address: str) -> None:
@@ -35,7 +35,7 @@ def test_of_two_pages_that_edit_at_once_both_edits_stay(tmp_path: Path) -> None:
     assert (model.get("u.tau"), model.get("v.tau")) == (30 + rounds - 1, 60 + rounds - 1)
 
 
-def test_edits_of_eight_pages_at_once_equal_the_same_edits_one_after_the_other(tmp_path: Path) -> None:
+def test_simultaneous_edits_of_eight_pages_equal_the_same_edits_in_sequence(tmp_path: Path) -> None:
     outcome = edits.run(tmp_path, pages=8, edits=400, seed=1)
     assert outcome.differ == [] and outcome.errors == []
     assert outcome.accepted > 200 and outcome.versions > 150
@@ -67,7 +67,7 @@ def test_an_edit_that_is_meant_for_another_document_is_refused(tmp_path: Path) -
     assert not (tmp_path / "third.json").exists()
 
 
-def test_a_change_runs_to_its_end_when_its_page_disconnects() -> None:
+def test_a_change_is_completed_although_its_page_disconnects() -> None:
     done: list[str] = []
 
     async def main() -> None:

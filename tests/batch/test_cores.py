@@ -28,7 +28,7 @@ def told(code: str, nproc: str | None = None) -> dict[str, object]:
     )
 
 
-def test_it_is_said_before_the_first_run_and_not_after() -> None:
+def test_use_cores_with_another_number_is_refused_after_the_first_run() -> None:
     code = f"""
 dd.use_cores(1)
 {MODEL}
@@ -44,7 +44,7 @@ except dd.errors.CoresError as error:
     assert "already started with 1 cores" in str(found["says"]) and "NPROC=3" in str(found["says"])
 
 
-def test_the_number_reaches_the_pool_of_threads() -> None:
+def test_the_number_of_cores_sets_the_number_of_threads() -> None:
     """XLA names its threads after their pool; with one core it has fewer of them."""
     if not os.path.isdir("/proc/self/task"):  # told by Linux only; elsewhere the number is at least kept
         assert told("dd.use_cores(2)")["nproc"] == "2"
@@ -58,7 +58,7 @@ def test_the_number_reaches_the_pool_of_threads() -> None:
     assert many - few >= 7
 
 
-def test_importing_sets_nothing() -> None:
+def test_importing_deodar_does_not_set_the_number_of_cores() -> None:
     assert told("import deodar.batch.simulate, deodar.batch.workers")["nproc"] is None
 
 
@@ -77,12 +77,12 @@ def test_the_command_line_uses_one_core_by_default() -> None:
 
 
 @pytest.mark.parametrize("wrong", [0, -1, True, 1.5, "2", None])
-def test_a_wrong_number_is_refused(wrong: object) -> None:
+def test_an_invalid_number_of_cores_is_refused(wrong: object) -> None:
     with pytest.raises(dd.errors.ParameterError, match="at least 1"):
         dd.use_cores(wrong)  # type: ignore[arg-type]
 
 
-def test_the_record_says_how_many(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_record_states_the_number_of_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     from deodar.recording.provenance import cores_of
     from deodar.recording.record import about
 

@@ -62,7 +62,7 @@ def test_an_unknown_device_is_an_error_that_lists_the_valid_ones(name: str) -> N
             call()
 
 
-def test_how_to_get_one_is_said_where_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_device_is_an_error_that_states_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(device, "_of", lambda kind: jax.devices("cpu") if kind == "cpu" else [])
     with pytest.raises(
         dd.errors.DeviceError,
@@ -71,7 +71,7 @@ def test_how_to_get_one_is_said_where_there_is_none(monkeypatch: pytest.MonkeyPa
         device.find("gpu")
 
 
-def test_the_record_names_it_and_is_repeated_there() -> None:
+def test_a_record_names_its_device_and_is_repeated_on_it() -> None:
     old = dd.simulate(model(), 20, device="cpu:0")
     assert about(old)["device"] == "cpu:0" and about(old)["made_by"]["device"].startswith("cpu")
     assert repeat(old, dd.simulate).same_bits and repeat(old, dd.simulate, device="cpu").same_bits
@@ -87,7 +87,7 @@ def test_workers_and_another_device_exclude_each_other(monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_products_take_all_digits(precision: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_matrix_products_use_the_full_precision(precision: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is left to a device's own choice, which may be TF32: each product of each program says so."""
     texts: list[str] = []
     compile_ = cache.compile

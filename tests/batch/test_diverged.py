@@ -38,7 +38,7 @@ def run(gains: list[float], steps: int = 60, **others: object) -> object:
     return dd.simulate(model(), steps, record=RECORD, every=20, sweep={"g.factor": gains}, **others)  # type: ignore[arg-type]
 
 
-def test_the_point_is_nan_with_its_reason_and_the_others_are_kept() -> None:
+def test_a_diverged_point_is_nan_with_its_reason_and_the_others_are_kept() -> None:
     says = (
         "1 of 3 copies are NaN; the coordinate 'diverged' gives the reasons, the first is: g became infinite"
     )
@@ -75,7 +75,7 @@ def _error(gain: float) -> str:
 
 
 @pytest.mark.parametrize("batch", [{"batch": 2}, {"batch": 2, "workers": 2}])
-def test_points_times_trials_in_pieces_and_workers(batch: dict[str, int]) -> None:
+def test_diverged_points_of_all_trials_are_nan_in_pieces_and_workers(batch: dict[str, int]) -> None:
     with pytest.warns(RunWarning, match="4 of 8 copies"):
         data = run([0.1, 1e6, 0.3, 1e7], trials=[3, 1], **batch)
     assert data["diverged"].dims == ("g.factor", "trial")
@@ -91,7 +91,7 @@ def test_points_times_trials_in_pieces_and_workers(batch: dict[str, int]) -> Non
     )
 
 
-def test_a_coupling_that_is_not_finite_while_all_states_are() -> None:
+def test_a_copy_diverges_if_a_recorded_coupling_is_not_finite() -> None:
     made = model()
     made.add(Boost("b", amplitude=1.0)) >> made.add(dd.Gain(1.0, name="h"))
     made["h"] >> made.add(dd.Gain(1e38, name="i"))
@@ -110,7 +110,7 @@ def test_a_single_run_and_a_batch_of_which_nothing_is_left_raise() -> None:
 
 
 @pytest.mark.parametrize("name", ["r.zarr", "r.nc"])
-def test_it_is_kept_in_files_and_repeated(tmp_path: Path, name: str) -> None:
+def test_reasons_of_divergence_are_saved_and_repeated(tmp_path: Path, name: str) -> None:
     with pytest.warns(RunWarning):
         data = run([0.1, 1e6])
     files.save_record(data, tmp_path / name)

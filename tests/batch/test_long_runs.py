@@ -37,13 +37,13 @@ def test_a_step_that_is_much_too_small_is_announced() -> None:
     assert [t.filename for t in told] == [__file__]
 
 
-def test_a_night_of_steps_begins_without_a_word() -> None:
+def test_a_run_below_1e9_steps_issues_no_warning() -> None:
     with warnings.catch_warnings(), pytest.raises(Interrupted):
         warnings.simplefilter("error")
         dd.simulate(small(), 10**9 - 1, progress=stop)
 
 
-def test_away_from_a_terminal_progress_is_lines(
+def test_progress_without_a_terminal_is_printed_as_lines(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(module, "LONG_STEPS", 500)
@@ -56,7 +56,7 @@ def test_away_from_a_terminal_progress_is_lines(
     assert capsys.readouterr().err == ""
 
 
-def test_lines_come_after_twice_as_long_each_time(capsys: pytest.CaptureFixture[str]) -> None:
+def test_intervals_between_lines_of_progress_double(capsys: pytest.CaptureFixture[str]) -> None:
     clock = [0.0]
     shown = progress.lines(1000, lambda: clock[0])
     for second in range(1, 101):

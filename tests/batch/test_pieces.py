@@ -22,7 +22,9 @@ SIZES = [1, 2, 7, 100]
     ("trials", "points", "workers", "batch"),
     list(itertools.product(SIZES, SIZES, [1, 2, 3, 16], [None, 1, 5, 10_000])),
 )
-def test_every_copy_is_in_one_piece(trials: int, points: int, workers: int, batch: int | None) -> None:
+def test_every_copy_is_in_exactly_one_piece(
+    trials: int, points: int, workers: int, batch: int | None
+) -> None:
     pieces = cut({"trial": trials, "a": points}, 2**20, workers, batch)
     whole = SimulationRequest(100.0)
     requests = pieces.requests(whole, range(trials), {"a": [float(k) for k in range(points)]})
@@ -35,7 +37,7 @@ def test_every_copy_is_in_one_piece(trials: int, points: int, workers: int, batc
     assert pieces.batch <= max(rest, batch if batch is not None else BATCH_BYTES // 2**20)
 
 
-def test_workers_have_the_same_to_do() -> None:
+def test_workers_get_pieces_of_equal_size() -> None:
     assert cut({"trial": 100}, 1000, 4) == Pieces("trial", 100, 25, 1)
     assert cut({"trial": 100}, 1000) == Pieces("trial", 100, 100, 1)
     assert cut({"trial": 100}, 2**20).count == 13  # 8 MiB at once
@@ -45,7 +47,7 @@ def test_workers_have_the_same_to_do() -> None:
 
 
 @pytest.mark.parametrize("wrong", [0, True, 2.0, "3"])
-def test_a_wrong_batch_is_refused(wrong: object) -> None:
+def test_an_invalid_batch_is_refused(wrong: object) -> None:
     with pytest.raises(ParameterError, match="batch is"):
         cut({"trial": 3}, 1, 1, wrong)  # type: ignore[arg-type]
 
@@ -57,7 +59,7 @@ def part(trials: list[int], times: int, whole: bool) -> PieceResult:
     return PieceResult(data, whole)
 
 
-def test_pieces_that_are_complete_become_one_record() -> None:
+def test_complete_pieces_are_joined_to_one_record() -> None:
     pieces = Pieces("trial", 6, 2, 1)
     data = joined(
         pieces, [part([0, 1], 3, True), part([2, 3], 3, True), part([4, 5], 3, True)], {"trials": [*range(6)]}
@@ -66,7 +68,7 @@ def test_pieces_that_are_complete_become_one_record() -> None:
     assert json.loads(data.attrs[KEY]) == {"trials": [*range(6)], "dt": 1.0, "batch": 2, "complete": True}
 
 
-def test_of_a_run_that_was_stopped_the_complete_pieces_stay() -> None:
+def test_complete_pieces_of_an_interrupted_run_are_kept() -> None:
     some = joined(
         Pieces("trial", 6, 2, 1),
         [part([0, 1], 3, True), part([2, 3], 2, False), None],
@@ -79,7 +81,9 @@ def test_of_a_run_that_was_stopped_the_complete_pieces_stay() -> None:
     ("times", "trials", "kept"),
     [((5, 4, 0), [0, 1, 2, 3], 4), ((9, 2, 1), [0, 1], 9), ((4, 3, 3), [0, 1, 2, 3, 4, 5], 3)],
 )
-def test_where_none_is_complete_most_is_kept(times: tuple[int, ...], trials: list[int], kept: int) -> None:
+def test_without_a_complete_piece_the_longest_one_is_kept(
+    times: tuple[int, ...], trials: list[int], kept: int
+) -> None:
     parts = [part([2 * k, 2 * k + 1], n, False) for k, n in enumerate(times)]
     data = joined(Pieces("trial", 6, 2, 1), parts, {})
     assert (
@@ -89,7 +93,7 @@ def test_where_none_is_complete_most_is_kept(times: tuple[int, ...], trials: lis
     )
 
 
-def test_where_nothing_was_begun_the_record_is_empty() -> None:
+def test_an_interrupted_run_without_any_piece_gives_an_empty_record() -> None:
     assert not joined(Pieces("trial", 6, 2, 1), [None, None, None], {}).sizes
 
 

@@ -37,12 +37,12 @@ def on_a_terminal(progress: str) -> str:
     return seen.decode()
 
 
-def test_a_terminal_sees_a_bar() -> None:
+def test_a_terminal_shows_a_progress_bar() -> None:
     seen = on_a_terminal("")
     assert "simulating" in seen and "2000 steps" in seen
 
 
-def test_it_can_be_switched_off_and_a_file_sees_nothing() -> None:
+def test_the_progress_bar_is_not_written_to_a_file_and_can_be_switched_off() -> None:
     assert on_a_terminal(", progress=False") == ""
     done = subprocess.run(
         [sys.executable, "-c", CODE.format(progress="")], stderr=subprocess.PIPE, text=True, timeout=600

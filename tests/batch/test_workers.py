@@ -91,7 +91,7 @@ def test_a_sweep_is_split_along_its_longest_entry_and_repeated_to_the_bit() -> N
     assert done.same_bits and not done.differences
 
 
-def test_an_incomplete_record_is_compared_as_far_as_it_goes() -> None:
+def test_an_incomplete_record_is_compared_with_the_trials_that_it_has() -> None:
     whole = dd.simulate(small(), 50, trials=6, batch=2)
     some = whole.isel(trial=[0, 1, 4, 5])
     some.attrs["deodar"] = some.attrs["deodar"].replace('"complete": true', '"complete": false')
@@ -99,7 +99,7 @@ def test_an_incomplete_record_is_compared_as_far_as_it_goes() -> None:
     assert not repeat(some.assign(**{"u.activation": some["u.activation"] + 1}), dd.simulate).same_bits
 
 
-def test_the_main_script_is_not_run_again(tmp_path: Path) -> None:
+def test_workers_do_not_run_the_main_script(tmp_path: Path) -> None:
     """No guard is needed around a script."""
     code = """
 import deodar as dd
@@ -116,7 +116,7 @@ print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
     assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["begun", "2"], "")
 
 
-def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
+def test_ctrl_c_stops_all_workers_and_returns_the_complete_pieces() -> None:
     # a shell that starts the tests behind it ignores the signal
     model, before = small(), signal.getsignal(signal.SIGINT)
 
@@ -154,7 +154,7 @@ def test_ctrl_c_stops_all_and_gives_what_is_complete() -> None:
     assert not children() and signal.getsignal(signal.SIGINT) is before
 
 
-def test_a_second_ctrl_c_ends_them_at_once() -> None:
+def test_a_second_ctrl_c_ends_the_workers_at_once() -> None:
     before = signal.getsignal(signal.SIGINT)
 
     def told(done: int) -> None:
@@ -167,7 +167,7 @@ def test_a_second_ctrl_c_ends_them_at_once() -> None:
 
 
 @pytest.mark.parametrize("how", ["stops", "fails", "dies"])
-def test_nothing_of_the_pool_outlives_the_call(how: str) -> None:
+def test_no_thread_or_process_of_the_pool_remains_after_the_call(how: str) -> None:
     """No thread and no process is left, whichever way it ends: there is nothing that could read a pipe that
     is closed.
     """
@@ -188,7 +188,7 @@ def test_nothing_of_the_pool_outlives_the_call(how: str) -> None:
     assert len({child.pid for child in seen}) == 2 and not children() and set(threading.enumerate()) == before
 
 
-def test_without_workers_too() -> None:
+def test_ctrl_c_without_workers_returns_the_complete_pieces() -> None:
     def told(done: int) -> None:
         if done > 3 * 1000:
             raise KeyboardInterrupt
@@ -198,7 +198,7 @@ def test_without_workers_too() -> None:
     assert caught.value.data["trial"].values.tolist() == [0, 1, 2]
 
 
-def test_a_worker_that_dies_is_a_named_error() -> None:
+def test_a_worker_that_dies_raises_a_worker_error() -> None:
     def kill() -> None:
         while not (found := children()):
             time.sleep(0.05)
@@ -212,7 +212,7 @@ def test_a_worker_that_dies_is_a_named_error() -> None:
     assert not children()
 
 
-def test_an_error_in_a_worker_is_raised_here_whole() -> None:
+def test_an_error_in_a_worker_is_raised_unchanged_in_the_caller() -> None:
     model = small()
     model["u"] >> model.add(dd.Gain(1e30, name="g")) >> model.add(dd.Gain(1e30, name="h")) >> model["u"]
     with pytest.raises(dd.errors.NotFinite, match="became infinite") as caught:
@@ -237,7 +237,7 @@ def test_a_value_that_cannot_be_pickled_is_refused(monkeypatch: pytest.MonkeyPat
         dd.simulate(small(), 10, trials=2, workers=0)
 
 
-def test_kinds_of_other_modules_are_imported_there(tmp_path: Path) -> None:
+def test_workers_import_the_modules_of_custom_kinds(tmp_path: Path) -> None:
     """An element of one's own, from a module beside the script; the same in the script itself is refused by
     its name.
     """

@@ -21,7 +21,7 @@ def test_copies_of_equal_width_agree_to_the_bit() -> None:
     assert {key[1] for key in found.first} == {1, 3}
 
 
-def test_a_difference_would_be_found() -> None:
+def test_a_difference_in_the_last_digit_is_found() -> None:
     found = bits.Found()
     found.take(("m", 1, 0, "u", 0), np.float32([1.0, 2.0]), "first")
     found.take(("m", 1, 0, "u", 0), np.float32([1.0, 2.0000002]), "second")

@@ -19,7 +19,7 @@ import mutations
 TEXTS = {name: text for name, text in mutations.sources().items() if len(text) < 30_000}
 
 
-def test_there_are_files_of_both_kinds() -> None:
+def test_samples_contain_documents_and_files_of_cosivina() -> None:
     foreign = [name for name, text in TEXTS.items() if "simulator" in text[:100]]
     assert len(foreign) > 3 and len(TEXTS) - len(foreign) > 10
 
@@ -35,7 +35,7 @@ def test_files_with_errors_open_or_are_refused(name: str, tmp_path: Path) -> Non
     "content",
     [{"simulator": {"nElements": 0, "elements": []}}, {"deodar": 1, "name": "empty", "elements": {}}],
 )
-def test_a_file_that_says_that_it_is_empty_is_not_broken(content: dict[str, object], tmp_path: Path) -> None:
+def test_a_file_that_states_zero_elements_is_valid(content: dict[str, object], tmp_path: Path) -> None:
     model = mutations.opened(json.dumps(content).encode(), tmp_path)
     assert model is not None and not model.document.entries
 
@@ -66,7 +66,7 @@ def test_an_unexpected_outcome_is_reported(tmp_path: Path, monkeypatch: pytest.M
 
 if hasattr(signal, "SIGVTALRM"):  # elsewhere the harness has no limit
 
-    def test_what_does_not_end_is_found() -> None:
+    def test_a_call_that_does_not_return_is_reported() -> None:
         with pytest.raises(mutations.Broken, match=r"no end after 0\.05 s"), mutations.limited(0.05):
             while True:
                 pass

@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import resolution
 
 
-def test_forgetting_of_the_logistic_is_that_of_a_finer_grid() -> None:
+def test_the_forgetting_threshold_of_the_logistic_is_that_of_a_finer_grid() -> None:
     g = dd.Logistic(4.0)
     fine = resolution.forgetting(1, 401, g, "point")
     assert abs(resolution.forgetting(1, 101, g, "cell") / fine - 1) < 0.005
@@ -26,7 +26,7 @@ def test_forgetting_of_the_logistic_is_that_of_a_finer_grid() -> None:
     )
 
 
-def test_forgetting_of_the_step_is_that_of_amari() -> None:
+def test_the_forgetting_threshold_of_the_step_is_that_of_amari() -> None:
     assert abs(resolution.forgetting(1, 101, Step(), "cell") / resolution.amari() - 1) < 0.01
     assert abs(resolution.forgetting(1, 51, Step(), "cell") / resolution.amari() - 1) < 0.02
     assert abs(resolution.forgetting(1, 101, Step(), "point") / resolution.amari() - 1) > 0.5, (

@@ -63,7 +63,7 @@ def test_a_parameter_changed_by_a_millionth_is_reported(stored: trajectories.Sto
     assert any("another document" in p for p in problems) and any("above 1e-10" in p for p in problems)
 
 
-def test_other_notes_are_the_same_document(stored: trajectories.Stored) -> None:
+def test_documents_that_differ_only_in_notes_are_equal(stored: trajectories.Stored) -> None:
     model = dd.load("example:selection")
     model.describe(notes="Other words.")
     before = stored.models["example selection"]
@@ -86,7 +86,7 @@ def test_an_event_at_another_time_is_reported() -> None:
     assert len(trajectories.compare("t", later, before, {}).problems) == 2
 
 
-def test_a_text_chooses_models_and_a_name_only_its_model(stored: trajectories.Stored) -> None:
+def test_a_full_name_selects_one_model_and_a_part_all_that_contain_it(stored: trajectories.Stored) -> None:
     assert trajectories.chosen(["example projection"]).keys() == {"example projection"}
     assert trajectories.stored_names(stored, ["example projection"]) == ["example projection"]
     assert trajectories.stored_names(stored, ["projection to"]) == ["example projection to the end"]

@@ -87,7 +87,7 @@ def test_the_noise_of_the_yardstick_is_normal(tmp_path: Path) -> None:
         assert abs((both[:, 0] * both[:, 1]).mean()) < 4 * math.sqrt(2) / root
 
 
-def test_the_model_is_what_the_yardstick_computes(tmp_path: Path) -> None:
+def test_the_model_and_the_yardstick_compute_the_same_values(tmp_path: Path) -> None:
     """Equal but for the ends of the kernels, which shift a peak of 3 to 7 by less than 0.15."""
     for shape, sigmas in (((100,), (5, 10)), ((50, 50), (3, 6))):
         model = workloads.single(shape, sigmas)
@@ -97,7 +97,7 @@ def test_the_model_is_what_the_yardstick_computes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("name", "fields", "nodes", "couplings"), [("W4a", 20, 20, 20), ("W4b", 16, 0, 16)])
-def test_architectures_and_their_shuffled_kin_are_equal_in_size(
+def test_shuffled_architectures_have_the_size_of_the_originals(
     name: str, fields: int, nodes: int, couplings: int
 ) -> None:
     sizes, edges = [], []
@@ -113,7 +113,7 @@ def test_architectures_and_their_shuffled_kin_are_equal_in_size(
     assert sizes[0] == sizes[1] and edges[0] != edges[1]
 
 
-def test_shuffled_targets_are_a_permutation_that_keeps_little_of_the_ring() -> None:
+def test_shuffled_targets_are_a_permutation_with_few_neighbours_of_the_ring() -> None:
     for count, seed in ((20, 1), (16, 1), (5, None)):
         to = workloads.targets(count, seed)
         assert sum(target == (k + 1) % count for k, target in enumerate(to)) < 4 or seed is None

@@ -32,7 +32,9 @@ def _bad(path: Path) -> Path:
     return path
 
 
-def test_a_good_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_of_a_valid_document_prints_its_size(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = _good(tmp_path / "m.json")
     assert cli.main(["check", str(path)]) == 0
     assert capsys.readouterr() == (f"{path}: good. 3 elements, 2 connections.\n", "")
@@ -51,12 +53,12 @@ def test_a_document_with_problems_lists_them_all(tmp_path: Path, capsys: pytest.
     assert lines[1].startswith("loose: nothing is connected to loose.input")
 
 
-def test_json_of_a_good_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_a_valid_document_has_no_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["check", str(_good(tmp_path / "m.json")), "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {"problems": []}
 
 
-def test_json_of_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_lists_the_problems_of_a_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["check", str(_bad(tmp_path / "m.json")), "--json"]) == 1
     found = json.loads(capsys.readouterr().out)["problems"]
     assert [p["where"] for p in found] == ["v", "loose"]
@@ -73,7 +75,7 @@ def test_json_of_a_file_that_cannot_be_read_lists_its_problems_too(
     assert len(json.loads(out)["problems"]) == 2 and not err
 
 
-def test_checking_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_writes_no_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _good(tmp_path / "m.json")
     before = sorted(tmp_path.iterdir())
     cli.main(["check", str(tmp_path / "m.json")])

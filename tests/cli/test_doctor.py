@@ -12,7 +12,7 @@ from deodar.cli import main
 from deodar.compiler import device
 
 
-def test_it_prints_versions_device_and_folder(
+def test_doctor_prints_versions_device_and_cache_folder(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     (tmp_path / "kept").write_bytes(b"x" * 2**20)

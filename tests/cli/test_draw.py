@@ -20,7 +20,7 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_it_writes_and_says_where(here, capsys):
+def test_draw_writes_a_picture_and_prints_its_path(here, capsys):
     assert main(["draw", "node.json"]) == 0 and (here / "node-architecture-001.svg").read_text(
         encoding="utf-8"
     ).startswith("<svg")
@@ -38,7 +38,7 @@ def test_it_writes_and_says_where(here, capsys):
     )
 
 
-def test_it_replaces_nothing_and_explains(here, capsys):
+def test_draw_replaces_no_file_without_force(here, capsys):
     assert main(["draw", "node.json", "-o", "a.svg"]) == 0
     assert main(["draw", "node.json", "-o", "a.svg"]) == 1 and "exists already" in capsys.readouterr().err
     assert main(["draw", "node.json", "-o", "a.svg", "--force"]) == 0

@@ -12,7 +12,7 @@ from deodar.parameters import Part, parameters
 KINDS = [name for room in registry.ROOMS for name in registry.kinds(room)]
 
 
-def test_the_list_names_everything_by_room(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_list_names_every_kind_by_package(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["elements"]) == 0
     out, err = capsys.readouterr()
     assert not err
@@ -28,7 +28,7 @@ def test_the_list_names_everything_by_room(capsys: pytest.CaptureFixture[str]) -
     assert all(line.rstrip().endswith(".") for line in lines if line.startswith("  "))
 
 
-def test_the_list_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_list_is_printed_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["elements", "--json"]) == 0
     listed = json.loads(capsys.readouterr().out)
     assert list(listed) == list(registry.ROOMS)
@@ -36,7 +36,9 @@ def test_the_list_as_json(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_one_page_for_each(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_kind_is_printed_with_equation_and_reference(
+    kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert cli.main(["elements", kind]) == 0
     out = capsys.readouterr().out
     assert out.startswith(kind)
@@ -65,7 +67,7 @@ def test_the_page_shows_default_range_and_unit_of_every_parameter(
 
 
 @pytest.mark.parametrize("kind", [k for k in KINDS if issubclass(registry.kind(k), Part)])
-def test_one_page_as_json_is_its_schema(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_kind_as_json_is_its_schema(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["elements", kind, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["title"] == kind
@@ -73,12 +75,14 @@ def test_one_page_as_json_is_its_schema(kind: str, capsys: pytest.CaptureFixture
 
 
 @pytest.mark.parametrize("kind", ["Picture"])
-def test_json_of_the_parts_that_no_document_contains(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_worlds_and_other_kinds_outside_of_documents_have_a_schema(
+    kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert cli.main(["elements", kind, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["title"] == kind
 
 
-def test_an_unknown_kind(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_kind_is_an_error_with_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["elements", "Feild"]) == 1
     out, err = capsys.readouterr()
     assert not out

@@ -39,7 +39,7 @@ def test_examples_are_listed_with_a_sentence(capsys: pytest.CaptureFixture[str])
     assert "deodar run example:" in out and "deodar examples copy" in out
 
 
-def test_the_list_is_read_by_programs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_list_as_json_names_every_example(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["examples", "--json"]) == 0
     listed = json.loads(capsys.readouterr().out)["examples"]
     assert [e["name"] for e in listed] == [*examples.names(), *examples.scripts()]
@@ -71,7 +71,7 @@ def test_a_script_is_copied_with_the_documents_it_reads(here: Path) -> None:
     assert sorted(p.name for p in (here / "mine").iterdir()) == ["choices.py", "selection.json"]
 
 
-def test_a_copy_does_not_replace_what_is_there(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_copy_does_not_replace_an_existing_file(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here / "spa.json").write_text("mine")
     assert main(["examples", "copy", "spa"]) == 1
     assert "exists already" in told(capsys) and [p.name for p in here.iterdir()] == ["spa.json"]
@@ -100,7 +100,7 @@ def test_a_copy_does_not_replace_what_is_there(here: Path, capsys: pytest.Captur
         (["studio", "selection", "--no-browser"], 1, "Did you mean 'example:selection'?"),
     ],
 )
-def test_wrong_names_are_answered_with_what_to_type(
+def test_an_unknown_example_is_an_error_that_states_what_to_type(
     words: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     try:
@@ -118,7 +118,7 @@ def test_a_file_of_the_folder_is_suggested_before_an_example(
     assert "Did you mean 'selections.json'?" in told(capsys)
 
 
-def test_an_example_runs_by_its_name_as_long_as_its_notes_say(
+def test_an_example_runs_for_the_duration_in_its_notes(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["run", "example:selection", "--every", "100", "--record", "u.activation", "--json"]) == 0

@@ -41,7 +41,7 @@ def call(*args):
     return cli.main(["experiment", "when.json", "--no-progress", *args])
 
 
-def test_a_table_a_dataset_and_what_made_them(file, capsys, tmp_path):
+def test_an_experiment_writes_a_table_a_dataset_and_its_design(file, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
     assert (
@@ -80,7 +80,7 @@ def test_the_model_may_be_an_example(file, capsys, tmp_path):
     assert "node" in capsys.readouterr().err
 
 
-def test_after_a_stop_the_same_call_resumes(file, capsys, tmp_path, monkeypatch):
+def test_the_same_call_resumes_an_interrupted_experiment(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
     assert call("--out", "whole") == 0
     from deodar.experiments import jobs
@@ -102,7 +102,7 @@ def test_after_a_stop_the_same_call_resumes(file, capsys, tmp_path, monkeypatch)
     assert (tmp_path / "part" / "trials.csv").read_bytes() == (tmp_path / "whole" / "trials.csv").read_bytes()
 
 
-def test_json_and_other_numbers(file, capsys, tmp_path):
+def test_options_replace_trials_and_seed_and_json_reports_the_outcomes(file, capsys, tmp_path):
     assert call("--trials", "2", "--seed", "5", "--json", "--out", "few") == 0
     told = json.loads(capsys.readouterr().out)
     assert told["trials"] == 4 and sum(told["outcomes"].values()) == 4 and told["out"] == "few"
@@ -111,7 +111,7 @@ def test_json_and_other_numbers(file, capsys, tmp_path):
     assert "holds runs of another experiment: seed, trials differ" in capsys.readouterr().err
 
 
-def test_check_runs_nothing(file, capsys, tmp_path):
+def test_check_runs_no_trial(file, capsys, tmp_path):
     assert call("--check") == 0
     assert "when: 16 trials, in 1 batch of at most 16" in capsys.readouterr().out
     assert call("--check", "--json") == 0
@@ -135,7 +135,7 @@ def test_errors_are_reported_before_a_run(file, capsys, tmp_path):
     assert "is not an experiment" in capsys.readouterr().err
 
 
-def test_a_model_in_place_of_an_experiment_and_the_reverse_say_which_command_takes_it(file, capsys, tmp_path):
+def test_a_model_given_as_an_experiment_and_the_reverse_name_the_right_command(file, capsys, tmp_path):
     assert cli.main(["check", str(file)]) == 1
     fix = "Type: deodar experiment FILE --check"
     assert capsys.readouterr().err == f"deodar check: {file}: is not a model: it is an experiment. {fix}\n"

@@ -79,7 +79,9 @@ def test_without_a_terminal_the_result_is_written_to_the_user_data_folder(
     assert [p.name for p in here.iterdir()] == ["small.json"]
 
 
-def test_programs_get_the_path_of_the_cache(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_states_the_path_where_the_record_was_written_instead(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main([*RUN, "--json"]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert Path(answer["record"]).exists() and answer["instead_of"] == "result" and answer["complete"]
@@ -92,7 +94,7 @@ def test_the_temporary_folder_is_the_second_choice(here: Path, capsys: pytest.Ca
     assert str(here.parent / "temporary") in capsys.readouterr().err
 
 
-def test_a_person_is_asked_for_a_folder_until_one_can_be_written(
+def test_the_user_is_asked_for_a_folder_until_one_can_be_written(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(
@@ -105,14 +107,14 @@ def test_a_person_is_asked_for_a_folder_until_one_can_be_written(
     assert (here.parent / "second" / "result-001" / "record.zarr").is_dir()
 
 
-def test_an_empty_answer_takes_the_places_of_the_user(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_empty_answer_writes_to_the_user_data_folder(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdin", Terminal("\n"))
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     assert main(RUN) == 1
     assert len(list((here.parent / "data").rglob("record.zarr"))) == 1
 
 
-def test_where_nothing_can_be_written_every_place_is_named(
+def test_if_no_folder_can_be_written_the_error_names_all_of_them(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (here.parent / "data" / "deodar").write_text("in the way")
@@ -132,7 +134,7 @@ def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
     assert files.load_record(here / "result-001" / "record.zarr").sizes["time"] == 5
 
 
-def test_a_demo_is_kept_in_a_second_place(
+def test_a_demo_that_cannot_be_written_is_written_to_the_user_data_folder(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     claims = [Claim("arrives", 1, "1", True, "required", n=1, origin="ours")]

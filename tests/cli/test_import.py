@@ -30,7 +30,7 @@ def call(here: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_an_element_of_ones_own_runs_from_the_shell(tmp_path: Path) -> None:
+def test_a_custom_element_runs_from_the_command_line(tmp_path: Path) -> None:
     (tmp_path / "own.py").write_text(OWN)
     (tmp_path / "model.json").write_text(DOCUMENT)
     unknown = call(tmp_path, "check", "model.json")
@@ -56,7 +56,7 @@ def test_an_element_of_ones_own_runs_from_the_shell(tmp_path: Path) -> None:
     assert "Twice the input" in call(tmp_path, "--import", "own", "elements", "Doubling").stdout
 
 
-def test_a_module_that_fails_is_one_clear_error(tmp_path: Path) -> None:
+def test_a_module_that_raises_at_import_is_an_error_without_traceback(tmp_path: Path) -> None:
     (tmp_path / "broken.py").write_text("raise ValueError('half done')")
     for name, says in (("broken", "half done"), ("absent", "No module named")):
         done = call(tmp_path, "--import", name, "elements")

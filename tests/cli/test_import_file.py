@@ -28,13 +28,13 @@ def test_a_document_is_written_and_the_report_shown(tmp_path, capsys):
     assert main(["import", str(SAMPLE), "-o", str(out), "--force"]) == 0
 
 
-def test_without_out_nothing_is_written(tmp_path, capsys, monkeypatch):
+def test_import_without_out_writes_no_file(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(["import", str(SAMPLE)]) == 0
     assert "field u" in capsys.readouterr().out and not list(tmp_path.iterdir())
 
 
-def test_json_holds_every_line(capsys):
+def test_json_contains_every_line_of_the_report(capsys):
     assert main(["import", str(SAMPLE), "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
     assert data["tool"] == "cosivina" and data["counts"]["dropped"] == 0 and not data["problems"]
@@ -58,7 +58,7 @@ def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):
     capsys.readouterr()
 
 
-def test_bugs_are_reproduced_where_asked(tmp_path, capsys):
+def test_known_errors_are_reproduced_with_bugs(tmp_path, capsys):
     param = {
         "size": [1, 9],
         "sigma": 1,
@@ -74,7 +74,7 @@ def test_bugs_are_reproduced_where_asked(tmp_path, capsys):
     assert dd.load(path).get("s.normalized") is True and dd.load(path, bugs=True).get("s.normalized") is False
 
 
-def test_what_cannot_be_read_is_one_error(tmp_path, capsys):
+def test_an_unreadable_file_is_an_error_of_one_line(tmp_path, capsys):
     (tmp_path / "x.json").write_text('{"simulator": {"elements"')
     assert main(["import", str(tmp_path / "x.json")]) == 1
     error = capsys.readouterr().err

@@ -37,7 +37,7 @@ def test_a_document_is_packed_and_unpacked(here: Path, capsys: pytest.CaptureFix
         (["pack", "example:node", "--out", "there.deodar"], 1, "exists already"),
     ],
 )
-def test_wrong_calls(
+def test_invalid_calls_of_pack_are_errors(
     words: list[str], status: int, says: str, here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (here / "there.deodar").write_bytes(b"mine")

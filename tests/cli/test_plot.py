@@ -39,7 +39,9 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (["deep.zarr"], "projection"),
     ],
 )
-def test_kinds(here: Path, arguments: list[str], kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_kind_of_figure_is_drawn(
+    here: Path, arguments: list[str], kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["plot", *arguments, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert set(answer["kinds"].values()) == {kind}
@@ -74,7 +76,9 @@ def test_the_same_record_gives_the_same_file(here: Path) -> None:
         (["small.zarr", "u.activation", "--trial", "7"], "trial"),
     ],
 )
-def test_bad_calls(here: Path, arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_calls_of_plot_are_errors_and_write_nothing(
+    here: Path, arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     before = sorted(here.iterdir())
     assert main(["plot", *arguments]) == 1
     error = capsys.readouterr().err
@@ -82,7 +86,9 @@ def test_bad_calls(here: Path, arguments: list[str], says: str, capsys: pytest.C
     assert sorted(here.iterdir()) == before
 
 
-def test_a_path_is_drawn_in_its_arena_and_as_a_film(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_path_is_drawn_in_its_arena_and_as_an_animation(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     model = straight()
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
     files.save_record(dd.simulate(model, 40, record="pose.output", world=room()), "drive.zarr")

@@ -54,7 +54,7 @@ def call(*args):
     return cli.main(["reproduce", "toy", *args, "--no-progress"])
 
 
-def test_it_runs_writes_and_prints_the_claims(toy, capsys, tmp_path):
+def test_reproduce_runs_a_paper_and_prints_its_claims(toy, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
     assert (
@@ -102,7 +102,7 @@ def test_the_command_to_resume_repeats_all_arguments(toy, capsys):
     assert capsys.readouterr().err.endswith("deodar reproduce toy --quick --out some --only d\n")
 
 
-def test_a_bar_tells_how_far_it_has_come(toy, capsys, monkeypatch):
+def test_a_progress_bar_shows_the_number_of_runs(toy, capsys, monkeypatch):
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
     assert cli.main(["reproduce", "toy", "--out", "here"]) == 0
@@ -110,7 +110,7 @@ def test_a_bar_tells_how_far_it_has_come(toy, capsys, monkeypatch):
     assert "of 6 runs" in shown and "left" in shown
 
 
-def test_quick_is_another_experiment(toy, capsys):
+def test_a_quick_folder_is_not_resumed_by_the_whole_reproduction(toy, capsys):
     toy.least = 3
     assert call("--quick", "--out", "here") == 0
     assert call("--out", "here") == 1
@@ -126,13 +126,13 @@ def test_a_folder_is_extended_when_the_paper_has_further_conditions(toy, tmp_pat
     assert json.loads((tmp_path / "here" / "results.json").read_text())["settings"]["runs"] == 7
 
 
-def test_only_some_conditions(toy, capsys):
+def test_only_selects_conditions_by_prefix(toy, capsys):
     assert call("--only", "e") == 1
     assert "no condition begins with 'e'" in capsys.readouterr().err
     assert call("--only", "d") == 0
 
 
-def test_a_folder_of_something_else_is_left_alone(toy, capsys, tmp_path):
+def test_a_folder_with_other_content_is_not_changed(toy, capsys, tmp_path):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("all of it")
     assert call("--out", "mine") == 1
@@ -145,11 +145,11 @@ def test_an_unknown_paper_is_reported(capsys):
     assert "there is no paper 'spaa' to reproduce. Did you mean 'spa'?" in capsys.readouterr().err
 
 
-def test_times_in_words():
+def test_durations_are_printed_in_words():
     assert [lasting(s) for s in (4.2, 100, 3000, 11000)] == ["4 s", "2 min", "50 min", "3 h 3 min"]
 
 
-def test_a_report_that_finds_no_room_is_written_to_a_second_place(toy, monkeypatch, capsys, tmp_path):
+def test_a_report_on_a_full_disk_is_written_to_the_user_data_folder(toy, monkeypatch, capsys, tmp_path):
     full, data = tmp_path / "toy-001", tmp_path / "data"
     sync = output.sync
 
@@ -172,7 +172,7 @@ def test_a_report_that_finds_no_room_is_written_to_a_second_place(toy, monkeypat
     assert call("--out", "toy-001") == 0 and toy.ran == [] and (full / "results.json").is_file()
 
 
-def test_runs_that_find_no_room_end_it_and_those_before_are_kept(toy, monkeypatch, capsys):
+def test_a_full_disk_ends_the_reproduction_and_earlier_runs_are_kept(toy, monkeypatch, capsys):
     sync, room = os.fsync, [None] * 5  # the first line and its folder, and three runs
 
     def full(file):

@@ -31,7 +31,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_document_is_run_and_recorded(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert (
         main(
             [
@@ -59,7 +59,7 @@ def test_a_document(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "5"]) == 0 and (here / "small-002").is_dir()
 
 
-def test_warnings_of_the_check_are_printed_and_stop_no_run(
+def test_warnings_of_the_check_are_printed_and_do_not_prevent_the_run(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     lonely, x = dd.Model("lonely"), dd.Axis("x", 0, 10, 11)
@@ -72,7 +72,7 @@ def test_warnings_of_the_check_are_printed_and_stop_no_run(
     assert lines[-1] == "deodar run: warning: 1 more; type: deodar check lonely.json"
 
 
-def test_settings(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_set_step_parameters_sweep_and_format(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = [
         "run",
         "small.json",
@@ -98,7 +98,7 @@ def test_settings(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert dd.load(here / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
 
 
-def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_record_is_repeated_and_compared(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "20", "--every", "5", "--out", "first"]) == 0
     assert main(["run", "first", "--out", "second"]) == 0
     assert "same bits" in capsys.readouterr().out
@@ -126,7 +126,7 @@ def test_a_record_again(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["small.json", "--duration", "5", "--out", "a/b"], 1, "does not exist"),
     ],
 )
-def test_bad_calls(
+def test_invalid_calls_of_run_are_errors_and_write_nothing(
     here: Path, arguments: list[str], status: int, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = sorted(here.iterdir())
@@ -147,7 +147,7 @@ def test_force_replaces_only_what_a_run_wrote(here: Path, capsys: pytest.Capture
     assert main([*call, "--force"]) == 0 and (here / "out" / "notes.txt").read_text() == "mine"
 
 
-def test_ctrl_c_writes_what_was_recorded(
+def test_ctrl_c_writes_the_record_so_far(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     chunk, calls = Run._chunk, []
@@ -181,7 +181,7 @@ def test_ctrl_c_writes_what_was_recorded(
     )
 
 
-def test_a_live_run_keeps_to_the_wall_and_prints_its_meter(
+def test_a_live_run_follows_the_wall_clock_and_prints_its_meter(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     began = time.perf_counter()
@@ -218,7 +218,7 @@ def test_ctrl_c_ends_a_live_run_with_its_meter(
     assert meter["complete"] is False and 0 < meter["steps"] < 1000000 and "stopped at" in said.err
 
 
-def test_the_cost_of_elements(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_cost_prints_the_time_of_each_element(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--cost", "--duration", "10", "--json"]) == 0
     cost = json.loads(capsys.readouterr().out)["cost"]
     assert {"u", "n", "s"} <= {row["path"] for row in cost["elements"]} and cost["step_us"] > 0
@@ -237,7 +237,7 @@ def test_the_cost_of_elements(here: Path, capsys: pytest.CaptureFixture[str]) ->
         (["--live", "--duration", "10", "--longest-step", "0.1"], 1, "not below the planned step"),
     ],
 )
-def test_what_a_live_run_cannot_do(
+def test_options_that_a_live_run_does_not_have_are_errors(
     here: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], status: int, says: str
 ) -> None:
     try:
@@ -248,7 +248,7 @@ def test_what_a_live_run_cannot_do(
 
 
 @pytest.mark.parametrize(("answer", "status"), [("y\n", 0), ("no\n", 1), ("", 1)])
-def test_a_very_long_run_is_asked_about(
+def test_a_very_long_run_asks_for_confirmation(
     here: Path, answer: str, status: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     class Keyboard(io.StringIO):
@@ -318,7 +318,7 @@ def test_a_very_long_record_is_not_repeated_without_yes(
     assert "same bits" in told.out and "deodar run: 40 steps of dt = 1 take about" in told.err
 
 
-def test_a_wall_time_in_words() -> None:
+def test_an_estimated_duration_is_printed_in_words() -> None:
     seconds = [3.2, 90, 7200, 86400 * 3.25, 86400 * 365 * 4000]
     assert [_long.duration(s) for s in seconds] == [
         "3 seconds",
@@ -329,9 +329,7 @@ def test_a_wall_time_in_words() -> None:
     ]
 
 
-def test_a_point_of_a_sweep_that_diverges_is_said_once(
-    here: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_diverged_point_of_a_sweep_is_reported_once(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     made = model()
     made["u"]["activation"] >> made.add(dd.Gain(0.0, name="g")) >> made["u"]
     dd.save(made, "loop.json")

@@ -20,7 +20,7 @@ def bill() -> dict:
     return _sbom.bill()
 
 
-def test_it_is_printed_as_cyclonedx(capsys: pytest.CaptureFixture[str]) -> None:
+def test_doctor_prints_the_bill_of_materials_as_cyclonedx(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--sbom"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert (told["bomFormat"], told["specVersion"], told["version"]) == ("CycloneDX", "1.5", 1)
@@ -50,7 +50,7 @@ def test_references_are_unique_and_lead_to_components(bill: dict) -> None:
     assert {to for entry in bill["dependencies"] for to in entry["dependsOn"]} <= set(known)
 
 
-def test_it_lists_the_direct_and_the_indirect_requirements_of_deodar(bill: dict) -> None:
+def test_the_bill_of_materials_lists_direct_and_indirect_requirements(bill: dict) -> None:
     found = {
         c["purl"].split("/")[1].split("@")[0]: c
         for c in bill["components"]
@@ -71,7 +71,7 @@ def test_it_lists_the_direct_and_the_indirect_requirements_of_deodar(bill: dict)
     assert not unknown, f"no licence is known of {unknown}"
 
 
-def test_it_holds_the_libraries_of_the_page(bill: dict) -> None:
+def test_the_bill_of_materials_lists_the_libraries_of_the_page(bill: dict) -> None:
     page = {c["name"]: c for c in bill["components"] if c["purl"].startswith("pkg:npm/")}
     text = (app.STATIC / "licences.txt").read_text(encoding="utf-8")
     assert {"react", "@mantine/core", "katex"} <= set(page)
@@ -81,6 +81,8 @@ def test_it_holds_the_libraries_of_the_page(bill: dict) -> None:
     assert page["@mantine/core"]["purl"].startswith("pkg:npm/%40mantine/core@")
 
 
-def test_without_the_page_there_are_no_libraries_of_it(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
+def test_without_the_page_the_bill_of_materials_lists_no_libraries_of_it(
+    monkeypatch: pytest.MonkeyPatch, tmp_path
+) -> None:
     monkeypatch.setattr(_sbom, "licences", lambda: tmp_path / "licences.txt")
     assert not [c for c in _sbom.bill()["components"] if c["purl"].startswith("pkg:npm/")]

@@ -48,7 +48,7 @@ def start(folder: Path, *words: str) -> tuple[subprocess.Popen[str], str]:
     return process, process.stdout.readline().split()[-1]
 
 
-def test_it_prints_an_address_answers_there_and_ends_with_ctrl_c(tmp_path: Path) -> None:
+def test_the_studio_prints_its_address_responds_and_ends_with_ctrl_c(tmp_path: Path) -> None:
     process, address = start(tmp_path)
     try:
         there = urlsplit(address)
@@ -73,7 +73,7 @@ def test_a_file_is_opened_by_a_relative_path_and_through_a_link(tmp_path: Path) 
             process.communicate(timeout=600)
 
 
-def test_it_may_be_started_without_a_token(tmp_path: Path) -> None:
+def test_no_token_starts_the_studio_without_a_token(tmp_path: Path) -> None:
     process, address = start(tmp_path, "--no-token")
     try:
         assert urlsplit(address).query == "" and b"<title>" in fetch(address)[1]
@@ -104,7 +104,9 @@ def opened_at(
     return said
 
 
-def test_it_opens_the_browser_once_it_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_browser_is_opened_when_the_studio_responds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     opened: list[str] = []
     for browser in (True, False):
         assert opened_at("http://here/", browser, tmp_path, monkeypatch, opened.append) == ["http://here/"]
@@ -130,7 +132,7 @@ def test_the_token_is_not_in_the_command_line_of_the_browser(
     assert len(files) == 1 and list(tmp_path.iterdir()) == []
 
 
-def test_without_room_for_a_temporary_file_no_browser_is_opened(
+def test_without_space_for_a_temporary_file_no_browser_is_opened(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     opened: list[str] = []
@@ -141,7 +143,7 @@ def test_without_room_for_a_temporary_file_no_browser_is_opened(
     assert opened == [] and "the browser is not opened" in caplog.text
 
 
-def test_the_file_that_leads_to_the_studio_is_removed_when_the_studio_is_terminated(tmp_path: Path) -> None:
+def test_the_redirect_file_is_removed_when_the_studio_is_terminated(tmp_path: Path) -> None:
     """A script plays the browser: it writes the argument that it was started with, and the content of the
     file.
     """
@@ -180,7 +182,9 @@ def test_a_taken_port_is_reported(
 
 
 @pytest.mark.parametrize("words", [["--port", "70000"], ["--port", "x"], ["gone/x.json"]])
-def test_wrong_calls_end_with_2(words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_invalid_calls_end_with_status_2(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit) as stopped:
         main(["studio", "--no-browser", *words])

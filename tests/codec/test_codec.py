@@ -54,7 +54,7 @@ def test_numpy_values_are_written_as_numbers_and_lists() -> None:
     assert codec.line(data) == '{"n": 3, "x": 0.5, "a": [[0.0, 1.0], [2.0, 3.0]], "t": [1, 2]}'
 
 
-def test_a_value_without_a_form_is_an_error_unless_one_is_given() -> None:
+def test_a_value_without_a_json_form_is_an_error_unless_a_function_converts_it() -> None:
     with pytest.raises(TypeError, match="object has no form in JSON"):
         codec.text({"x": object()})
     assert codec.line([Path("a")], other=str) == '["a"]'
@@ -76,7 +76,7 @@ def test_keys_keep_their_order_unless_they_are_sorted() -> None:
     assert codec.line({"b": 1, "a": 2}, sort=True) == '{"a": 2, "b": 1}'
 
 
-def test_doubled_keys_are_all_reported() -> None:
+def test_all_duplicate_keys_are_reported() -> None:
     with pytest.raises(DocumentError) as caught:
         codec.read('{"a": {"x": 1, "x": 2}, "a": {"y": 1, "y": 1, "y": 3}}')
     assert [(p.where, p.what) for p in caught.value.problems] == [
@@ -93,19 +93,19 @@ def test_a_mistake_is_reported_with_line_and_column() -> None:
 @pytest.mark.parametrize(
     "read", [codec.read, lambda text: codec.foreign(text.encode())], ids=["read", "foreign"]
 )
-def test_nesting_is_bounded(read: object) -> None:
+def test_the_depth_of_nesting_is_limited(read: object) -> None:
     assert callable(read)
     read("[" * codec.DEEPEST + "]" * codec.DEEPEST)
     with pytest.raises(DocumentError, match="nested deeper than 64 levels"):
         read("[" * (codec.DEEPEST + 1) + "]" * (codec.DEEPEST + 1))
 
 
-def test_text_that_is_nested_too_deeply_is_a_value_error_in_own_files() -> None:
+def test_a_file_of_deodar_that_is_nested_too_deeply_is_a_value_error() -> None:
     with pytest.raises(ValueError, match="nested too deeply"):
         codec.parse("[" * 200_000)
 
 
-def test_files_of_other_tools_may_break_the_rules() -> None:
+def test_files_of_other_tools_may_break_the_json_standard() -> None:
     data = codec.foreign(b'\xef\xbb\xbf{"a": "x\ty", "b": NaN, "a": 2}')
     assert data["a"] == 2 and math.isnan(data["b"])
     assert [found.values for found in codec.repeated(data)] == [("x\ty", 2)]

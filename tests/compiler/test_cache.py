@@ -37,7 +37,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "programs"
 
 
-def test_a_second_process_finds_the_program(place: Path) -> None:
+def test_a_second_process_reads_the_program_from_the_cache(place: Path) -> None:
     first = executable(pair())
     first.chunk(())
     assert first.compiled == first.traced == 3 and len(list(place.iterdir())) == 3
@@ -50,7 +50,7 @@ def test_a_second_process_finds_the_program(place: Path) -> None:
     assert np.array_equal(fresh.read("v.activation"), kept.read("v.activation"))
 
 
-def test_readers_that_look_alike_are_not_confused(place: Path) -> None:
+def test_programs_that_read_different_elements_are_distinguished(place: Path) -> None:
     s = dd.Session(pair())
     assert (s.read("u.activation") == -1).all() and (s.read("v.activation") == -2).all()
     again = dd.Session(pair())
@@ -65,7 +65,7 @@ def test_damaged_files_are_replaced(place: Path) -> None:
     assert executable(pair()).compiled == 0
 
 
-def test_it_can_be_switched_off_and_a_folder_that_cannot_be_made_does_no_harm(
+def test_the_cache_can_be_off_and_an_unusable_folder_is_ignored(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("DEODAR_CACHE", "off")
@@ -75,7 +75,9 @@ def test_it_can_be_switched_off_and_a_folder_that_cannot_be_made_does_no_harm(
     assert executable(pair()).compiled == 2
 
 
-def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_oldest_programs_are_removed_from_a_full_cache(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     executable(pair())
     old = sorted(place.iterdir())
     for path in old:
@@ -87,7 +89,7 @@ def test_the_oldest_go_when_there_are_too_many(place: Path, monkeypatch: pytest.
     assert not set(old) <= set(place.iterdir())
 
 
-def test_it_is_in_the_cache_folder_of_the_user() -> None:
+def test_the_cache_is_in_the_cache_folder_of_the_user() -> None:
     code = "from deodar.compiler.cache import folder; print(folder())"
     environment = {k: v for k, v in os.environ.items() if k != "DEODAR_CACHE"} | {
         "XDG_CACHE_HOME": "/somewhere/else"

@@ -20,7 +20,7 @@ def counts(model: dd.Model) -> tuple[int, int]:
     return fields, sum(1 for _ in model) - fields
 
 
-def test_sixty_fields_and_three_hundred_couplings() -> None:
+def test_a_graph_of_sixty_fields_and_three_hundred_couplings_runs() -> None:
     for model, most in (
         (graphs.line_fields(0), 2),
         (graphs.line_fields(100), 3),
@@ -30,6 +30,6 @@ def test_sixty_fields_and_three_hundred_couplings() -> None:
         assert len(plan(model.document).groups) <= most
 
 
-def test_the_largest_runs() -> None:
+def test_the_largest_graph_of_the_benchmarks_runs() -> None:
     data = dd.simulate(graphs.line_fields(100), 3)
     assert len(data.data_vars) == 60 and all(np.isfinite(v.values).all() for v in data.data_vars.values())

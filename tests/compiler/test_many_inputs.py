@@ -37,7 +37,7 @@ def entries(found: Plan) -> int:
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_rows_with_many_and_with_few_inputs_have_their_sums(precision: str) -> None:
+def test_inputs_of_rows_with_many_and_few_sources_are_summed(precision: str) -> None:
     counts = (3, 5 * COLUMNS + 7, 0, COLUMNS, 2 * COLUMNS + 1, COLUMNS + 1)
     model = inputs(*counts)
     seen = dd.simulate(model, 0, record=[f"u{n}.input" for n in range(len(counts))], precision=precision)

@@ -36,7 +36,7 @@ def within(value, expected, deviation):
     )
 
 
-def test_moments(drawn):
+def test_moments_of_the_deviates_are_those_of_a_normal_distribution(drawn):
     for z in drawn.reshape(8, -1):
         n = z.size
         within(z.mean(), 0, 1 / np.sqrt(n))
@@ -45,7 +45,7 @@ def test_moments(drawn):
         within(stats.kurtosis(z), 0, np.sqrt(24 / n))
 
 
-def test_tails_and_shape(drawn):
+def test_tails_and_distribution_of_the_deviates_are_normal(drawn):
     z = drawn.ravel()
     for level in (0.5, 1, 2, 3, 4, 4.5):
         p = 2 * stats.norm.sf(level)
@@ -79,7 +79,7 @@ def test_elements_trials_and_seeds_are_independent(drawn):
 
 
 @pytest.mark.parametrize("every", [1, 2, 5])
-def test_euler_increments_at_any_step(every):
+def test_euler_increments_have_the_variance_of_their_step(every):
     """Per step of a part: q^2 k dt / (tau^2 cell), for a field's own noise and for a source in its input."""
     dt, tau, q, steps = 0.5, 12.0, 0.7, 3000
     model = dd.Model("increments")
@@ -99,7 +99,7 @@ def test_euler_increments_at_any_step(every):
         within((increments[1:] * increments[:-1]).mean() / expected, 0, 1 / np.sqrt(increments[1:].size))
 
 
-def test_a_field_at_rest_wanders_as_theory_says():
+def test_the_variance_of_a_field_at_rest_is_that_of_theory():
     """Without interaction the activation is an Ornstein-Uhlenbeck process: variance q^2 / (2 tau) a cell, for
     small steps.
     """
@@ -132,7 +132,7 @@ ROUND = dd.Axis("x", 0, 40, 40, periodic=True)
 
 
 @pytest.mark.parametrize("axis", [SHORT, ROUND], ids=["line", "ring"])
-def test_correlated_noise(axis):
+def test_correlated_noise_has_the_stated_variance_and_correlation(axis):
     """The amplitude is the standard deviation at every point, borders included; the correlation is a
     Gaussian.
     """

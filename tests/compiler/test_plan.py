@@ -39,7 +39,7 @@ def test_elements_of_equal_structure_are_one_group() -> None:
     assert sorted(large.row) == sorted(e.id for e in ring(40).document.entries)
 
 
-def test_rows_stand_in_the_order_of_ids_and_tables_name_the_sources() -> None:
+def test_rows_are_in_the_order_of_ids_and_tables_name_their_sources() -> None:
     p = plan(ring(5).document)
     for group in p.groups:
         assert [n.id for n in group.nodes] == sorted(n.id for n in group.nodes)
@@ -54,7 +54,7 @@ def test_rows_stand_in_the_order_of_ids_and_tables_name_the_sources() -> None:
             assert named == [slot[0] for slot in sorted(node.reads[port])]
 
 
-def test_it_does_not_depend_on_the_order_of_declaration() -> None:
+def test_a_plan_does_not_depend_on_the_order_of_declaration() -> None:
     pieces = list(range(8))
     seen = []
     for seed in (0, 1):
@@ -130,7 +130,7 @@ def test_only_what_is_read_is_evaluated_for_a_record() -> None:
     assert all(isinstance(c, Call) and c.role == "output" for c in p.needed([(0, "output")]))
 
 
-def test_it_is_plain_data_without_jax_and_can_be_printed() -> None:
+def test_a_plan_is_plain_data_without_jax_and_can_be_printed() -> None:
     text = plan(ring(6).document).describe()
     assert "6 x Field" in text and "6 x Gain" in text and "advance" in text
     code = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from deodar.compiler.plans import CASES, Case, measure
 
 
-def test_every_way_of_a_case_is_measured_and_the_cheapest_by_the_model_is_chosen() -> None:
+def test_every_strategy_is_measured_and_the_one_with_the_lowest_estimate_is_chosen() -> None:
     found = list(measure(Case((160,), sigmas=(2.0,))))
     assert {m.way for m in found} == {"taps", "waves", "matrices"}
     assert [m.chosen for m in found] == [True, False, False]

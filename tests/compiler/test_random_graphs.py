@@ -306,7 +306,7 @@ def test_contractive_graphs_stay_near_the_equations(way: str, graph: Graph) -> N
 
 
 @given(graph=graphs())
-def test_double_precision_is_exact(graph: Graph) -> None:
+def test_random_graphs_in_double_precision_agree_with_numpy_to_1e_9(graph: Graph) -> None:
     """Any graph, 20 steps, to 1e-9 of its largest activation."""
     model, _ = graph.model()
     found, expected = dd.simulate(model, 20, precision="float64"), graph.plainly(20)
@@ -332,7 +332,7 @@ def test_the_output_of_a_coupling_does_not_depend_on_the_strategy(graph: Graph) 
         assert np.abs(found[path].values - exact[path].values).max() < 1e-4
 
 
-def test_waves_are_shared_where_fields_are_coupled() -> None:
+def test_spectral_transforms_are_shared_between_coupled_fields() -> None:
     """The ring of planes: one transform there and back for each field, couplings in between; with a border,
     and through a gain.
     """

@@ -47,7 +47,7 @@ def test_values_are_those_of_the_model_that_asks() -> None:
     assert np.allclose(first.read("u.activation"), -5.0) and np.allclose(second.read("u.activation"), -3.0)
 
 
-def test_a_class_of_the_same_name_written_anew_is_another_structure() -> None:
+def test_a_class_defined_again_under_the_same_name_is_another_structure() -> None:
     """A cell of a notebook that defines a kind may be edited and run again."""
 
     def ramp() -> SigmoidFunction:

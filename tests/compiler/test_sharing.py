@@ -142,6 +142,6 @@ def test_convolving_without_a_declaration_is_an_error() -> None:
 
 
 @pytest.mark.parametrize("old", ["sharing", "sees_output", "wants", "misfits", "faults", "settle", "push"])
-def test_a_class_that_sets_what_elements_no_longer_have_is_an_error(old: str) -> None:
+def test_a_class_that_overrides_a_removed_method_is_an_error(old: str) -> None:
     with pytest.raises(ModelError, match=rf"Late sets {old!r}.*dd.Element.{old} is now dd.Element"):
         type("Late", (dd.Element,), {old: True})

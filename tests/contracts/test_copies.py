@@ -97,14 +97,14 @@ def test_a_handle_is_copied_with_its_model():
         assert handle.model is other and handle.path == "example"
 
 
-def test_compiled_programs_do_not_travel(again):
+def test_copies_contain_no_compiled_programs(again):
     model = around(any_example("Field"))
     dd.simulate(model, 2, record=["example"])
     assert model.programs
     assert not again(model).programs
 
 
-def test_a_copied_model_runs_to_the_same_bits():
+def test_a_copied_model_gives_the_same_bits():
     model = around(any_example("Field"), noisy=True)
     first = record(model, 20, ["example"], seed=3)["example.activation"].values
     for name in ("deepcopy", "pickle 5"):
@@ -149,12 +149,12 @@ def foreign(tmp_path, trust):
 
 
 @pytest.mark.parametrize("trust", [False, True])
-def test_a_copy_inside_the_process_is_trusted_as_its_model_is(trust, tmp_path):
+def test_a_copy_in_the_same_process_has_the_trust_of_its_model(trust, tmp_path):
     model = foreign(tmp_path, trust)
     assert copy.copy(model).trusted is copy.deepcopy(model).trusted is trust
 
 
-def test_trust_does_not_travel_through_pickle(tmp_path):
+def test_a_pickle_contains_no_trust(tmp_path):
     other = pickle.loads(pickle.dumps(foreign(tmp_path, trust=True)))
     with pytest.raises(Untrusted, match=r"dd\.Model\(document=model\.document, trusted=True\)"):
         dd.Session(other)
@@ -163,7 +163,7 @@ def test_trust_does_not_travel_through_pickle(tmp_path):
     dd.Session(dd.Model(document=other.document, trusted=True)).step()
 
 
-def test_trust_does_not_come_back_by_undoing(tmp_path):
+def test_undo_after_unpickling_does_not_restore_trust(tmp_path):
     model = foreign(tmp_path, trust=True)
     model.remove(model.document.entries[0].path)
     assert not any(e.element.external_code() for e in model.document.entries)
@@ -173,7 +173,7 @@ def test_trust_does_not_come_back_by_undoing(tmp_path):
         dd.Session(other)
 
 
-def test_a_pickled_model_without_functions_takes_those_of_the_script():
+def test_a_pickled_model_without_functions_accepts_functions_of_the_script():
     other = pickle.loads(pickle.dumps(around(any_example("Field"))))
     other.add(KINDS["Function"].example(), group="own")
     assert other.trusted

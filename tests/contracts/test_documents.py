@@ -28,7 +28,7 @@ def test_document_to_text_to_document_is_identity(kind, tmp_path):
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
-def test_other_values_survive_too(kind, tmp_path):
+def test_values_other_than_defaults_are_saved_and_loaded(kind, tmp_path):
     """Every traced leaf with a value that is not the default."""
     model = around(any_example(kind))
     for path, value in changes(model["example"].element):
@@ -42,7 +42,7 @@ def test_other_values_survive_too(kind, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["Field", "Weights", "Project"])
-def test_a_document_from_a_file_runs_to_the_same_bits(kind, tmp_path):
+def test_a_loaded_document_gives_the_same_bits(kind, tmp_path):
     model = around(any_example(kind), noisy=True)
     dd.save(model, tmp_path / "a.json")
     back = dd.load(tmp_path / "a.json")

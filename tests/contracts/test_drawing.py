@@ -11,7 +11,7 @@ from tests.contracts.build import KINDS, PARTS, any_example, around
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
-def test_a_kind_can_be_drawn(kind: str) -> None:
+def test_every_kind_can_be_drawn(kind: str) -> None:
     element = any_example(kind)
     model = around(element)
     assert element.polarity() in ("+", "-", "±") and set(element.recurrence().values()) <= {"+", "-", "±"}

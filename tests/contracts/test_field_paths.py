@@ -25,14 +25,14 @@ def model() -> dd.Model:
     return model
 
 
-def test_a_record(model: dd.Model) -> None:
+def test_record_by_the_path_of_a_field_contains_its_activation(model: dd.Model) -> None:
     data = dd.simulate(model, 3, record=[model["g.u"], "s", "n"])
     assert list(data.data_vars) == ["g.u.activation", "s.output", "n.activation"]
     assert about(data)["record"] == ["g.u.activation", "s.output", "n.activation"]
     assert dd.simulate(model, 3, record="g.u").equals(dd.simulate(model, 3, record="g.u.activation"))
 
 
-def test_a_session(model: dd.Model) -> None:
+def test_a_session_reads_the_activation_by_the_path_of_a_field(model: dd.Model) -> None:
     session = dd.Session(model)
     session.step(3)
     for path in ("g.u", model["g.u"]):
@@ -43,13 +43,15 @@ def test_a_session(model: dd.Model) -> None:
 @pytest.mark.parametrize(
     "run", [dd.run_trial, lambda *a, **k: dd.run_batch(*a, trials=[0], **k)[0]], ids=["trial", "batch"]
 )
-def test_trials(model: dd.Model, run) -> None:
+def test_trials_by_the_path_of_a_field_read_its_activation(model: dd.Model, run) -> None:
     course = run(model, 3, watch=["g.u", "g.u.activation"], measures=[dd.Measure("end", "g.u", "min")])
     np.testing.assert_array_equal(course.values["g.u"], course.values["g.u.activation"])
     assert course.measures["end"] == course.values["g.u"][-1].min()
 
 
-def test_the_command_line(model: dd.Model, tmp_path, monkeypatch) -> None:
+def test_options_of_the_command_line_accept_the_path_of_a_field(
+    model: dd.Model, tmp_path, monkeypatch
+) -> None:
     from deodar import cli
 
     monkeypatch.chdir(tmp_path)
@@ -61,5 +63,5 @@ def test_the_command_line(model: dd.Model, tmp_path, monkeypatch) -> None:
     assert list(dd.load_record(next((tmp_path / "out").glob("*.zarr"))).data_vars) == ["g.u.activation"]
 
 
-def test_a_connection_takes_the_output(model: dd.Model) -> None:
+def test_a_connection_by_the_path_of_a_field_reads_its_output(model: dd.Model) -> None:
     assert {c.source_port for c in model.document.connections} == {"output"}

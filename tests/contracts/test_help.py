@@ -35,7 +35,7 @@ def shown(cls: type[Any]) -> str:
     return pydoc.plain(pydoc.render_doc(cls))
 
 
-def test_a_signature_is_written_as_one_types_it() -> None:
+def test_a_signature_is_printed_as_valid_python() -> None:
     text = str(inspect.signature(dd.Field))
     assert text.startswith(
         "(name: str = '', axes: Sequence[Axis] = (), tau: float = 20.0, resting_level: float = -5.0, sigmoid:"
@@ -102,13 +102,13 @@ def test_methods_of_the_contract_are_neither_in_help_nor_in_completion(cls: type
     assert not re.search(r"^ \|  (wants|faults|misfits|advance|__init__|__new__)\(", shown(cls), re.MULTILINE)
 
 
-def test_the_base_classes_show_their_methods_to_those_who_write_an_element() -> None:
+def test_help_of_the_base_classes_shows_the_methods_of_the_contract() -> None:
     assert {"input_axes", "advance", "validate_axes"} <= set(dir(Element))
     text = shown(Element)
     assert "advance(self, at: 'Setting'" in text
 
 
-def test_a_kind_of_ones_own_without_a_docstring_has_help_too() -> None:
+def test_a_custom_kind_without_a_docstring_has_generated_help() -> None:
     @dataclass(frozen=True)
     class Mine(Part):
         strength: Annotated[float, Live("activation", lower=0, upper=3, meaning="how strong it is")] = 1.0

@@ -19,5 +19,5 @@ def test_levels_name_ports_and_numbers(kind: str) -> None:
         assert set(levels.values()) <= numbers
 
 
-def test_a_field_says_where_its_threshold_and_its_resting_level_are() -> None:
+def test_levels_of_a_field_are_its_threshold_and_its_resting_level() -> None:
     assert set(KINDS["Field"].levels["activation"]) == {"threshold", "resting level"}

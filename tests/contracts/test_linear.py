@@ -38,7 +38,7 @@ def three(kind: str) -> tuple[dd.Model, Axes]:
 
 
 @pytest.mark.parametrize("kind", LINEAR)
-def test_superposition(kind):
+def test_linear_couplings_superpose(kind):
     model, _ = three(kind)
     data = record(model, 3, ["of a", "of b", "of both"], precision="float64", dt=1.0)
     a, b, both = (data[f"{name}.output"].values for name in ("of a", "of b", "of both"))
@@ -52,5 +52,5 @@ def test_some_couplings_are_linear_and_some_are_not():
 
 
 @pytest.mark.parametrize("how", ["max", "min"])
-def test_a_projection_that_takes_an_extreme_does_not_say_it_is_linear(how):
+def test_a_projection_by_maximum_or_minimum_is_not_declared_linear(how):
     assert not dd.Project([], how).linear and dd.Project([], "mean").linear

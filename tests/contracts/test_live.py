@@ -48,7 +48,7 @@ def read(s: dd.Session, ports: list[str]) -> list[np.ndarray]:
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
-def test_live_parameters(kind):
+def test_live_parameters_change_without_recompiling(kind):
     model = around(any_example(kind))
     element = model["example"].element
     neutral = resting(element)

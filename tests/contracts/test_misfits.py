@@ -34,7 +34,7 @@ OUT_OF = [
 
 
 @pytest.mark.parametrize(("kind", "port"), INTO)
-def test_a_second_source_that_does_not_fit(kind, port):
+def test_a_second_source_with_other_axes_is_a_problem(kind, port):
     model = around(any_example(kind))
     axes = node(model).ins[port]
     bad = moved(axes)
@@ -45,7 +45,7 @@ def test_a_second_source_that_does_not_fit(kind, port):
 
 
 @pytest.mark.parametrize(("kind", "port"), OUT_OF)
-def test_a_target_that_does_not_fit(kind, port):
+def test_a_target_with_other_axes_is_a_problem(kind, port):
     model = around(any_example(kind))
     axes = node(model).outs[port]
     bad = moved(axes)
@@ -78,14 +78,14 @@ def misfit(kind: str, port: str) -> tuple[dd.Model, list[dd.Axis]]:
 ONLY = [(kind, port) for kind, port in INTO if check(misfit(kind, port)[0].document)]
 
 
-def test_elements_with_axes_of_their_own_refuse_others():
+def test_elements_that_declare_their_axes_are_among_the_tested_kinds():
     assert {"Field", "Attractor", "PeakPosition", "Weighting", "Project", "ColorSpace"} <= {
         kind for kind, _ in ONLY
     }
 
 
 @pytest.mark.parametrize(("kind", "port"), ONLY)
-def test_an_only_source_that_does_not_fit(kind, port):
+def test_an_only_source_with_other_axes_is_a_problem(kind, port):
     """Also where the port takes what comes, and the misfit shows in the parameters."""
     model, bad = misfit(kind, port)
     said = message(model)

@@ -26,7 +26,7 @@ SPACE = {"space": {"lower": 0, "upper": 100, "samples": 101}}
 
 
 @pytest.mark.parametrize(("kind", "name"), AXES)
-def test_the_default_of_axes_is_none_at_all_or_a_node(kind: str, name: str) -> None:
+def test_axes_have_no_default_or_default_to_a_node(kind: str, name: str) -> None:
     default = AXES[kind, name].default
     assert isinstance(default, Needed) or default in ((), None), (
         f"{kind} invents the axis {default}: declare it as needed(...)"
@@ -37,13 +37,13 @@ INFERRED = [("Attractor", "axis"), ("PeakPosition", "axis")]
 """Axes that are taken from the source where they are not stated."""
 
 
-def test_the_axes_that_once_had_a_default_are_needed_or_inferred() -> None:
+def test_axes_that_had_a_default_before_are_required_or_inferred() -> None:
     assert {*NEEDED, *INFERRED} == {(kind, name) for kind, old in DEFAULTS_OF_1.items() for name in old}
     assert all(AXES[place].optional and AXES[place].default is None for place in INFERRED)
 
 
 @pytest.mark.parametrize(("kind", "name"), NEEDED)
-def test_a_forgotten_axis_is_an_error_that_says_what_to_write(kind: str, name: str) -> None:
+def test_a_missing_axis_is_an_error_that_states_what_to_write(kind: str, name: str) -> None:
     for given in ({}, {name: None}):
         with pytest.raises(ParameterError) as caught:
             KINDS[kind](**given)

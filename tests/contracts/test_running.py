@@ -102,7 +102,7 @@ def test_outputs_that_depend_on_inputs_of_the_same_step_are_declared(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_an_element_with_a_step_of_its_own(kind):
+def test_every_element_runs_at_a_step_of_its_own(kind):
     """Every part may run at a multiple of the step: its state then changes at that multiple only."""
     element = any_example(kind)
     model = around(element, every=3)

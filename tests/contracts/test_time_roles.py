@@ -64,7 +64,7 @@ def test_a_declaration_in_units_of_time_without_a_role_is_refused() -> None:
         Slow()
 
 
-def test_the_limits_of_the_step() -> None:
+def test_limits_of_the_step_follow_from_the_roles() -> None:
     assert {kind: found for kind, found in LIMITED.items() if found} == {
         "AdaptiveWeights": {"rate": "rate"},
         "Attractor": {"tau": "time scale"},
@@ -133,7 +133,7 @@ def test_a_speed_and_a_rate_of_0_do_not_limit_the_step() -> None:
     assert [limit.longest for limit in step_limits(Hebbian([x], rate=0.0, decay=0.0))] == [math.inf, math.inf]
 
 
-def test_a_memory_trace_is_guarded_in_both_directions() -> None:
+def test_the_step_is_limited_by_both_time_constants_of_a_memory_trace() -> None:
     for given in ({"tau_build": 0.4}, {"tau_decay": 0.4}):
         model = dd.Model("m")
         model.add(MemoryTrace("p", **given))
@@ -144,7 +144,7 @@ def test_a_memory_trace_is_guarded_in_both_directions() -> None:
             dd.simulate(model, 10, record="p.output")
 
 
-def test_a_live_rate_that_the_step_is_too_long_for_is_refused() -> None:
+def test_a_live_rate_that_is_too_high_for_the_step_is_refused() -> None:
     x = dd.Axis("x", 0, 10, samples=11)
     model = dd.Model("m")
     u = model.add(dd.Field("u", [x]))

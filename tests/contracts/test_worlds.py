@@ -33,7 +33,7 @@ def test_every_sensor_reads_its_axes(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
-def test_some_sensor_of_the_example_shows_something(kind):
+def test_a_sensor_of_the_example_has_a_varying_reading(kind):
     world = WORLDS[kind].example()
     world.reset(3)
     assert any(np.ptp(world.sense(s, example_axes(kind, s), 0.0)) > 0 for s in world.sensors)
@@ -71,7 +71,7 @@ def test_a_sensor_in_a_model_has_the_reading_of_the_world(kind):
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", WORLDS)
-def test_a_run_is_the_same_for_any_chunks_and_after_a_reset(kind, precision):
+def test_a_run_is_independent_of_chunks_and_equal_after_a_reset(kind, precision):
     """The world sets the times of the exchange: neither chunks nor reading the model change it."""
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
@@ -93,7 +93,7 @@ def test_a_run_is_the_same_for_any_chunks_and_after_a_reset(kind, precision):
 
 @pytest.mark.parametrize(("precision", "tolerance"), [("float32", 1e-4), ("float64", 1e-10)])
 @pytest.mark.parametrize("kind", [kind for kind, cls in WORLDS.items() if issubclass(cls, PureWorld)])
-def test_the_same_run_inside_the_step_and_beside_it(kind, precision, tolerance):
+def test_the_run_inside_the_step_equals_that_outside_of_it(kind, precision, tolerance):
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
     inside, beside = WORLDS[kind].example(), WORLDS[kind].example()
@@ -110,7 +110,7 @@ def test_the_same_run_inside_the_step_and_beside_it(kind, precision, tolerance):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
-def test_back_to_a_snapshot_inside_a_period(kind):
+def test_a_snapshot_inside_a_period_is_restored(kind):
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries if isinstance(e.element, Sensor)]
     session = dd.Session(model, dt=dt, world=WORLDS[kind].example())
@@ -130,7 +130,7 @@ def test_back_to_a_snapshot_inside_a_period(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
-def test_a_record_can_keep_a_description(kind):
+def test_the_description_of_a_world_is_json(kind):
     said = WORLDS[kind].example().describe()
     assert said["world"] == kind and json.loads(json.dumps(said)) == said
 

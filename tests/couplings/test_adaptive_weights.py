@@ -27,7 +27,7 @@ def learned(gated=False, apart=False, dt=0.5):
 
 
 @pytest.mark.parametrize(("gated", "apart"), [(False, False), (True, False), (False, True), (True, True)])
-def test_the_rule(gated, apart):
+def test_weights_follow_the_learning_rule(gated, apart):
     w, out = np.full((4, 3), 0.2), []
     for step in range(11):
         out.append(X.step * PRE @ w)

@@ -39,7 +39,7 @@ def counted(pixels, palest=0.3, darkest=0.15, bins=36):
 PIXELS = np.random.default_rng(4).random((12, 8, 3)) * np.random.default_rng(5).choice([0.2, 1.0], (12, 8, 1))
 
 
-def test_shares_of_hues_as_counted():
+def test_the_histogram_is_the_share_of_pixels_of_each_hue():
     np.testing.assert_allclose(
         shown(PIXELS, ColorHistogram([COLUMNS, HUE], name="h")), counted(PIXELS), atol=1e-12
     )
@@ -47,7 +47,7 @@ def test_shares_of_hues_as_counted():
     np.testing.assert_allclose(shown(PIXELS, strict), counted(PIXELS, 0.7, 0.6), atol=1e-12)
 
 
-def test_either_side_of_the_picture_may_be_kept():
+def test_columns_or_rows_of_the_picture_may_be_kept():
     y = shown(PIXELS.transpose(1, 0, 2), ColorHistogram([COLUMNS, HUE], name="h"), (ROWS, COLUMNS))
     np.testing.assert_allclose(y, counted(PIXELS), atol=1e-12)
 
@@ -76,7 +76,7 @@ def test_grey_and_dark_pixels_have_no_hue():
         assert not shown(pixels, ColorHistogram([COLUMNS, HUE], palest=0.0, name="h")).any()
 
 
-def test_where_a_colour_is_and_which_colours_there_are():
+def test_projections_give_the_position_and_the_hues_of_blocks():
     """A red block left and a blue one right: read out over columns and over hues."""
     pixels = np.full((12, 8, 3), 0.6)
     pixels[2:4, 3:7], pixels[8:11, 1:] = (0.9, 0.1, 0.1), (0.1, 0.1, 0.9)

@@ -150,7 +150,7 @@ def run():
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_every_coupling(run, name):
+def test_every_coupling_agrees_with_the_oracle(run, name):
     data, expected = run
     v, reference = expected[name]
     wrong = close(data[f"{name}.output"].values, reference[::EVERY], name)
@@ -159,7 +159,7 @@ def test_every_coupling(run, name):
     assert not wrong
 
 
-def test_couplings_with_two_inputs_and_with_memory():
+def test_couplings_with_two_inputs_or_memory_agree_with_the_oracle():
     model, u, g = drive()
     f = dd.GaussianStimulus("f", [X], center=8, sigma=3, amplitude=1.3)
     plane = dd.GaussianStimulus("plane", [X, PHI], center=[8, 90], sigma=[3, 60], amplitude=1.3)
@@ -185,7 +185,7 @@ def test_couplings_with_two_inputs_and_with_memory():
     assert not wrong
 
 
-def test_peak_position_on_a_line_and_on_a_ring():
+def test_peak_position_agrees_with_the_oracle_on_a_line_and_a_ring():
     model, u, g = drive()
     # half of the most, so that nothing is read out of the homogeneous activity before the first peak: it has
     # no direction
@@ -203,7 +203,7 @@ def test_peak_position_on_a_line_and_on_a_ring():
         np.testing.assert_allclose(data[f"{read.name}.strength"].values, reference[:, 1], rtol=1e-9)
 
 
-def test_color_space_of_a_picture():
+def test_the_color_space_of_a_picture_agrees_with_the_oracle():
     from deodar.elements.sensor import Sensor
     from deodar.worlds._base import Signal, World
 

@@ -33,19 +33,19 @@ def late(delay, dt, slots=100, duration=60.0, precision="float64", smooth=False,
     ("delay", "dt", "slots"),
     [(1.0, 1.0, 1), (7.0, 1.0, 7), (7.0, 1.0, 100), (3.0, 0.1, 30), (0.3, 0.1, 100), (25.0, 0.5, 50)],
 )
-def test_a_whole_number_of_steps_is_exact(delay, dt, slots, precision):
+def test_a_delay_of_a_whole_number_of_steps_is_exact(delay, dt, slots, precision):
     _, s, y = late(delay, dt, slots, precision=precision, initial=0.7)
     n = round(delay / dt)
     np.testing.assert_array_equal(y[n:], s[:-n])
     assert (y[:n] == np.float32(0.7) if precision == "float32" else y[:n] == 0.7).all()
 
 
-def test_between_two_steps_lies_a_straight_line():
+def test_a_delay_between_two_steps_is_interpolated_linearly():
     _, s, y = late(2.25, 1.0)
     np.testing.assert_allclose(y[3:], 0.75 * s[1:-2] + 0.25 * s[:-3], atol=1e-12)
 
 
-def test_fewer_slots_than_steps_are_a_coarser_line():
+def test_with_fewer_slots_than_steps_the_interpolation_is_coarser():
     """Moments that lie h apart, of a sine of frequency w: never further from it than (h w)^2 / 8."""
     for slots in (4, 8, 16):
         t, _, y = late(16.0, 0.25, slots, smooth=True)
@@ -54,7 +54,7 @@ def test_fewer_slots_than_steps_are_a_coarser_line():
         assert wrong < 1.1 * ((16 / slots) ** 2 + 1) / 81 / 8
 
 
-def test_shorter_than_a_step_it_is_the_register():
+def test_a_delay_shorter_than_a_step_equals_the_register():
     model = dd.Model("register", dt=1.0)
     u = model.add(dd.Field("u", [X], tau=5, noise=0.5))
     for held in (Delay([X], 0.3, name="register"), DelayLine("line", [X], 0.01, 3, 0.3)):
@@ -63,7 +63,7 @@ def test_shorter_than_a_step_it_is_the_register():
     np.testing.assert_array_equal(data["register.output"].values, data["line.output"].values)
 
 
-def test_a_delay_made_longer_while_it_runs():
+def test_a_delay_can_be_increased_during_a_run():
     model = dd.Model("longer", dt=1.0)
     model.add(TimeSeries("s", [], [0, 1000], [0.0, 1000.0])) >> model.add(DelayLine("line", [], 5.0, 50))
     s = dd.Session(model, precision="float64")

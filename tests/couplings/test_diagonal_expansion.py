@@ -11,7 +11,7 @@ from deodar.elements.pattern import Pattern
 X, Y, Z = dd.Axis("x", 0, 6, 4), dd.Axis("y", 10, 14, 3), dd.Axis("z", 10, 20, 6)
 
 
-def test_each_place_goes_to_its_diagonal():
+def test_each_position_is_expanded_along_its_diagonal():
     model = dd.Model("diagonals")
     model.add(Pattern("in", [Z], np.arange(6.0) ** 2)) >> DiagonalExpansion([X, Y], name="out")
     found = dd.simulate(model, 1, every=1, record=["out.output"], precision="float64")["out.output"].values[0]

@@ -12,7 +12,7 @@ X, Y = dd.Axis("x", 0, 6, 4), dd.Axis("y", 10, 14, 3)
 VALUES = np.arange(12.0).reshape(4, 3) ** 2
 
 
-def test_each_diagonal_is_added_up():
+def test_each_diagonal_is_summed():
     model = dd.Model("diagonals")
     model.add(Pattern("in", [X, Y], VALUES)) >> DiagonalSum([dd.Axis("z", 10, 20, 6)], name="out")
     found = dd.simulate(model, 1, every=1, record=["out.output"], precision="float64")["out.output"].values[0]

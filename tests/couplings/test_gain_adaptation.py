@@ -52,13 +52,13 @@ def test_an_initial_error_decays_by_the_closed_form_at_any_sampling():
     assert abs(error[-1]) < wanted / 2
 
 
-def test_outside_the_window_gains_stay_to_the_bit():
+def test_gains_outside_of_the_window_keep_their_bits():
     start = np.random.default_rng(3).standard_normal(40)
     assert np.array_equal(end(model(start=start, gate=[(1000, 1001)]), 50, "g.gains"), start)
     assert not np.array_equal(end(model(start=start, gate=[(10, 11)]), 50, "g.gains"), start)
 
 
-def test_without_input_there_is_no_value():
+def test_the_value_without_input_is_zero():
     m = model()
     m.set("f.amplitude", 0.0)
     assert end(m, 1, "g.value") == 0

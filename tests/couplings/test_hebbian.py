@@ -52,7 +52,7 @@ def plain(rule, w, pre, post, steps, rate, decay, most, threshold=0.5, dt=0.5):
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_the_rules_step_by_step(rule):
+def test_each_rule_agrees_with_numpy_step_by_step(rule):
     m = model(rule, rate=0.1, initial=0.2)
     for decay, saturation in ((0.0, 0.0), (0.03, 0.0), (0.01, 0.45)):
         m.set({"w.decay": decay, "w.saturation": saturation})
@@ -62,7 +62,7 @@ def test_the_rules_step_by_step(rule):
         assert (found != 0.2).any()
 
 
-def test_courses_and_fixed_points_in_closed_form():
+def test_learning_agrees_with_its_closed_form_and_fixed_points():
     n, dt, rate = 200, 0.5, 0.02
     x, z = np.array([0.8]), np.array([0.7])
     one = {
@@ -101,7 +101,7 @@ def test_oja_from_its_own_output_ends_at_unit_length():
     np.testing.assert_allclose(found, seen, atol=1e-6)
 
 
-def test_between_arrays_of_any_dimension():
+def test_weights_connect_arrays_of_any_dimension():
     y = dd.Axis("y", 0, 2, 5)
     rng = np.random.default_rng(1)
     for pre_axes, post_axes in (([], []), ([], [Z]), ([X], []), ([X, y], [dd.Axis("p", 0, 1, 2), Z])):
@@ -120,7 +120,7 @@ def test_between_arrays_of_any_dimension():
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_closed_gates_and_silent_sides_leave_the_bits(rule):
+def test_weights_keep_their_bits_while_the_gate_is_closed_or_a_side_is_silent(rule):
     start = np.random.default_rng(2).standard_normal((3, 4))
     m = model(rule, rate=0.3, decay=0.2, start=start, gate=[(10, 12)])
     wanted = plain(rule, start, PRE, POST, 4, 0.3, 0.2, np.inf)
@@ -139,7 +139,7 @@ def test_closed_gates_and_silent_sides_leave_the_bits(rule):
         m.set(path, 1.0)
 
 
-def test_a_source_without_an_answer_unlearns_nothing_and_is_read():
+def test_weights_of_a_source_without_target_activity_do_not_change():
     start = np.array([[0.0, 2, 0, 0], [0, 1, 0, 0], [0, 3, 0, 0]])
     data = dd.simulate(
         model(start=start, post=0 * POST, rate=1.0), 10, record=["w.output", "w.weights"], every=10
@@ -229,7 +229,7 @@ def test_random_weights_are_one_map_at_any_sampling():
     assert not np.array_equal(start(64, seed=1), coarse)
 
 
-def test_sparse_weights_may_be_all_alike():
+def test_sparse_weights_may_have_equal_values():
     x = dd.Axis("x", 0, 40, 64, periodic=True)
     m = model(pre=np.zeros(64), x=x, initial=0.7, share=0.5)
     assert set(np.unique(dd.Session(m, precision="float64").read("w.weights"))) == {0.0, 0.7}

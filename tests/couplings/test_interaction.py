@@ -11,7 +11,7 @@ X, PHI = dd.Axis("x", 0, 30, 11), dd.Axis("phi", 0, 360, 8, periodic=True)
 KERNELS = [dd.Gaussian(0.01, [4.0, 60.0]), dd.Gaussian(-0.004, [8.0, 90.0])]
 
 
-def test_it_is_the_interaction_of_a_field():
+def test_the_coupling_gives_the_interaction_of_a_field():
     model = dd.Model("both")
     stimulus = model.add(dd.GaussianStimulus("s", [X, PHI], center=[11, 350], sigma=[5, 70], amplitude=7))
     u = model.add(dd.Field("u", [X, PHI], kernel=KERNELS, global_inhibition=0.001))
@@ -22,7 +22,7 @@ def test_it_is_the_interaction_of_a_field():
     assert np.allclose(data["u.interaction"], data["same.output"], rtol=0, atol=1e-12)
 
 
-def test_on_a_node_it_is_a_gain():
+def test_interaction_of_a_node_is_a_gain():
     model = dd.Model("node")
     n = model.add(dd.Field("n", [], resting_level=2.0))
     n >> Interaction([dd.Gaussian(1.5), dd.Gaussian(-0.25)], 0.25, name="k")

@@ -9,7 +9,7 @@ from deodar.couplings.logarithm import Logarithm
 from deodar.elements.pattern import Pattern
 
 
-def test_it_compresses_and_lets_nothing_below_zero() -> None:
+def test_the_logarithm_compresses_and_is_zero_for_negative_input() -> None:
     values = np.array([-20.0, 0.0, 50.0, 676.0, 4095.0])
     model = dd.Model("log")
     source = model.add(Pattern("read", [dd.Axis("sensor", 0, 4, 5)], values))  # type: ignore[arg-type]

@@ -24,7 +24,7 @@ def model(axes: list[dd.Axis], **given: dd.Axis) -> dd.Model:
 
 
 @pytest.mark.parametrize("axis", [X, RING], ids=["line", "ring"])
-def test_the_axis_of_the_source_is_the_one_that_is_read_out(axis: dd.Axis) -> None:
+def test_the_axis_of_the_source_is_read_out(axis: dd.Axis) -> None:
     inferred, stated = (
         dd.simulate(model([axis], **given), 1, record=["p.output", "p.strength"])
         for given in ({}, {"axis": axis})
@@ -34,7 +34,7 @@ def test_the_axis_of_the_source_is_the_one_that_is_read_out(axis: dd.Axis) -> No
         assert np.array_equal(inferred[port].values, stated[port].values)
 
 
-def test_of_two_axes_one_has_to_be_stated() -> None:
+def test_a_source_with_two_axes_requires_the_axis() -> None:
     [problem] = model([X, Y]).check()
     assert (
         problem.what == "the source has 2 axes, so the axis of the input must be stated"

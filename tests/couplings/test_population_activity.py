@@ -39,7 +39,7 @@ def test_tuning_curves_weighted_by_rates():
     np.testing.assert_allclose(mean, rates @ tuning / tuning.sum(0), rtol=1e-12)
 
 
-def test_neurons_side_by_side_answer_with_a_wider_gaussian_at_the_stimulus():
+def test_equal_tuning_curves_give_a_wider_gaussian_at_the_stimulus():
     """Rates and tuning curves of width s: the sum over neurons d apart is a Gaussian of width s root 2 and
     height s root pi / d.
     """
@@ -63,7 +63,7 @@ def test_on_a_ring_the_population_vector_finds_the_direction():
         assert read == pytest.approx(stimulus, abs=1e-6)
 
 
-def test_uneven_neurons_weigh_no_more_where_normalized():
+def test_unevenly_spaced_neurons_have_equal_weight_if_normalized():
     preferred = np.concatenate([np.arange(0, 45, 1.0), np.arange(45, 95, 10.0)])
     y = shown(
         np.full(len(preferred), 7.0), PopulationActivity.of(preferred, 8, [X], normalized=True, name="p")
@@ -73,7 +73,7 @@ def test_uneven_neurons_weigh_no_more_where_normalized():
     np.testing.assert_array_equal(y, [7.0, 3.0, *np.zeros(179)])
 
 
-def test_in_the_plane():
+def test_activity_over_a_plane_is_the_weighted_sum_of_tuning_curves():
     preferred = [[10.0, 2.0], [60.0, 7.0]]
     y = shown(np.array([1.0, 3.0]), PopulationActivity.of(preferred, [5.0, 1.5], [X, Y], rate=2.0, name="p"))
     bumps = [
@@ -83,7 +83,7 @@ def test_in_the_plane():
     np.testing.assert_allclose(y, 2 * bumps[0] + 6 * bumps[1], rtol=1e-12)
 
 
-def test_mistakes_are_reported():
+def test_wrong_tuning_curves_are_reported():
     with pytest.raises(ParameterError, match=r"tuning: has shape \[3, 4\]"):
         PopulationActivity(np.ones((3, 4)), [X])
     with pytest.raises(ParameterError, match="one value for each of 2 axes"):

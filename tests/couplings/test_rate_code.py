@@ -36,21 +36,21 @@ def back(axes, sigma, rates, **values):
     return data["rate.output"].values, data["rate.strength"].values
 
 
-def test_on_a_line():
+def test_the_rate_is_the_position_of_a_peak_on_a_line():
     rates = np.random.default_rng(0).uniform(0.1, 0.9, 50)
     found, strength = back([X], 3.0, rates, gain=80.0, offset=2.5)
     np.testing.assert_allclose(found, rates, atol=1e-9)
     np.testing.assert_allclose(strength, 2.5 * 3.0 * math.sqrt(2 * math.pi), rtol=1e-6)
 
 
-def test_in_the_plane():
+def test_the_rates_are_the_position_of_a_peak_in_a_plane():
     rates = np.random.default_rng(1).uniform(-1, 1, (50, 2))
     found, _ = back([X, Y], (4.0, 2.0), rates, gain=(-30.0, 10.0), offset=(40.0, 25.0))
     np.testing.assert_allclose(found, rates, atol=1e-6)
 
 
 @pytest.mark.parametrize("sigma", [10.0, 20.0, 30.0])
-def test_on_a_ring(sigma):
+def test_the_rate_is_the_direction_of_a_peak_on_a_ring(sigma):
     rates = np.random.default_rng(2).uniform(-math.pi, math.pi, 50)
     found, _ = back([RING], sigma, rates, gain=180 / math.pi)
     np.testing.assert_allclose(found, rates, atol=1e-6)
@@ -71,7 +71,7 @@ def test_truncation_moves_the_mean_inwards(sigmas, wrong):
     assert error == pytest.approx(math.exp(-(end**2) / 2) / math.sqrt(2 * math.pi), rel=0.1)
 
 
-def test_from_a_peak_to_numbers_and_on_to_the_same_peak():
+def test_a_space_code_of_the_rates_restores_the_peak():
     model = dd.Model("peak")
     peak = model.add(dd.GaussianStimulus("peak", [X, RING], center=[33.3, 171.0], sigma=[3, 20]))
     again = model.add(SpaceCode([X, RING], [3, 20], 1.0, gain=[5.0, 1.0], offset=[-7.0, 30.0], name="again"))
@@ -99,7 +99,7 @@ def test_on_one_axis_it_is_the_position_of_the_peak():
     np.testing.assert_allclose(data["rate.strength"].values, data["position.strength"].values, rtol=1e-12)
 
 
-def test_without_a_peak_and_without_a_direction():
+def test_without_a_peak_or_a_direction_the_rate_is_the_default():
     model = dd.Model("nothing")
     rows = {"silent": np.zeros((121, 36)), "even": np.ones((121, 36))}
     for name, values in rows.items():
@@ -110,7 +110,7 @@ def test_without_a_peak_and_without_a_direction():
     np.testing.assert_allclose(data["rate of even.output"].values[-1], [40, -2], atol=1e-4)
 
 
-def test_what_has_no_inverse_is_refused():
+def test_a_rate_code_without_an_inverse_is_refused():
     with pytest.raises(ParameterError, match="gain: is 0"):
         RateCode([X], 0.0)
     with pytest.raises(ParameterError, match="axes: is empty"):

@@ -27,27 +27,27 @@ def times(*spans):
     return np.any([(t >= a) & (t < b) for a, b in spans], axis=0).astype(float)
 
 
-def test_open_while_the_reward_lasts():
+def test_the_gate_is_open_while_the_reward_lasts():
     assert np.array_equal(opened([(3, 5), (8, 9)]), times((3, 5), (8, 9)))
     assert not opened([(3, 5)], threshold=2.5).any()
 
 
 @pytest.mark.parametrize("lasts", [0.5, 2.0, 4.0, 9.0])
-def test_a_window_of_fixed_length_from_the_onset(lasts):
+def test_a_duration_opens_the_gate_for_that_time_from_the_onset(lasts):
     assert np.array_equal(opened([(3, 3 + lasts)], duration=4.0), times((3, 7)))
 
 
-def test_a_new_onset_opens_anew():
+def test_a_new_onset_opens_the_gate_again():
     assert np.array_equal(opened([(3, 4), (5, 6), (12, 13)], duration=4.0), times((3, 9), (12, 16)))
 
 
-def test_graded_it_follows_the_reward_while_open():
+def test_a_graded_gate_follows_the_reward_while_open():
     np.testing.assert_allclose(
         opened([(3, 9)], duration=4.0, graded=True, strength=0.5), times((3, 7)), atol=1e-12
     )
     np.testing.assert_allclose(opened([(3, 5)], graded=True, height=0.3), 3.0 * times((3, 5)), atol=1e-12)
 
 
-def test_reward_counts_where_the_gate_says_so():
+def test_reward_opens_the_gate_only_while_its_gate_input_is_on():
     assert np.array_equal(opened([(2, 10)], gate=[(4, 6)]), times((4, 6)))
     assert not opened([(2, 4)], gate=[(4, 6)]).any()

@@ -33,7 +33,7 @@ def shifted(amount, axes, pattern):
 
 
 @pytest.mark.parametrize("amount", [(3.0, -2.0), (0.0, 0.0), (20.0, 0.0)])
-def test_whole_samples_move_to_the_bit(amount):
+def test_a_shift_by_whole_samples_keeps_the_bits(amount):
     axes = [dd.Axis("x", 0, 9, 10), dd.Axis("y", 0, 7, 8)]
     pattern = np.random.default_rng(0).normal(size=(10, 8)).astype(np.float32)
     wanted = np.zeros_like(pattern)
@@ -45,7 +45,7 @@ def test_whole_samples_move_to_the_bit(amount):
     np.testing.assert_array_equal(shifted(amount, axes, pattern), wanted)
 
 
-def test_a_step_that_is_no_binary_fraction_still_counts_as_whole():
+def test_a_shift_by_whole_samples_of_an_inexact_step_counts_as_whole():
     axis = dd.Axis("x", 0, 0.9, 10)
     whole, part = resampling.steps(axis, 0.3, np.dtype("float32"))
     assert int(whole) == 3 and float(part) < 1e-6

@@ -22,7 +22,7 @@ def shown(source: Element, code: SpaceCode) -> np.ndarray:
     return dd.simulate(model, 1, record=f"{code.name}.output")[f"{code.name}.output"].values[-1]
 
 
-def test_a_place_in_the_plane() -> None:
+def test_a_position_in_the_plane_becomes_a_gaussian() -> None:
     both = Pattern("place", [dd.Axis("of", 0, 1, 2)], np.array([3.0, 1.0]))  # type: ignore[arg-type]
     y = shown(both, SpaceCode([X, Y], (2.0, 1.0), 4.0, gain=(1.0, 2.0), offset=(0.5, -3.0), name="code"))
     plain = 4 * np.exp(-0.5 * ((X.points[:, None] - 3.5) / 2) ** 2 - 0.5 * (Y.points[None, :] + 1.0) ** 2)
@@ -37,7 +37,7 @@ def test_an_angle_wraps_after_any_number_of_turns(turns: int) -> None:
     np.testing.assert_allclose(y, np.exp(-0.5 * (near / 20) ** 2), atol=1e-4)
 
 
-def test_it_takes_one_number_for_each_axis() -> None:
+def test_a_space_code_reads_one_number_for_each_axis() -> None:
     model = dd.Model("misfit")
     model.add(Boost("one", [], 1.0)) >> model.add(SpaceCode([X, Y], name="code"))
     refused(model.require, dd.errors.ModelError, "one axis with 2 samples", "Connect an input of that shape")
@@ -45,7 +45,7 @@ def test_it_takes_one_number_for_each_axis() -> None:
 
 
 @pytest.mark.parametrize("boundary", [None, ["periodic"], ["zero"]])
-def test_a_peak_of_given_integral_and_boundary(boundary: list[str] | None) -> None:
+def test_a_space_code_has_the_stated_integral_and_boundary(boundary: list[str] | None) -> None:
     code = SpaceCode([RING], 25.0, 3.0, normalized=True, boundary=boundary, name="code")  # type: ignore[arg-type]
     y = shown(Boost("place", (), 171.0), code)
     distance = RING.points - 171.0
@@ -56,7 +56,7 @@ def test_a_peak_of_given_integral_and_boundary(boundary: list[str] | None) -> No
     assert y.sum() * 10 == pytest.approx(3, rel=1e-5) and (y[0] > 1e-3) == (boundary != ["zero"])
 
 
-def test_boundaries_that_are_too_many_are_a_problem() -> None:
+def test_too_many_boundaries_are_a_problem() -> None:
     model = dd.Model("ends")
     model.add(Boost("place", (), 1.0)) >> model.add(SpaceCode([X], boundary=["zero", "zero"], name="code"))
     assert any("boundary has 2 entries for 1 axes" in p.what for p in model.check())

@@ -42,7 +42,7 @@ def both(amounts, gain=1.0, offset=0.0):
 
 
 @pytest.mark.parametrize("amounts", [(0.0, 0.0), (3.0, 60.0), (-1.3, -400.5), (2.7, 7230.0), (40.0, 0.0)])
-def test_it_is_the_fixed_shift_by_that_amount(amounts):
+def test_a_constant_steering_input_gives_the_fixed_shift(amounts):
     one_by_one, pair, fixed = both(amounts)
     np.testing.assert_allclose(pair, fixed, atol=1e-11)
     np.testing.assert_allclose(one_by_one, fixed, atol=1e-11)
@@ -50,14 +50,14 @@ def test_it_is_the_fixed_shift_by_that_amount(amounts):
         assert not fixed.any()
 
 
-def test_gain_and_offset():
+def test_gain_and_offset_scale_the_steering_input():
     one_by_one, pair, fixed = both((2.0, 31.5), gain=-1.0, offset=1.5)
     np.testing.assert_allclose(pair, fixed, atol=1e-12)
     np.testing.assert_allclose(one_by_one, fixed, atol=1e-12)
     np.testing.assert_allclose(pair[3], 0.5 * (SCENE[3] + SCENE[4])[(np.arange(12) + 1) % 12], atol=1e-12)
 
 
-def test_from_the_eye_to_the_world_and_back():
+def test_a_shift_by_the_gaze_and_its_inverse_restore_the_position():
     """A peak at the place r on the retina and a gaze g arrive at r + g; a shift against the gaze brings it
     back.
     """
@@ -77,7 +77,7 @@ def test_from_the_eye_to_the_world_and_back():
     np.testing.assert_allclose(data["back.output"].values[-1], data["seen.output"].values[-1], atol=1e-12)
 
 
-def test_it_follows_the_steering_input_in_every_step():
+def test_the_shift_follows_the_steering_input_in_every_step():
     model, source = scene()
     position = model.add(dd.Field("position", [], tau=5, resting_level=0, sigmoid=dd.Logistic(1.0)))
     model.add(Boost("push", [], 3.0)) >> position
@@ -92,7 +92,7 @@ def test_it_follows_the_steering_input_in_every_step():
         np.testing.assert_allclose(y[inside], np.array(wanted).T[inside], atol=1e-12)
 
 
-def test_mistakes_are_reported():
+def test_wrong_axes_to_shift_along_are_reported():
     with pytest.raises(ParameterError, match="along: is empty"):
         SteeredShift([])
     with pytest.raises(ParameterError, match="contains a name twice"):

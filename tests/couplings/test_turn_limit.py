@@ -13,7 +13,7 @@ from deodar.elements.boost import Boost
     ("left", "right", "share"),
     [(0.5, 0.5, 1.0), (0.9, 0.1, 1.0), (1.2, -0.8, 0.4), (-0.6, 0.6, 2 / 3), (0.0, 0.0, 1.0)],
 )
-def test_both_wheels_are_scaled_alike(left: float, right: float, share: float) -> None:
+def test_the_speeds_of_both_wheels_have_the_same_factor(left: float, right: float, share: float) -> None:
     model = dd.Model("wheels")
     wheels = model.add(TurnLimit(speed=500.0, limit=400.0, name="wheels"))
     for side, value in (("left", left), ("right", right)):
