@@ -53,7 +53,7 @@ def test_groups_down_to_the_depth_stay_open() -> None:
 
 
 @pytest.mark.parametrize(("signs", "sign"), [("++", "+"), ("--", "-"), ("+-", "±"), ("±+", "±")])
-def test_several_connections_become_one_of_their_signs(signs: str, sign: str) -> None:
+def test_several_connections_become_one_with_their_signs(signs: str, sign: str) -> None:
     [wire] = fold(
         graph(Wire("a", "b", "out", sign=signs[0], delayed=True), Wire("a", "c", "out", sign=signs[1])), 0
     ).wires  # type: ignore[arg-type]

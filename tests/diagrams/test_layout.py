@@ -160,7 +160,7 @@ def test_text_is_inside_its_box(form, name):
     assert heights[0] >= boxes.LOOP + boxes.SMALL_LINE and heights[1] >= 8 * boxes.CLOSEST
 
 
-def test_given_places_are_kept():
+def test_given_positions_are_kept():
     graph = Graph(
         "g",
         (Item("a", "field", "a"), Item("b", "node", "b", group=("g",))),
@@ -183,7 +183,7 @@ def test_given_places_are_kept():
     )
 
 
-def test_the_order_of_columns_has_no_crossing_that_need_not_be():
+def test_the_order_of_columns_avoids_crossings():
     after = {"a": ["y"], "b": ["x"], "c": ["z"]}
     before = {"y": ["a"], "x": ["b"], "z": ["c"]}
     columns = [["a", "b", "c"], ["x", "y", "z"]]
@@ -200,13 +200,13 @@ def test_few_edges_run_backwards():
     assert rank == {"a": 0, "b": 1, "c": 2, "d": 1, "e": 1}, "what is read late stands late"
 
 
-def test_places_keep_order_and_distance_and_are_the_nearest():
+def test_positions_are_the_nearest_that_keep_order_and_distance():
     assert settle([0.0, 10.0, 30.0], [1, 1, 1], [5, 5]) == [0.0, 10.0, 30.0]
     assert settle([10.0, 10.0], [1, 1], [6]) == [7.0, 13.0]
     assert settle([10.0, 10.0], [1, 3], [4]) == [7.0, 11.0]
 
 
-def test_text_is_broken_and_cut():
+def test_text_is_broken_into_lines_and_cut():
     assert text.wrap("a b", 8, 100, 3) == ["a b"]
     lines = text.wrap("one two three four five six seven eight nine ten", 8, 50, 3)
     assert (

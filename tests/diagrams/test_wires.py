@@ -26,7 +26,7 @@ def test_a_connection_runs_from_its_source_to_the_mark_at_its_target(sign: Sign)
     assert reach == pytest.approx(100, abs=0.1) and 85 < end[0] < 100
 
 
-def test_backwards_it_runs_the_other_way() -> None:
+def test_a_connection_to_the_left_runs_from_the_other_side() -> None:
     line, mark = wires.path(RUNS, True, "+")
     (start, end), reach = ends(line), min(float(m[-2]) for m in mark.path if m[1:])
     assert start == (100, 25) and end[1] == 5

@@ -33,7 +33,7 @@ def reports() -> dict[str, Any]:
     return {name: (kept, kept.report()) for name, kept in found.items()}
 
 
-def test_the_claims_that_are_kept_follow_from_the_rows(reports: dict[str, Any]) -> None:
+def test_stored_claims_follow_from_the_rows(reports: dict[str, Any]) -> None:
     for name, (kept, report) in reports.items():
         assert same(evidence.EVIDENCE / name / evidence.RESULTS, kept.results(report)), (
             f"evidence/{name} is stale: python docs/evidence.py"
@@ -66,7 +66,7 @@ def test_without_runs_a_page_states_settings_and_no_results() -> None:
         assert evidence.loose(evidence.filled(page.read_text(encoding="utf-8"), none)) == []
 
 
-def test_what_is_kept_names_versions_and_date_and_no_place(reports: dict[str, Any]) -> None:
+def test_evidence_states_versions_and_date_and_no_path(reports: dict[str, Any]) -> None:
     for name, (kept, _) in reports.items():
         assert (
             set(kept.about) == {"paper", "command", "quick", "date", "runs", "of", "made_by"}
@@ -82,7 +82,7 @@ def test_what_is_kept_names_versions_and_date_and_no_place(reports: dict[str, An
         ), "the design has changed"
 
 
-def test_the_wheel_does_not_carry_it() -> None:
+def test_the_wheel_contains_no_evidence() -> None:
     assert evidence.EVIDENCE == ROOT / "evidence" and not list((ROOT / "src").rglob("runs.jsonl*"))
 
 
@@ -120,7 +120,7 @@ def same(file: Path, text: str) -> bool:
     return near(json.loads(file.read_text(encoding="utf-8")), json.loads(text))
 
 
-def test_a_reproduction_is_taken_and_a_changed_row_is_noticed(folder: Path, tmp_path: Path) -> None:
+def test_a_reproduction_is_stored_and_a_changed_row_is_noticed(folder: Path, tmp_path: Path) -> None:
     taken = evidence.take(folder, tmp_path / "evidence")
     assert len(taken.rows) == taken.about["runs"] == taken.about["of"] and taken.about["made_by"] == MADE
     assert not any("path" in row for row in taken.rows.values() if "planner" not in row["condition"])
@@ -159,7 +159,7 @@ def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) ->
         assert evidence.papers.NOT_RUN not in evidence.filled(page.read_text(encoding="utf-8"), known)
 
 
-def test_a_quick_reproduction_is_taken_as_one(folder: Path, tmp_path: Path) -> None:
+def test_a_quick_reproduction_is_stored_as_quick(folder: Path, tmp_path: Path) -> None:
     first = {"about": {**papers.paper("spa").about(True), "made_by": MADE}}
     rows = all_rows(True, lambda c, k: {"path": PATH[::10]}).values()
     (folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in [first, *rows]))
@@ -189,7 +189,7 @@ def test_a_condition_that_is_not_complete_is_left_out(
     assert taken.about["runs"] == len(taken.rows) < taken.about["of"]
 
 
-def test_without_a_complete_condition_nothing_is_taken(folder: Path, tmp_path: Path) -> None:
+def test_a_reproduction_without_a_complete_condition_is_not_stored(folder: Path, tmp_path: Path) -> None:
     file = folder / "runs.jsonl"
     file.write_text("".join(line + "\n" for line in file.read_text().splitlines()[:3]))
     with pytest.raises(SystemExit, match=r"no condition is complete.*deodar reproduce spa --out"):
@@ -197,7 +197,7 @@ def test_without_a_complete_condition_nothing_is_taken(folder: Path, tmp_path: P
     assert not (tmp_path / "evidence").exists()
 
 
-def test_another_design_is_not_taken(folder: Path, tmp_path: Path) -> None:
+def test_a_reproduction_of_another_design_is_not_stored(folder: Path, tmp_path: Path) -> None:
     file = folder / "runs.jsonl"
     file.write_text(file.read_text().replace('"limit": 3000', '"limit": 2000', 1))
     with pytest.raises(SystemExit, match="not the whole design of spa"):

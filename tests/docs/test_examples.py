@@ -39,7 +39,7 @@ def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[floa
 # ---------------------------------------------------------------------------------------------- the documents
 
 
-def test_documents_are_fresh(tmp_path: Path) -> None:
+def test_documents_are_those_that_the_script_writes(tmp_path: Path) -> None:
     make.main(tmp_path)
     made = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
     kept = {p.name: p.read_bytes() for ending in ("json", "npz") for p in EXAMPLES.glob(f"*.{ending}")}
@@ -47,7 +47,7 @@ def test_documents_are_fresh(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_document_is_good_and_says_what_to_look_at(name: str) -> None:
+def test_a_document_has_no_problems_and_has_notes(name: str) -> None:
     model = dd.load(EXAMPLES / f"{name}.json")
     assert not model.check()
     assert len(model.document.notes) > 100
@@ -56,14 +56,14 @@ def test_a_document_is_good_and_says_what_to_look_at(name: str) -> None:
 # ------------------------------------------------------------------------------------------------ their notes
 
 
-def test_detection() -> None:
+def test_detection_forms_one_peak_that_ends_with_its_input() -> None:
     u = run("detection", ["u.activation"])["u.activation"]
     assert places(u, 390) == [] and len(places(u, 690)) == len(places(u, 990)) == 1
     assert places(u, 690) == pytest.approx([50], abs=1)
     assert places(u, 1300) == []
 
 
-def test_selection() -> None:
+def test_selection_leaves_one_of_two_peaks() -> None:
     u = run("selection", ["u.activation"], trials=100)["u.activation"]
     found = [places(u, 600, k) for k in range(100)]
     assert all(len(p) == 1 for p in found)
@@ -71,19 +71,19 @@ def test_selection() -> None:
     assert 30 <= left <= 70, left
 
 
-def test_working_memory() -> None:
+def test_working_memory_keeps_its_peak_without_input() -> None:
     data = run("working_memory", ["u.activation", "cue.output"])
     assert float(data["cue.output"].sel(time=310).max()) == 0
     assert places(data["u.activation"], 1500) == pytest.approx([35], abs=5)
 
 
-def test_forgetting() -> None:
+def test_forgetting_erases_the_peak() -> None:
     u = run("forgetting", ["u.activation"])["u.activation"]
     assert len(places(u, 900)) == 1
     assert all(places(u, t) == [] for t in (1100, 1300, 1500))
 
 
-def test_boost() -> None:
+def test_boost_creates_a_peak_at_the_stronger_preshape() -> None:
     u = run("boost", ["u.activation"])["u.activation"]
     assert places(u, 290) == [] and places(u, 1200) == []
     assert places(u, 890) == pytest.approx([65], abs=1)
@@ -91,7 +91,7 @@ def test_boost() -> None:
     assert before.sel(x=30) > before.sel(x=10) + 1, "the weaker preshape is there too"
 
 
-def test_projection() -> None:
+def test_projection_forms_peaks_at_the_crossing_of_ridges() -> None:
     data = run("projection", [f"{name}.activation" for name in ("colour", "scene", "where")])
     for name, place in (("colour", (120,)), ("scene", (36, 120)), ("where", (36,))):
         u = data[f"{name}.activation"]
@@ -100,13 +100,13 @@ def test_projection() -> None:
         assert len(found) == 1 and found[0].position == pytest.approx(place, abs=2), (name, found)
 
 
-def test_node() -> None:
+def test_node_switches_on_and_off() -> None:
     u = run("node", ["u.activation"])["u.activation"]
     for t, value in ((190, -2), (690, 2), (1100, -2)):
         assert float(u.sel(time=t)) == pytest.approx(value, abs=0.2), t
 
 
-def test_correlated_noise() -> None:
+def test_correlated_noise_creates_single_peaks_at_all_positions() -> None:
     u = run("correlated_noise", ["u.activation"], trials=100)["u.activation"]
     found = [places(u, 400, k) for k in range(100)]
     with_peak = [p[0] for p in found if p]
@@ -114,13 +114,13 @@ def test_correlated_noise() -> None:
     assert np.histogram(with_peak, bins=4, range=(0, 100))[0].min() >= 3, "all over the field"
 
 
-def test_timed_stimuli() -> None:
+def test_timed_stimuli_create_peaks_in_their_windows() -> None:
     u = run("timed_stimuli", ["u.activation"])["u.activation"]
     for t, expected in ((50, []), (250, [20]), (380, []), (550, [80]), (680, []), (850, [20]), (1150, [80])):
         assert places(u, t) == pytest.approx(expected, abs=1), t
 
 
-def test_groups() -> None:
+def test_groups_become_active_one_after_the_other() -> None:
     names = ("search", "approach", "grasp", "lift")
     data = run("groups", [f"{name}.intention.activation" for name in names])
     on = np.array([data[f"{name}.intention.activation"].values > 0 for name in names])
@@ -134,7 +134,7 @@ def test_groups() -> None:
     }
 
 
-def test_motor_attractor() -> None:
+def test_motor_attractor_turns_to_the_peak_and_stays_without_one() -> None:
     data = run("motor_attractor", ["target.activation", "turn.output"])
     turn = data["turn.output"]
     assert float(turn.sel(time=900)) == pytest.approx(150, abs=2)
@@ -145,7 +145,7 @@ def test_motor_attractor() -> None:
     assert (np.abs(way) > 115).all(), "over 180 deg, never near 0"
 
 
-def test_saliency() -> None:
+def test_saliency_selects_the_cued_colour() -> None:
     model = dd.load(EXAMPLES / "saliency.json")
     model.set("cue.center", 5.0)
     coffee = next(s for s in photographs() if s.name == "coffee")
@@ -159,12 +159,12 @@ def test_saliency() -> None:
 # ------------------------------------------------------------------------------------------------ the scripts
 
 
-def test_choices() -> None:
+def test_choices_follow_the_stronger_input() -> None:
     shares = module(EXAMPLES / "choices.py").shares(100)
     assert 0.3 <= shares[0] <= 0.7 and shares[-1] > 0.9
 
 
-def test_reaction_time() -> None:
+def test_reaction_time_grows_with_distance_and_falls_with_a_preshape() -> None:
     example = module(EXAMPLES / "reaction_time.py")
     data = example.experiment(24).run()
     alone, expected = (example.reactions(data, preshape) for preshape in (0.0, 1.0))
@@ -192,13 +192,13 @@ def test_the_symmetric_model_of_reaction_times_chooses_either_side_equally_often
     assert example.left_of_middle(np.array([40.0, 50.0, 50.0, 60.0, np.nan])) == (2.0, 4)
 
 
-def test_live_session() -> None:
+def test_live_session_remembers_and_follows_an_injected_input() -> None:
     found = module(EXAMPLES / "live_session.py").main()
     assert found["remembered"] == found["restored"] == pytest.approx([35], abs=1)
     assert found["pulled along"] == pytest.approx([44], abs=1)
 
 
-def test_own_function() -> None:
+def test_own_function_drives_the_field_periodically() -> None:
     u = dd.simulate(module(EXAMPLES / "own_function.py").model(), 5000, record=["u.activation"], every=10)[
         "u.activation"
     ].values
@@ -207,14 +207,12 @@ def test_own_function() -> None:
 
 
 def test_no_example_is_without_a_test() -> None:
-    tested = {n.removeprefix("test_") for n in globals() if n.startswith("test_")}
-    assert {p.stem for p in EXAMPLES.iterdir() if p.suffix in (".json", ".py")} - {
-        "make",
-        "pictures",
-    } <= tested
+    names = [name for name in globals() if name.startswith("test_")]
+    examples = {p.stem for p in EXAMPLES.iterdir() if p.suffix in (".json", ".py")} - {"make", "pictures"}
+    assert not {e for e in examples if not any(name.startswith(f"test_{e}_") for name in names)}
 
 
-def test_plan() -> None:
+def test_plan_spreads_from_the_goal_and_reaches_it() -> None:
     data = dd.simulate(
         dd.load(EXAMPLES / "plan.json"),
         1200,
@@ -233,7 +231,7 @@ def test_plan() -> None:
     )
 
 
-def test_spa() -> None:
+def test_spa_spreads_its_wave_from_the_goal() -> None:
     """Its first steps in the arena that the notes name: the wave spreads from the goal."""
     data = dd.simulate(
         dd.load(EXAMPLES / "spa.json"), 60, record=["north.motivation.activation"], every=20, world=Arena("z")
@@ -242,7 +240,7 @@ def test_spa() -> None:
     assert areas[0] == 0 < areas[1] < areas[2] < areas[3]
 
 
-def test_behaviours() -> None:
+def test_behaviours_obey_their_constraints() -> None:
     names = ("find", "reach", "avoid", "look left", "look right")
     data = run(
         "behaviours",
@@ -274,7 +272,7 @@ def test_behaviours() -> None:
     assert (on["look right"].sel(time=1000) == first).all(), "the other follows"
 
 
-def test_serial_order() -> None:
+def test_serial_order_produces_the_sequence() -> None:
     data = run("serial_order", ["action.activation", *(f"item {k}.node.activation" for k in range(1, 5))])
     steps = [
         np.argmax(data[f"item {k}.node.activation"].sel(time=slice(5300, None)).values > 0) * 10 + 5300
@@ -287,7 +285,7 @@ def test_serial_order() -> None:
     assert not any(places(data["action.activation"], t) for t in (5300, 11200))
 
 
-def test_binding() -> None:
+def test_binding_selects_the_cued_object() -> None:
     data = run("binding", [f"{name}.activation" for name in ("bound", "space", "feature")])
     for t, found in (
         (190, None),
@@ -303,7 +301,7 @@ def test_binding() -> None:
         assert len(peaks(data["bound.activation"].sel(time=t))) == (0 if found is None else 1)
 
 
-def test_remapping() -> None:
+def test_remapping_gives_positions_relative_to_the_body() -> None:
     data = run(
         "remapping",
         [f"{form}.{name}.activation" for form in ("diagonal", "steered") for name in ("retina", "body")],
@@ -315,7 +313,7 @@ def test_remapping() -> None:
             assert places(body, t) == pytest.approx([12] if t < 1000 else [-25, 12], abs=0.5), (form, t)
 
 
-def test_change_detection() -> None:
+def test_change_detection_reports_the_changed_item() -> None:
     data = run(
         "change_detection",
         ["contrast.activation", "memory.activation", "different.activation", "same.activation"],
@@ -334,6 +332,6 @@ def test_change_detection() -> None:
     assert float(end["same.activation"]) > 0 > float(end["different.activation"])
 
 
-def test_sequences(capsys: pytest.CaptureFixture[str]) -> None:
+def test_sequences_are_produced_in_every_seed(capsys: pytest.CaptureFixture[str]) -> None:
     found = module(EXAMPLES / "sequences.py").main(2, range(10, 11))
     assert found == {10: (2, 20, 20)} and "2 of 2 seeds" in capsys.readouterr().out

@@ -41,7 +41,7 @@ def test_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize("page", TEXTS, ids=lambda p: f"{p.parent.name}/{p.stem}")
-def test_what_a_page_points_to_is_there(page: Path) -> None:
+def test_links_and_pictures_of_a_page_exist(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     shown = [f"pictures/{name}" for name in pages.pictures(page)]
     assert all((DOCS / place).stat().st_size < 400_000 for place in shown)
@@ -65,7 +65,7 @@ def test_every_page_is_in_the_table_of_contents() -> None:
     assert listed == {p.relative_to(DOCS).as_posix() for p in DOCS.rglob("*.md")}
 
 
-def test_no_picture_is_left_over() -> None:
+def test_every_picture_is_shown_on_a_page() -> None:
     shown = {name for page in TEXTS for name in pages.pictures(page)}
     assert {p.name for p in (DOCS / "pictures").iterdir()} == shown
 
@@ -82,11 +82,11 @@ def test_no_picture_is_left_over() -> None:
         ("[1, 2]\n", "[1, 2, 3]\n", False),
     ],
 )
-def test_what_counts_as_the_same_output(expected: str, printed: str, good: bool) -> None:
+def test_printed_output_is_compared_with_a_tolerance(expected: str, printed: str, good: bool) -> None:
     assert (pages.difference(expected, printed) == "") is good
 
 
-def test_a_page_that_lies_is_caught(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_page_with_wrong_output_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = tmp_path / "page.md"
     page.write_text("```python\nprint(2 + 2)\n```\n\n```text\n5\n```\n")
     monkeypatch.setattr(pages, "ROOT", tmp_path)

@@ -25,7 +25,7 @@ def driven(axes: list[dd.Axis], **given: object) -> dd.Model:
 
 
 @pytest.mark.parametrize("axis", [X, RING], ids=["line", "ring"])
-def test_without_an_axis_the_motor_variable_moves_over_that_of_its_source(axis: dd.Axis) -> None:
+def test_a_motor_variable_without_an_axis_uses_that_of_its_source(axis: dd.Axis) -> None:
     inferred, stated = (
         dd.simulate(driven([axis], **given), 20, record=["phi"])["phi.output"].values
         for given in ({}, {"axis": axis})
@@ -34,7 +34,7 @@ def test_without_an_axis_the_motor_variable_moves_over_that_of_its_source(axis: 
     assert inferred[-1] == pytest.approx(axis.lower + 0.6 * axis.range, rel=1e-2)
 
 
-def test_of_a_source_with_two_axes_one_has_to_be_stated() -> None:
+def test_a_source_with_two_axes_requires_the_axis() -> None:
     [problem] = [p for p in driven([X, Y]).check() if p.severity == "problem"]
     assert problem.what == "the source has 2 axes, so the axis of the input must be stated"
     assert problem.fix == "Set its axis: x or y"

@@ -98,7 +98,7 @@ def compare(model, expected, record="activation", dt=DT, many=12):
     assert not wrong, "\n".join(wrong)
 
 
-def test_every_kernel_and_boundary():
+def test_fields_with_every_kernel_and_boundary_agree_with_the_oracle():
     model, expected = dd.Model("lines"), {}
     sources = {}
     for axis, name in ((LINE, "on line"), (RING, "on ring")):
@@ -134,7 +134,7 @@ FOUR = (
 )
 
 
-def test_two_dimensions_with_mixed_boundaries():
+def test_fields_over_two_axes_with_mixed_boundaries_agree_with_the_oracle():
     model, expected = dd.Model("planes"), {}
     s = stimulus_on(PLANE)
     source = model.add(s)
@@ -163,7 +163,7 @@ def test_two_dimensions_with_mixed_boundaries():
     compare(model, expected, many=4)
 
 
-def test_three_dimensions():
+def test_fields_over_three_axes_agree_with_the_oracle():
     kernel = [
         dd.Gaussian(1.1, [0.8, 0.7, 0.9], boundary=["reflect", "periodic", "zero"]),
         MexicanHat(3, 0.6, 1, 1.0, normalized=True),
@@ -176,7 +176,7 @@ def test_three_dimensions():
     )
 
 
-def test_four_dimensions():
+def test_fields_over_four_axes_agree_with_the_oracle():
     kernel = [dd.Gaussian(0.5, [1.1, 0.6, 0.5, 0.5], boundary=["reflect", "periodic", "zero", "periodic"])]
     alone(
         "u",
@@ -192,7 +192,7 @@ def test_a_node_excites_itself_with_the_amplitudes_of_its_kernels():
     alone("n", node, Boost("b", [], 1.5, windows=[(30, 90)]))
 
 
-def test_a_sum_of_kernels_with_global_inhibition():
+def test_a_sum_of_kernels_with_global_inhibition_agrees_with_the_oracle():
     kernel = [
         dd.Gaussian(3.0, 1.2),
         Box(-0.4, 6.0, boundary=["zero"]),
@@ -207,7 +207,7 @@ def test_a_sum_of_kernels_with_global_inhibition():
 
 
 @pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
-def test_every_sigmoid(axis):
+def test_fields_with_every_sigmoid_agree_with_the_oracle(axis):
     model, expected = dd.Model("sigmoids"), {}
     s = stimulus_on([axis], 6.3)
     source = model.add(s)
@@ -233,7 +233,7 @@ def test_every_sigmoid(axis):
     compare(model, expected)
 
 
-def test_output_and_interaction_ports():
+def test_output_and_interaction_agree_with_the_oracle():
     s = stimulus_on([RING])
     field = dd.Field(
         "u",

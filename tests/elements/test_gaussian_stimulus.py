@@ -18,7 +18,7 @@ def seen(**values):
     return dd.simulate(model, 1, every=1, record=["s.output"], precision="float64")["s.output"].values[0]
 
 
-def test_normalised_its_amplitude_is_the_integral():
+def test_the_amplitude_of_a_normalized_stimulus_is_its_integral():
     y = seen(axes=[LINE, RING], center=[1, 350], sigma=[6, 50], amplitude=2.5, normalized=True)
     assert y.sum() * LINE.step * RING.step == pytest.approx(2.5, rel=1e-12)
     assert np.allclose(
@@ -29,7 +29,7 @@ def test_normalised_its_amplitude_is_the_integral():
     assert not seen(axes=[LINE], center=1.5, sigma=1e-6, normalized=True).any()
 
 
-def test_custom_arrow_ends():
+def test_the_boundary_of_a_stimulus_may_differ_from_that_of_its_axis():
     wrapped, cut = (
         seen(axes=[LINE], center=0, sigma=6, boundary="periodic"),
         seen(axes=[RING], center=0, sigma=60, boundary="zero"),
@@ -39,7 +39,7 @@ def test_custom_arrow_ends():
     assert np.allclose(cut, np.exp(-0.5 * (np.arange(12) * 30 / 60) ** 2))
 
 
-def test_the_number_of_ends_is_told():
+def test_a_wrong_number_of_boundaries_is_a_problem():
     model = dd.Model("misfit")
     model.add(dd.GaussianStimulus("s", [LINE], boundary=["zero", "zero"]))
     assert any("2 entries" in p.what for p in model.check())

@@ -13,7 +13,7 @@ X = dd.Axis("x", 0, 3, 4)
 
 
 @pytest.mark.parametrize(("dt", "interval"), [(1.0, 1.0), (1.0, 3.0), (0.5, 2.0), (0.1, 0.3), (2.0, 0.5)])
-def test_the_newest_moment_comes_first(dt, interval):
+def test_the_latest_time_comes_first(dt, interval):
     model = dd.Model("history", dt=dt)
     u = model.add(dd.Field("u", [X], tau=10, resting_level=-3))
     model.connect(u, model.add(History("past", [X], dd.Axis("slot", 0, 2, 3), interval)))
@@ -43,7 +43,7 @@ def test_empty_slots_may_be_undefined():
     assert not np.isnan(past[:, 0, 0]).all() and not np.isnan(past[-1]).any()
 
 
-def test_what_reads_an_undefined_slot_is_refused_by_name():
+def test_a_reader_of_an_undefined_slot_is_named_in_the_error():
     model = dd.Model("spoilt")
     u = model.add(dd.Field("u", [X], tau=10, resting_level=-3))
     past = model.add(History("past", [X], dd.Axis("slot", 0, 2, 3), 2.0, "nan"))

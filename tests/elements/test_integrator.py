@@ -13,7 +13,7 @@ X = dd.Axis("x", 0, 3, 4)
 
 @pytest.mark.parametrize("rate", [0.1, -2.0])
 @pytest.mark.parametrize("start", [None, [0.0, 1.0, -1.0, 0.5]])
-def test_it_adds_up_its_input(rate, start):
+def test_the_integrator_sums_its_input(rate, start):
     model = dd.Model("sum", dt=0.5)
     u = model.add(dd.Field("u", [X], tau=10, resting_level=1))
     model.connect(model.add(dd.GaussianStimulus("s", [X], center=1, sigma=1, amplitude=3)), u)
@@ -25,13 +25,13 @@ def test_it_adds_up_its_input(rate, start):
         x = x + 0.5 * rate * data["u.output"].values[k]
 
 
-def test_without_input_it_keeps_its_value():
+def test_the_value_is_constant_without_input():
     model = dd.Model("alone")
     model.add(Integrator("x", [], 3.0, 1.5))
     assert (dd.simulate(model, 5, record=["x.output"])["x.output"] == 1.5).all()
 
 
-def test_a_push_adds_to_its_input():
+def test_an_injected_input_adds_to_the_input():
     model = dd.Model("pushed")
     model.add(Integrator("x", [], 0.2))
     s = dd.Session(model, dt=1.0)

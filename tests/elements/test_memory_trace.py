@@ -14,7 +14,7 @@ from deodar.errors import ModelError
 X = dd.Axis("x", 0, 30, 31)
 
 
-def test_it_grows_below_peaks_decays_between_them_and_rests_without_any():
+def test_a_trace_grows_at_peaks_decays_elsewhere_and_is_constant_without_peaks():
     model = dd.Model("trace")
     for name, center, on in (("a", 8, (0, 20)), ("b", 22, (30, 60))):
         model.add(dd.GaussianStimulus(name, [X], center=center, sigma=2, amplitude=2, windows=[on]))
@@ -49,7 +49,7 @@ def course(f, steps, dt=0.5, gate=None, others=None, **parameters):
     ].values[-1]
 
 
-def test_build_up_and_decay_in_closed_form():
+def test_growth_and_decay_follow_their_closed_form():
     n = np.arange(0, 400, 57)[1:]
     for steps in n:
         built, decayed = course(0.9, steps, others=0.1, start=[0.0, 0.7])
@@ -58,7 +58,7 @@ def test_build_up_and_decay_in_closed_form():
 
 
 @pytest.mark.parametrize("f", [0.55, 0.8, 1.0])
-def test_graded_as_in_equation_11(f):
+def test_the_graded_form_is_equation_11(f):
     speed = f / 10 + (1 - f) / 50
     fixed = f * f / 10 / speed
     for steps in (1, 30, 400):
@@ -68,7 +68,7 @@ def test_graded_as_in_equation_11(f):
     assert course(f, 4000, graded=True)[0] == pytest.approx(fixed, abs=1e-9)
 
 
-def test_without_a_peak_it_stays_unless_it_fades():
+def test_a_trace_without_a_peak_is_constant_unless_it_fades():
     assert np.array_equal(course(0.3, 100, start=[0.7, 0.2]), [0.7, 0.2])
     np.testing.assert_allclose(
         course(0.3, 100, start=[0.7, 0.2], fades=True), np.array([0.7, 0.2]) * 0.99**100, atol=1e-12
@@ -78,7 +78,7 @@ def test_without_a_peak_it_stays_unless_it_fades():
     assert np.array_equal(course(0.3, 100, start=[0.7, 0.2], graded=True), [0.7, 0.2])
 
 
-def test_a_closed_gate_leaves_every_bit():
+def test_a_trace_with_a_closed_gate_keeps_its_bits():
     start = np.random.default_rng(1).random(2)
     assert np.array_equal(course(0.9, 100, gate=[(1000, 1001)], start=start, fades=True), start)
     assert course(0.9, 100, gate=[(10, 20)])[0] == pytest.approx(0.9 * (1 - 0.95**20), abs=1e-12)

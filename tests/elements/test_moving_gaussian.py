@@ -29,14 +29,14 @@ def plain(axis, places, sigma):
     return np.exp(-0.5 * (d / sigma) ** 2)
 
 
-def test_a_constant_velocity_on_a_plane():
+def test_a_stimulus_moves_at_constant_velocity_in_a_plane():
     t, y = seen(axes=[X, Y], center=[2, 4], sigma=[3, 1], amplitude=2.5, velocity=[0.6, -0.25])
     np.testing.assert_allclose(
         y, 2.5 * plain(X, 2 + 0.6 * t, 3)[:, :, None] * plain(Y, 4 - 0.25 * t, 1)[:, None, :], atol=1e-12
     )
 
 
-def test_round_a_ring():
+def test_a_moving_stimulus_crosses_the_ends_of_a_periodic_axis():
     t, y = seen(axes=[RING], center=300, sigma=25, velocity=9.0, duration=100.0)
     np.testing.assert_allclose(y, plain(RING, 300 + 9 * t, 25), atol=1e-12)
     assert (RING.points[y.argmax(1)][[0, 10, 80]] == [300, 340, 300]).all()
@@ -60,7 +60,7 @@ def test_path_and_velocity_and_centre_add_up():
     )
 
 
-def test_without_motion_it_is_the_gaussian_stimulus():
+def test_a_moving_stimulus_without_motion_equals_the_gaussian_stimulus():
     _, y = seen(axes=[X], center=12, sigma=4, amplitude=3, windows=[(10, 20)])
     model = dd.Model("stands", dt=0.5)
     model.add(dd.GaussianStimulus("s", [X], center=12, sigma=4, amplitude=3, windows=[(10, 20)]))

@@ -11,7 +11,7 @@ X, Y = dd.Axis("x", 0, 3, 4), dd.Axis("y", 0, 1, 2)
 VALUES = np.arange(8.0).reshape(4, 2)
 
 
-def test_the_values_times_the_amplitude_while_it_is_on():
+def test_the_output_is_the_values_times_the_amplitude_in_the_windows():
     model = dd.Model("pattern")
     model.add(Pattern("s", [X, Y], VALUES, 0.5, windows=[(2, 4)]))
     found = dd.simulate(model, 5, record=["s.output"])["s.output"].values

@@ -11,7 +11,7 @@ from deodar.model.check import problems
 X = dd.Axis("x", 0, 3, 4)
 
 
-def test_it_keeps_its_place_in_a_loop_and_says_nothing():
+def test_a_placeholder_in_a_loop_outputs_zero():
     model = dd.Model("placeholder")
     u = model.add(dd.Field("u", [X], resting_level=2.0))
     p = model.add(Placeholder("p", [X], "Camera: reads a camera"))

@@ -35,7 +35,7 @@ def bumpy(axes, seed=0):
 
 @pytest.mark.parametrize("axes", PLACES, ids=lambda axes: f"{len(axes)}-D {axes[0].name}")
 @pytest.mark.parametrize("g", SIGMOIDS, ids=lambda g: type(g).__name__)
-def test_the_rule(g, axes):
+def test_cell_means_agree_with_the_oracle(g, axes):
     u = bumpy(axes)
     with jax.enable_x64(True):
         found = np.asarray(cell_means(g, jnp.asarray(u), tuple(axes)))
@@ -99,7 +99,7 @@ def test_the_gradient_is_finite_and_right(g, axes):
     assert np.isclose(slope, differences, rtol=1e-4, atol=1e-4)
 
 
-def test_a_document_without_the_entry_means_points(tmp_path):
+def test_a_document_without_a_quadrature_uses_points(tmp_path):
     import json
 
     model = dd.Model("old")
@@ -147,7 +147,7 @@ def test_a_memory_keeps_a_position_between_two_samples():
         assert (abs(g @ axis.points / g.sum() - 50.6) < 0.02) == (quadrature == "cell")
 
 
-def test_architectures_whose_strengths_were_found_with_points_keep_points():
+def test_published_architectures_use_points():
     from deodar.architectures.saliency import saliency
     from deodar.architectures.serial_order import serial_order
 

@@ -9,7 +9,7 @@ from deodar.elements.boost import Boost
 from deodar.elements.rate_node import RateNode
 
 
-def test_it_takes_the_step_that_its_rate_says():
+def test_a_step_follows_the_rate():
     model = dd.Model("rate", dt=0.5)
     n = model.add(RateNode("n", tau=8, resting_level=-2, self_excitation=3, sigmoid=dd.Logistic(2.0)))
     model.connect(model.add(Boost("b", (), 1.5, windows=[(3, 9)])), n)

@@ -65,14 +65,14 @@ CASES = [
 
 
 @pytest.mark.parametrize(("reads", "back"), CASES)
-def test_previous_current_and_delayed(reads, back):
+def test_previous_current_and_delayed_reads_agree_with_the_oracle(reads, back):
     data, reference = run(reads, back), by_hand(reads, back)
     for k, name in enumerate(("u.activation", "v.activation")):
         scale = abs(reference[:, k]).max()
         np.testing.assert_allclose(data[name].values, reference[:, k], rtol=0, atol=1e-9 * scale)
 
 
-def test_the_ways_of_reading_differ():
+def test_previous_current_and_delayed_reads_differ():
     ends = [by_hand(*case)[30].ravel() for case in CASES[:4]]
     for i in range(4):
         for j in range(i):
@@ -80,7 +80,7 @@ def test_the_ways_of_reading_differ():
 
 
 @pytest.mark.parametrize(("slow", "fast"), [(3, 1), (2, 5), (4, 1)])
-def test_parts_at_steps_of_their_own(slow, fast):
+def test_parts_with_other_steps_agree_with_the_oracle(slow, fast):
     """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks later."""
     model = dd.Model("rates")
     s = model.add(S)
@@ -107,7 +107,7 @@ def test_parts_at_steps_of_their_own(slow, fast):
         np.testing.assert_allclose(data[name].values, reference, rtol=0, atol=1e-9 * abs(reference).max())
 
 
-def test_a_slow_part_does_not_move_between_its_ticks():
+def test_the_state_of_a_slow_part_is_constant_between_its_ticks():
     model = dd.Model("slow")
     model.add(Boost("b", [], 4.0)) >> model.add(dd.Field("n", [], tau=20), ticks=4)
     data = dd.simulate(model, 40, record="n.activation")["n.activation"].values

@@ -12,7 +12,7 @@ X = dd.Axis("x", 0, 3, 4)
 
 
 @pytest.mark.parametrize("empty", ["zero", "nan"])
-def test_each_slot_shows_the_input_at_its_moment(empty):
+def test_each_slot_contains_the_input_at_its_time(empty):
     model = dd.Model("moments", dt=0.5)
     u = model.add(dd.Field("u", [X], tau=10, resting_level=-3))
     model.connect(model.add(dd.GaussianStimulus("s", [X], center=1, sigma=1, amplitude=9)), u)
@@ -27,7 +27,7 @@ def test_each_slot_shows_the_input_at_its_moment(empty):
         assert np.array_equal(found[k], wanted, equal_nan=True)
 
 
-def test_a_moment_for_each_slot():
+def test_a_time_for_each_slot_is_required():
     model = dd.Model("lengths")
     model.connect(
         model.add(dd.Field("u", [X])),

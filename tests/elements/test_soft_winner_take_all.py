@@ -67,14 +67,14 @@ def test_the_winner_is_amplified_and_the_others_are_silent():
     assert np.delete(rates, 3).max() < 1e-6
 
 
-def test_without_self_excitation_it_is_soft():
+def test_without_self_excitation_several_units_are_active():
     """Weak competition keeps several: r = s - beta_1 beta_2 sum r for those above it."""
     rates, v = settled(self_excitation=0.0, inhibition=0.8, drive=0.25)
     np.testing.assert_allclose(rates, np.maximum(0, EVIDENCE - 0.2 * rates.sum()), atol=1e-6)
     assert (rates > 1e-6).sum() == 4 and v == pytest.approx(0.25 * rates.sum(), abs=1e-6)
 
 
-def test_the_units_count_not_the_samples():
+def test_inhibition_depends_on_the_units_and_not_on_the_grid_step():
     """The same pool sampled twice as finely: the integral over the axis drives the inhibition."""
     found = []
     for samples in (51, 101):
@@ -124,7 +124,7 @@ def test_its_noise_is_that_of_a_field():
     assert runs[0].std() > 0.1
 
 
-def test_behind_a_filter_it_is_the_field_whose_inhibition_is_late_by_a_step():
+def test_with_filtered_input_the_pool_is_a_field_with_inhibition_one_step_late():
     """Inhibition as fast as the step: v(t + dt) is the integral of r(t).
 
     Nothing else lies between the pool and a field.

@@ -33,7 +33,7 @@ STIMULI = [
 ]
 
 
-def test_every_stimulus_over_time():
+def test_every_stimulus_agrees_with_the_oracle_over_time():
     model = dd.Model("stimuli")
     for s in STIMULI:
         model.add(s)
@@ -68,7 +68,7 @@ MOTORS = [
 ]
 
 
-def test_attractor_dynamics():
+def test_attractors_agree_with_the_oracle():
     line = dd.GaussianStimulus("line", [LINE], center=2.2, sigma=1.5, amplitude=0.9, windows=[(10, 150)])
     ring = dd.GaussianStimulus("ring", [RING], center=168.0, sigma=20, amplitude=0.9, windows=[(10, 150)])
     model = dd.Model("motors")

@@ -28,7 +28,7 @@ def lines(t):
     return np.stack([np.interp(t, TIMES, column) for column in flat.T], axis=1).reshape(len(t), 5, 3)
 
 
-def test_straight_lines():
+def test_values_between_times_are_interpolated_linearly():
     t, y = seen(amplitude=-2.0)
     np.testing.assert_allclose(y, -2 * lines(t), atol=1e-12)
 
@@ -41,7 +41,7 @@ def test_a_held_value_lasts_until_the_next_sample():
 
 @pytest.mark.parametrize("interpolation", ["linear", "hold"])
 @pytest.mark.parametrize("dt", [0.5, 0.1])
-def test_it_begins_again(interpolation, dt):
+def test_a_series_with_a_period_repeats(interpolation, dt):
     t, once = seen(11.5 if dt == 0.5 else 11.9, dt=dt, interpolation=interpolation, period=12.0)
     _, often = seen(60.0, dt=dt, interpolation=interpolation, period=12.0)
     for k in range(5):
@@ -49,7 +49,7 @@ def test_it_begins_again(interpolation, dt):
         np.testing.assert_allclose(part, once, atol=1e-9)
 
 
-def test_a_day_later_it_is_still_in_time():
+def test_a_periodic_series_is_exact_after_a_day():
     """Single precision alone cannot count milliseconds for a day."""
     day = 86_400_000.0
     _, early = seen(30.0, precision="float32", interpolation="hold", period=12.0)
@@ -57,7 +57,7 @@ def test_a_day_later_it_is_still_in_time():
     np.testing.assert_array_equal(early, late)
 
 
-def test_numbers_for_a_node_and_a_single_moment():
+def test_series_of_numbers_and_series_of_a_single_time_are_accepted():
     t, y = seen(axes=[], times=[1.0, 3.0], values=[0.0, 4.0], windows=[(2, 20)])
     np.testing.assert_allclose(y, np.where((t >= 2) & (t < 20), np.clip(2 * (t - 1), 0, 4), 0), atol=1e-12)
     _, y = seen(axes=[X], times=[7.0], values=[np.arange(5.0)])
@@ -70,7 +70,7 @@ def test_how_a_run_is_cut_into_chunks_changes_no_bit(period):
     require_the_same_in_any_chunks(element)
 
 
-def test_of_a_function():
+def test_a_series_is_created_from_a_function():
     series = TimeSeries.of("s", lambda t, x, y: t * x - y, range(4), [X, Y], interpolation="hold")
     t = np.arange(4.0)[:, None, None]
     np.testing.assert_array_equal(series.values.data, t * X.points[:, None] - Y.points)
@@ -78,7 +78,7 @@ def test_of_a_function():
     assert TimeSeries.of("s", lambda t: 1.0, [0, 1], []).values.data.tolist() == [1, 1]
 
 
-def test_mistakes_are_reported():
+def test_wrong_times_and_values_are_reported():
     with pytest.raises(ParameterError, match="times: does not rise"):
         TimeSeries("s", [], [0.0, 0.0], [1.0, 2.0])
     with pytest.raises(ParameterError, match="times: has shape"):

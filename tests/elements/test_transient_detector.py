@@ -23,7 +23,7 @@ def seen(times, values, interpolation="hold", initial=0.0):
     return data["time"].values, data["detector.output"].values, data["detector.off"].values
 
 
-def test_a_step_up_and_a_step_down():
+def test_steps_up_and_down_give_decaying_pulses():
     t, on, off = seen([0, 40, 120], [0.0, 3.0, 1.0])
     passed = np.maximum(np.round((t - 40) / DT), 0)
     pulse = np.where(t >= 40, 3.0 * (1 - DT / TAU) ** passed, 0.0)
@@ -38,11 +38,11 @@ def test_a_step_up_and_a_step_down():
     )
 
 
-def test_a_steady_rise_gives_its_slope_times_tau():
+def test_a_linear_rise_gives_its_slope_times_tau():
     _, on, _ = seen([0, 1000], [0.0, 100.0], interpolation="linear")
     assert on[-1, 0] == pytest.approx(0.1 * TAU, rel=1e-4)
 
 
-def test_an_input_of_the_first_step_may_be_long_past():
+def test_an_initial_value_equal_to_the_input_gives_no_pulse():
     _, on, off = seen([0], [4.0], initial=4.0)
     assert not on[:, 0].any() and not off[:, 0].any() and off[0, 1] == pytest.approx(12.0)

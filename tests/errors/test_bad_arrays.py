@@ -76,7 +76,7 @@ def test_the_file_that_was_saved_loads(saved: Path) -> None:
     assert sorted(p.name for p in saved.parent.iterdir()) == sorted([saved.name, _array_file(saved).name])
 
 
-def test_missing(saved: Path) -> None:
+def test_a_missing_array_file_is_refused(saved: Path) -> None:
     name = _array_file(saved).name
     _array_file(saved).unlink()
     refused(
@@ -89,7 +89,7 @@ def test_missing(saved: Path) -> None:
 
 
 @pytest.mark.parametrize("where", ["parent", "absolute", "below", "backslash", "dots", "dot", "empty"])
-def test_outside_the_folder(saved: Path, where: str) -> None:
+def test_an_array_file_outside_of_the_folder_is_refused(saved: Path, where: str) -> None:
     inside = _array_file(saved)
     outside = saved.parent.parent / inside.name
     outside.write_bytes(inside.read_bytes())
@@ -108,7 +108,7 @@ def test_outside_the_folder(saved: Path, where: str) -> None:
     refused(lambda: dd.load(saved), DocumentError, "lies outside the document's folder")
 
 
-def test_a_symbolic_link(saved: Path) -> None:
+def test_a_symbolic_link_as_array_file_is_refused(saved: Path) -> None:
     inside = _array_file(saved)
     outside = saved.parent.parent / "other.npz"
     outside.write_bytes(inside.read_bytes())
@@ -117,14 +117,14 @@ def test_a_symbolic_link(saved: Path) -> None:
     refused(lambda: dd.load(saved), DocumentError, "lies outside the document's folder")
 
 
-def test_a_folder(saved: Path) -> None:
+def test_a_folder_as_array_file_is_refused(saved: Path) -> None:
     inside = _array_file(saved)
     inside.unlink()
     inside.mkdir()
     refused(lambda: dd.load(saved), DocumentError, "is missing")
 
 
-def test_another_content(saved: Path) -> None:
+def test_an_array_file_with_another_content_is_refused(saved: Path) -> None:
     content = _array_file(saved).read_bytes()
     _array_file(saved).write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
     refused(
@@ -133,7 +133,7 @@ def test_another_content(saved: Path) -> None:
 
 
 @pytest.mark.parametrize("keep", [0, 1, 30, 0.5, -1])
-def test_truncated(saved: Path, keep: float) -> None:
+def test_a_truncated_array_file_is_refused(saved: Path, keep: float) -> None:
     content = _array_file(saved).read_bytes()
     cut = content[: int(len(content) * keep)] if isinstance(keep, float) else content[:keep]
     _array_file(saved).write_bytes(cut)
@@ -190,7 +190,7 @@ def _zip(entries: dict[str, bytes]) -> bytes:
 
 
 @pytest.mark.parametrize("name", CONTENTS)
-def test_content_that_is_not_plain_numbers(
+def test_arrays_of_other_types_than_numbers_are_refused(
     saved: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     make, says = CONTENTS[name]
@@ -199,7 +199,9 @@ def test_content_that_is_not_plain_numbers(
     assert "sprung" not in capsys.readouterr().out, "nothing in the file was run"
 
 
-def test_a_bomb_is_refused_before_it_is_unpacked(saved: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_array_file_that_expands_too_much_is_refused_before_it_is_read(
+    saved: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A small file that unpacks to more than the machine has; its directory states its size."""
     monkeypatch.setattr(files, "ARRAY_SHARE", 1e-9)
     _replace(saved, _zip({"array.npy": b"\0" * 10_000_000}))
@@ -218,12 +220,12 @@ def test_a_bomb_is_refused_before_it_is_unpacked(saved: Path, monkeypatch: pytes
         {"file": "m.npz", "sha256": "0", "url": "x"},
     ],
 )
-def test_an_entry_that_is_none(saved: Path, entry: Any) -> None:
+def test_an_invalid_entry_of_arrays_is_refused(saved: Path, entry: Any) -> None:
     saved.write_text(json.dumps(_data(saved) | {"arrays": entry}))
     refused(lambda: dd.load(saved), DocumentError, "arrays: needs a file and its sha256")
 
 
-def test_the_array_file_is_not_written_over_another(saved: Path) -> None:
+def test_an_existing_array_file_of_the_same_name_is_not_replaced(saved: Path) -> None:
     """Saved beside a stranger's file of the same name: refused, and nothing is written."""
     stranger = _array_file(saved)
     model = dd.load(saved)
@@ -234,7 +236,7 @@ def test_the_array_file_is_not_written_over_another(saved: Path) -> None:
     assert stranger.read_bytes() == b"a stranger's"
 
 
-def test_saving_anew_takes_the_old_arrays_away(saved: Path) -> None:
+def test_saving_again_removes_the_previous_array_file(saved: Path) -> None:
     old = _array_file(saved)
     model = dd.load(saved)
     model.set("w.weights", np.linspace(0, 2, 11))
@@ -243,7 +245,7 @@ def test_saving_anew_takes_the_old_arrays_away(saved: Path) -> None:
     assert sorted(p.name for p in saved.parent.iterdir()) == sorted([saved.name, _array_file(saved).name])
 
 
-def test_a_document_cannot_make_save_delete_something_else(saved: Path) -> None:
+def test_saving_never_deletes_a_file_that_is_not_an_array_file(saved: Path) -> None:
     """A document that names another file as its arrays, saved over with force: that file stays."""
     other = saved.with_name("thesis.npz")
     other.write_bytes(b"precious")

@@ -63,7 +63,9 @@ def _status(argv: list[str]) -> int:
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_a_call_that_cannot_be(folder: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_call_is_an_error_and_writes_nothing(
+    folder: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     argv, status, says = CALLS[name]
     before = sorted(folder.iterdir())
     assert _status(argv) == status
@@ -85,7 +87,7 @@ def test_every_command_has_help(command: str, capsys: pytest.CaptureFixture[str]
         assert cli.commands()[command].HELP.split()[0] in out
 
 
-def test_the_version(capsys: pytest.CaptureFixture[str]) -> None:
+def test_version_prints_the_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert _status(["--version"]) == 0
     assert capsys.readouterr().out == f"deodar {dd.__version__}\n"
 

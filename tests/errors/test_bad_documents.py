@@ -64,7 +64,7 @@ DATA["packages"] = {"Gain": "deodar-gain 1.0"}
 TEXT = json.dumps(DATA)
 
 
-def test_the_document_that_the_walk_starts_from_is_good() -> None:
+def test_the_unchanged_document_is_valid() -> None:
     assert files.from_data(json.loads(TEXT), ARRAYS) == rich().document
     assert set(files.KEYS) - set(DATA) == {"arrays"}
 
@@ -121,7 +121,7 @@ def _read(data: Any) -> Document | None:
 
 
 @pytest.mark.parametrize("what", VALUES)
-def test_any_value_at_any_place(what: str) -> None:
+def test_a_wrong_value_at_any_place_is_refused_or_read(what: str) -> None:
     """A systematic walk: each value of a good document is replaced by each wrong one."""
     taken = refusals = 0
     for at in _places(DATA):
@@ -139,7 +139,7 @@ def test_any_value_at_any_place(what: str) -> None:
     assert taken + refusals == len(list(_places(DATA)))
 
 
-def test_any_key_left_out() -> None:
+def test_a_missing_key_is_refused_or_has_a_default() -> None:
     for at in _places(DATA):
         if at and isinstance(at[-1], str):
             holder = DATA
@@ -148,7 +148,7 @@ def test_any_key_left_out() -> None:
             _read(_with(DATA, at[:-1], {k: v for k, v in holder.items() if k != at[-1]}))
 
 
-def test_any_key_misspelt() -> None:
+def test_a_misspelt_key_is_refused_with_a_suggestion() -> None:
     """No key is silently passed over, except names that a person chooses."""
     free = {"axes", "elements", "parameters", "layout", "values", "packages"}
     tried = 0
@@ -165,7 +165,7 @@ def test_any_key_misspelt() -> None:
 
 
 @pytest.mark.parametrize("length", [0, 1, 10, 100, len(TEXT) // 2, len(TEXT) - 1])
-def test_a_truncated_file(tmp_path: Path, length: int) -> None:
+def test_a_truncated_file_is_refused(tmp_path: Path, length: int) -> None:
     path = tmp_path / "cut.json"
     path.write_text(TEXT[:length])
     refused(lambda: dd.load(path), DocumentError, str(path), "is not JSON", "line 1")
@@ -287,14 +287,14 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
 
 
 @pytest.mark.parametrize("name", RAW)
-def test_a_file_that_is_none(tmp_path: Path, name: str) -> None:
+def test_a_file_without_a_document_is_refused(tmp_path: Path, name: str) -> None:
     content, says = RAW[name]
     path = tmp_path / "bad.json"
     path.write_bytes(content)
     refused(lambda: dd.load(path), DocumentError, str(path), *says)
 
 
-def test_all_problems_at_once(tmp_path: Path) -> None:
+def test_all_problems_of_a_document_are_listed(tmp_path: Path) -> None:
     path = tmp_path / "bad.json"
     path.write_text(
         json.dumps(
@@ -322,7 +322,7 @@ def test_all_problems_at_once(tmp_path: Path) -> None:
         assert f": {place}: " in text or f"{place} " in text, place
 
 
-def test_a_file_that_is_not_there_suggests_the_nearest(tmp_path: Path) -> None:
+def test_a_missing_file_suggests_the_nearest_name(tmp_path: Path) -> None:
     dd.save(dd.Model("m"), tmp_path / "selection.json")
     refused(
         lambda: dd.load(tmp_path / "selecton.json"),
@@ -335,7 +335,9 @@ def test_a_file_that_is_not_there_suggests_the_nearest(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "path", [".", "", "no/such/folder/file.json", "a" * 300, "nul\0byte.json", 5, None, b"bytes"]
 )
-def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: Any) -> None:
+def test_a_path_without_a_regular_file_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: Any
+) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DocumentError) as caught:
         dd.load(path)
@@ -347,14 +349,14 @@ def test_what_is_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: 
     )
 
 
-def test_a_file_that_is_too_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(files, "MOST_BYTES", 1000)
     path = tmp_path / "long.json"
     path.write_text(" " * 2000)
     refused(lambda: dd.load(path), DocumentError, "a document has at most")
 
 
-def test_a_pipe_is_no_document(tmp_path: Path) -> None:
+def test_a_named_pipe_is_refused_as_a_document(tmp_path: Path) -> None:
     import os
 
     path = tmp_path / "pipe.json"

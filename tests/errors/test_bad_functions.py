@@ -39,7 +39,7 @@ def stranger(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     sys.modules.pop("strangers_module", None)
 
 
-def test_reading_checking_and_editing_never_import_it(
+def test_reading_checking_and_editing_never_import_a_function(
     stranger: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = stranger.with_name("strange.json")
@@ -60,7 +60,7 @@ def test_reading_checking_and_editing_never_import_it(
 @pytest.mark.parametrize(
     "run", [lambda m: dd.simulate(m, 5, record="f.output"), dd.Session], ids=["simulate", "Session"]
 )
-def test_running_it_is_refused_until_it_is_trusted(stranger: Path, run: Callable[[dd.Model], Any]) -> None:
+def test_running_a_function_requires_trust(stranger: Path, run: Callable[[dd.Model], Any]) -> None:
     path = stranger.with_name("strange.json")
     refused(
         lambda: run(dd.load(path)),
@@ -72,14 +72,14 @@ def test_running_it_is_refused_until_it_is_trusted(stranger: Path, run: Callable
     assert not stranger.exists()
 
 
-def test_trust_runs_it(stranger: Path) -> None:
+def test_a_trusted_function_runs(stranger: Path) -> None:
     model = dd.load(stranger.with_name("strange.json"), trust=True)
     data = dd.simulate(model, 5, record="f.output")
     assert stranger.exists()
     assert float(data["f.output"].isel(time=-1).max()) > 4
 
 
-def test_a_trusted_model_does_not_lend_its_trust(stranger: Path) -> None:
+def test_trust_of_a_model_does_not_extend_to_inserted_models(stranger: Path) -> None:
     """A stranger's document inserted into a model of one's own is as foreign as before; trust is said where
     it is read.
     """
@@ -184,14 +184,14 @@ FUNCTIONS: dict[str, tuple[Any, type[Exception], tuple[str, ...]]] = {
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_a_function_that_goes_wrong(name: str) -> None:
+def test_a_failing_function_is_an_error_that_names_it(name: str) -> None:
     function, error, says = FUNCTIONS[name]
     model = dd.Model("m")
     model.add(Function("f", [X], function=function))
     refused(lambda: dd.simulate(model, 5, record="f.output"), error, *says)  # type: ignore[arg-type]
 
 
-def test_a_module_that_raises_when_it_is_imported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_module_that_raises_at_import_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "broken_module_of_mine.py").write_text("raise RuntimeError('broken')\n")
     monkeypatch.syspath_prepend(tmp_path)
     model = dd.Model("m")
@@ -203,7 +203,7 @@ def test_a_module_that_raises_when_it_is_imported(tmp_path: Path, monkeypatch: p
     )
 
 
-def test_the_place_of_an_error_in_a_user_function_is_visible() -> None:
+def test_the_cause_of_an_error_in_a_user_function_is_kept() -> None:
     """The message is ours; the cause, with its line, is kept for those who look."""
     model = dd.Model("m")
     model.add(Function("f", [X], function=raises))
@@ -212,13 +212,13 @@ def test_the_place_of_an_error_in_a_user_function_is_visible() -> None:
     assert isinstance(caught.value.__cause__, RuntimeError)
 
 
-def test_a_value_that_the_function_does_not_take() -> None:
+def test_a_parameter_that_the_function_does_not_have_is_an_error() -> None:
     model = dd.Model("m")
     model.add(Function("f", [X], function="deodar.elements.function:leaky", values={"rat": 1.0}))
     refused(lambda: dd.simulate(model, 5, record="f.output"), ModelError, "raised TypeError", "'rat'")
 
 
-def test_an_input_that_the_element_does_not_have() -> None:
+def test_an_input_that_the_element_does_not_have_is_an_error() -> None:
     model = dd.Model("m")
     model.add(Function("f", [X], function="deodar.elements.function:leaky", ports_in=["drive"]))
     refused(lambda: dd.simulate(model, 5, record="f.output"), ModelError, "raised KeyError: 'input'")
@@ -234,7 +234,7 @@ def test_a_function_that_divides_by_zero_names_element_and_step() -> None:
     )
 
 
-def test_a_model_made_of_a_strangers_document_does_not_run_its_functions(stranger: Path) -> None:
+def test_functions_of_an_untrusted_document_do_not_run(stranger: Path) -> None:
     document = files.load(stranger.with_name("strange.json"))
     model = dd.Model(document=document)
     assert not model.trusted
@@ -248,7 +248,7 @@ def test_a_model_made_of_a_strangers_document_does_not_run_its_functions(strange
     assert not stranger.exists()
 
 
-def test_a_document_keeps_the_trust_that_a_script_gave_it(stranger: Path) -> None:
+def test_a_loaded_model_keeps_the_trust_stated_by_the_script(stranger: Path) -> None:
     loaded = dd.load(stranger.with_name("strange.json"), trust=True)
     loaded.set("f.initial", 0.5)
     own = dd.Model("own")

@@ -58,7 +58,7 @@ def _broken_link(path: Path) -> None:
 
 @pytest.mark.parametrize("make", [_folder, _pipe, _link, _broken_link])
 @pytest.mark.parametrize("force", [False, True])
-def test_what_is_no_regular_file_is_never_written(
+def test_a_path_that_is_not_a_regular_file_is_never_replaced(
     tmp_path: Path, model: dd.Model, make: Callable[[Path], None], force: bool
 ) -> None:
     path = tmp_path / "m.json"
@@ -91,14 +91,14 @@ def _bad(tmp_path: Path, what: str) -> Any:
     "what",
     ["no folder", "a file as a folder", "too long", "a nul", "half a character", "a number", "nothing"],
 )
-def test_places_where_nothing_can_be_written(tmp_path: Path, model: dd.Model, what: str) -> None:
+def test_a_path_that_cannot_be_written_is_an_error(tmp_path: Path, model: dd.Model, what: str) -> None:
     path = _bad(tmp_path, what)
     before = _listing(tmp_path)
     refused(lambda: dd.save(model, path), OutputError)
     assert _listing(tmp_path) == before
 
 
-def test_a_folder_that_cannot_be_written_to(
+def test_a_folder_without_write_permission_is_an_error(
     tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(output.os, "access", lambda path, mode: False)
@@ -106,7 +106,7 @@ def test_a_folder_that_cannot_be_written_to(
     assert _listing(tmp_path) == []
 
 
-def test_a_folder_that_refuses_after_all(
+def test_permission_denied_while_writing_is_an_error(
     tmp_path: Path, model: dd.Model, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*args: Any, **kwargs: Any) -> Any:
@@ -141,7 +141,7 @@ def test_a_full_disk_leaves_nothing_behind(
     assert (tmp_path / "m.json").read_text() == "precious"
 
 
-def test_what_is_written_appears_whole(tmp_path: Path) -> None:
+def test_a_file_is_replaced_only_when_its_content_is_complete(tmp_path: Path) -> None:
     """The content is made beside the place: until it is complete, the place holds what it held."""
     path = tmp_path / "out.bin"
     path.write_bytes(b"old")
@@ -168,7 +168,7 @@ def test_an_error_while_writing_leaves_nothing(tmp_path: Path) -> None:
     assert _listing(tmp_path) == []
 
 
-def test_written_files_have_the_rights_of_any_file(tmp_path: Path, model: dd.Model) -> None:
+def test_written_files_have_the_default_permissions(tmp_path: Path, model: dd.Model) -> None:
     dd.save(model, tmp_path / "m.json")
     plain = tmp_path / "plain"
     plain.write_text("x")

@@ -297,12 +297,12 @@ CASES: dict[str, Case] = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_bad_values(name: str) -> None:
+def test_invalid_values_are_refused(name: str) -> None:
     call, error, says = CASES[name]
     refused(call, error, *says)
 
 
-def test_everything_wrong_with_a_part_is_listed_at_once() -> None:
+def test_all_problems_of_a_part_are_listed() -> None:
     text = refused(
         lambda: dd.Field("u", [X], tau=-1, noise=-1, resting_level="low"), ParameterError, "3 problems"
     )
@@ -322,13 +322,13 @@ NUMBERS: list[Any] = [
 
 
 @pytest.mark.parametrize("number", NUMBERS, ids=lambda n: f"{type(n).__name__} {getattr(n, 'dtype', '')}")
-def test_numbers_of_every_kind_are_numbers(number: Any) -> None:
+def test_numbers_of_python_and_numpy_are_accepted(number: Any) -> None:
     assert dd.Field("u", [X], tau=number).tau == 7.0
     assert type(dd.Field("u", [X], tau=number).tau) is float
     assert dd.Axis("x", 0, number, samples=8).upper == 7.0
 
 
-def test_numbers_of_jax_are_numbers() -> None:
+def test_numbers_of_jax_are_accepted() -> None:
     import jax.numpy as jnp
 
     assert dd.Field("u", [X], tau=jnp.float32(7)).tau == 7.0
@@ -364,7 +364,7 @@ WRONG: list[Any] = [
         if issubclass(cls, Part) and cls.__module__.startswith("deodar.")
     ],
 )
-def test_no_value_of_any_parameter_raises_anything_else(kind: str) -> None:
+def test_any_value_of_a_parameter_is_accepted_or_refused_by_an_error_of_deodar(kind: str) -> None:
     """Every kind, every parameter, every sort of wrong value: accepted, or refused by an error of deodar with
     its place.
     """

@@ -41,7 +41,7 @@ def _claims(width: int, height: int) -> bytes:
     )
 
 
-def test_a_missing_picture(tmp_path: Path) -> None:
+def test_a_missing_picture_is_an_error(tmp_path: Path) -> None:
     path = tmp_path / "photo.jpg"
     refused(
         lambda: Picture(path), WorldError, str(path), "there is no such picture", "such as a .jpg or .png"
@@ -61,7 +61,7 @@ def test_a_missing_picture(tmp_path: Path) -> None:
         b"BM" + b"\xff" * 60,
     ],
 )
-def test_a_file_that_is_no_picture(tmp_path: Path, content: bytes) -> None:
+def test_a_file_that_is_not_a_picture_is_an_error(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "photo.jpg"
     path.write_bytes(content)
     refused(lambda: Picture(path), WorldError, str(path), "cannot be read as a picture")
@@ -69,7 +69,7 @@ def test_a_file_that_is_no_picture(tmp_path: Path, content: bytes) -> None:
 
 @pytest.mark.parametrize("kind", ["png", "jpg", "bmp", "webp", "tiff"])
 @pytest.mark.parametrize("keep", [0.1, 0.5, 0.9])
-def test_a_truncated_picture(tmp_path: Path, kind: str, keep: float) -> None:
+def test_a_truncated_picture_is_an_error(tmp_path: Path, kind: str, keep: float) -> None:
     path = _good(tmp_path, kind)
     content = path.read_bytes()
     path.write_bytes(content[: int(len(content) * keep)])
@@ -77,19 +77,21 @@ def test_a_truncated_picture(tmp_path: Path, kind: str, keep: float) -> None:
 
 
 @pytest.mark.parametrize("size", [(20_000, 20_000), (12_000, 10_000), (2**31 - 1, 2**31 - 1)])
-def test_a_picture_of_too_many_pixels(tmp_path: Path, size: tuple[int, int]) -> None:
+def test_a_picture_of_too_many_pixels_is_refused(tmp_path: Path, size: tuple[int, int]) -> None:
     path = tmp_path / "bomb.png"
     path.write_bytes(_claims(*size))
     refused(lambda: Picture(path), WorldError, str(path))
 
 
 @pytest.mark.parametrize("file", ["", ".", "a" * 300, "nul\0byte.png", 5, None, [[1, 2, 3]]])
-def test_what_names_no_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: Any) -> None:
+def test_a_value_that_is_not_a_path_of_a_picture_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: Any
+) -> None:
     monkeypatch.chdir(tmp_path)
     refused(lambda: Picture(file), WorldError)
 
 
-def test_a_pipe_is_no_picture(tmp_path: Path) -> None:
+def test_a_named_pipe_is_refused_as_a_picture(tmp_path: Path) -> None:
     import os
 
     os.mkfifo(tmp_path / "pipe.png")
@@ -111,7 +113,7 @@ def test_a_pipe_is_no_picture(tmp_path: Path) -> None:
         np.full((4, 4, 3), 1j),
     ],
 )
-def test_arrays_that_are_no_pictures(pixels: np.ndarray) -> None:
+def test_arrays_of_another_shape_than_pictures_are_refused(pixels: np.ndarray) -> None:
     refused(lambda: Picture(pixels), WorldError)
 
 
@@ -130,7 +132,7 @@ def _sensing(sensor: str = "picture") -> dd.Model:
     return model
 
 
-def test_a_sensor_without_a_world() -> None:
+def test_a_sensor_without_a_world_is_an_error() -> None:
     model = _sensing()
     refused(
         lambda: dd.simulate(model, duration=1, record="eye.output"),
@@ -141,7 +143,7 @@ def test_a_sensor_without_a_world() -> None:
     )
 
 
-def test_a_sensor_that_the_world_does_not_have() -> None:
+def test_a_sensor_that_the_world_does_not_have_is_an_error() -> None:
     model = _sensing("pictur")
     refused(
         lambda: dd.simulate(model, duration=1, record="eye.output", world=Picture.example()),
@@ -151,7 +153,7 @@ def test_a_sensor_that_the_world_does_not_have() -> None:
     )
 
 
-def test_a_sensor_over_axes_that_a_picture_cannot_fill() -> None:
+def test_a_sensor_of_a_picture_with_other_axes_is_an_error() -> None:
     model = dd.Model("m")
     model.add(Sensor("eye", AXES[:2]))
     refused(
@@ -162,7 +164,7 @@ def test_a_sensor_over_axes_that_a_picture_cannot_fill() -> None:
 
 
 @pytest.mark.parametrize("world", ["photo.jpg", 5, Picture, object()])
-def test_what_is_no_world(world: Any) -> None:
+def test_a_value_that_is_not_a_world_is_refused(world: Any) -> None:
     refused(
         lambda: dd.simulate(_sensing(), duration=1, record="eye.output", world=world),
         WorldError,
@@ -171,7 +173,7 @@ def test_what_is_no_world(world: Any) -> None:
 
 
 @pytest.mark.parametrize("reading", [np.zeros((16, 16)), np.full((16, 16, 3), np.nan), "picture", None])
-def test_a_world_that_gives_something_else(reading: Any) -> None:
+def test_a_world_with_an_invalid_reading_is_an_error(reading: Any) -> None:
     class Broken(Picture):
         def sense(self, sensor: str, axes: Any, time: float) -> Any:
             return reading
@@ -185,7 +187,7 @@ def test_a_world_that_gives_something_else(reading: Any) -> None:
     )
 
 
-def test_an_unknown_port_of_a_sensor() -> None:
+def test_an_unknown_port_of_a_sensor_is_an_error() -> None:
     refused(
         lambda: dd.simulate(_sensing(), duration=1, record="eye.outptu", world=Picture.example()),
         UnknownName,

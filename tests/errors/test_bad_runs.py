@@ -265,14 +265,14 @@ def _boost_only() -> dd.Model:
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_runs_that_cannot_be(model: dd.Model, name: str) -> None:
+def test_invalid_runs_are_refused(model: dd.Model, name: str) -> None:
     call, error, says = RUNS[name]
     before = model.document
     refused(lambda: call(model), error, *says)
     assert model.document is before
 
 
-def test_a_refused_set_leaves_the_session_as_it_was(model: dd.Model) -> None:
+def test_a_refused_set_does_not_change_the_session(model: dd.Model) -> None:
     s = dd.Session(model)
     s.step(3)
     before, journal = s.read("u.activation"), list(s.journal)
@@ -342,7 +342,7 @@ def _through(coupling: Any) -> Any:
 
 
 @pytest.mark.parametrize("name", LARGE)
-def test_what_does_not_fit_into_memory_is_refused_before_it_is_asked_for(name: str) -> None:
+def test_a_record_that_exceeds_memory_is_refused_before_allocation(name: str) -> None:
     import resource
 
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -372,7 +372,7 @@ NARROW = [1e-6, 1e-4, 1e-2]
 
 @pytest.mark.parametrize("kernel", [dd.Gaussian, Box, MexicanHat], ids=lambda k: k.__name__)
 @pytest.mark.parametrize("periodic", [False, True])
-def test_widths_towards_nothing_stay_finite(kernel: Any, periodic: bool) -> None:
+def test_widths_near_zero_give_finite_values(kernel: Any, periodic: bool) -> None:
     axis = dd.Axis("x", 0, 10, samples=11, periodic=periodic)
     width = {Box: "width", MexicanHat: "sigma_excitation"}.get(kernel, "sigma")
     model = dd.Model("m")
@@ -385,14 +385,14 @@ def test_widths_towards_nothing_stay_finite(kernel: Any, periodic: bool) -> None
     _finite(model, sweep={"u.kernel.0." + width: NARROW, "u.kernel.1." + width: NARROW})
 
 
-def test_widths_far_beyond_the_axis_stay_finite() -> None:
+def test_widths_far_beyond_the_axis_give_finite_values() -> None:
     axis = dd.Axis("x", 0, 10, samples=11, periodic=True)
     model = dd.Model("m")
     model.add(dd.Field("u", [axis], kernel=[dd.Gaussian(sigma=1e9), dd.Gaussian(sigma=1e9, normalized=True)]))
     _finite(model)
 
 
-def test_an_axis_of_one_sample() -> None:
+def test_a_field_over_one_sample_runs() -> None:
     axis = dd.Axis("x", 0, 10, samples=1, periodic=True)
     model = dd.Model("m")
     u = model.add(dd.Field("u", [axis], kernel=[dd.Gaussian(sigma=2), Box(width=3)], noise=0.1))
@@ -400,20 +400,20 @@ def test_an_axis_of_one_sample() -> None:
     _finite(model)
 
 
-def test_an_axis_of_two_samples() -> None:
+def test_a_field_over_two_samples_runs() -> None:
     model = dd.Model("m")
     axis = dd.Axis("x", 0, 10, samples=2)
     model.add(dd.Field("u", [axis], kernel=[dd.Gaussian(sigma=2)], noise=0.1, noise_length=1.0))
     _finite(model)
 
 
-def test_a_step_as_long_as_the_time_constant() -> None:
+def test_a_step_equal_to_the_time_constant_is_accepted() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X], tau=5, kernel=[dd.Gaussian(sigma=2)]))
     _finite(model, dt=5)
 
 
-def test_a_step_of_a_slow_part_counts_whole() -> None:
+def test_the_step_of_a_slow_part_is_compared_with_its_time_constant() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X], tau=5), ticks=4)
     refused(
@@ -424,7 +424,7 @@ def test_a_step_of_a_slow_part_counts_whole() -> None:
     )
 
 
-def test_a_run_of_no_steps_is_the_start() -> None:
+def test_a_run_of_no_steps_records_the_initial_state() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X], resting_level=-3))
     data = dd.simulate(model, 0, record="u.activation")
@@ -432,7 +432,7 @@ def test_a_run_of_no_steps_is_the_start() -> None:
     assert (data["u.activation"].values == -3).all()
 
 
-def test_what_grows_without_bound_names_the_element_and_the_step() -> None:
+def test_a_diverging_run_names_the_element_and_the_step() -> None:
     model = dd.Model("m")
     u = model.add(dd.Field("runaway", [X], tau=1, resting_level=1, sigmoid=_linear()))
     u >> dd.Gain(1e30) >> u
@@ -467,7 +467,7 @@ def test_a_model_with_problems_is_refused_with_all_of_them() -> None:
     )
 
 
-def test_noise_lengths_on_one_axis_only() -> None:
+def test_noise_correlated_along_one_axis_only_is_refused() -> None:
     model = dd.Model("m")
     model.add(Noise("n", [X, dd.Axis("y", 0, 1, 3)], length=[1, 0]))
     refused(

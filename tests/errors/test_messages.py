@@ -25,7 +25,7 @@ def test_several_problems_are_numbered() -> None:
     assert str(error) == "2 problems\n  1. u: one\n  2. v: two. Type this"
 
 
-def test_one_problem_is_no_list() -> None:
+def test_a_single_problem_is_not_numbered() -> None:
     assert str(errors.ModelError([Problem("u", "one")])) == "u: one"
 
 
@@ -42,7 +42,7 @@ def test_one_problem_is_no_list() -> None:
         ),
     ],
 )
-def test_did_you_mean(name: str, known: list[str], hint: str) -> None:
+def test_the_nearest_name_is_suggested(name: str, known: list[str], hint: str) -> None:
     assert did_you_mean(name, known) == hint
 
 
@@ -54,20 +54,22 @@ def test_a_missing_extra_names_the_package_to_install() -> None:
     )
 
 
-def test_an_interrupted_run_holds_its_data() -> None:
+def test_an_interrupted_run_has_its_data() -> None:
     data = object()
     assert Interrupted("stopped at 5 of 10 ms", data).data is data
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda k: k.__name__)
-def test_every_error_is_one_of_ours_and_says_when_it_is_raised(kind: type[DeodarError]) -> None:
+def test_every_error_derives_from_deodar_error_and_documents_when_it_is_raised(
+    kind: type[DeodarError],
+) -> None:
     assert kind.__doc__ and (kind is DeodarError or "aised" in kind.__doc__)
 
 
 @pytest.mark.parametrize(
     "kind", [k for k in KINDS if k not in (MissingExtra, Interrupted)], ids=lambda k: k.__name__
 )
-def test_errors_travel_between_processes(kind: type[DeodarError]) -> None:
+def test_errors_are_passed_between_processes(kind: type[DeodarError]) -> None:
     error = kind([Problem("u", "one"), Problem("v", "two")])
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is kind and str(again) == str(error)

@@ -18,7 +18,7 @@ MADE = [
 
 
 @pytest.mark.parametrize("error", MADE, ids=lambda e: type(e).__name__)
-def test_nothing_is_lost(error: errors.DeodarError) -> None:
+def test_a_pickled_error_keeps_its_type_text_and_problems(error: errors.DeodarError) -> None:
     there = pickle.loads(pickle.dumps(error))
     assert (
         type(there) is type(error)

@@ -26,7 +26,7 @@ def sizes(model):
     return sorted(p.batch.size for p in model.programs.values() if p.batch != Batch())
 
 
-def test_the_courses_are_those_of_single_trials():
+def test_a_batch_gives_the_values_of_single_trials():
     many = run_batch(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
     assert len({c.duration for c in many}) > 2
     for trial, course in zip([7, 0, 3, 1], many, strict=True):
@@ -38,7 +38,7 @@ def test_the_courses_are_those_of_single_trials():
         assert (course.outcome, course.events) == (one.outcome, one.events)
 
 
-def test_trials_that_have_ended_leave_the_batch(monkeypatch):
+def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
     monkeypatch.setattr(batch, "WORTH", 0)
     model, left = decider(), []
     courses = run_batch(model, 600, range(16), events=[DECIDED], between=left.append)
@@ -47,7 +47,7 @@ def test_trials_that_have_ended_leave_the_batch(monkeypatch):
     assert sum(course.outcome == "decided" for course in courses) > 8
 
 
-def test_a_smaller_batch_is_not_compiled_for_little():
+def test_a_smaller_batch_is_compiled_only_if_it_saves_time():
     model = decider()
     run_batch(model, 600, range(16), events=[DECIDED])
     assert sizes(model) == [16]
@@ -69,7 +69,7 @@ def test_the_mean_time_of_a_decision_falls_with_noise():
     assert times[0] > 3 * times[1]
 
 
-def test_fields_are_looked_at_too():
+def test_fields_are_sampled_in_a_batch():
     model = dd.Model("line")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)], tau=10, resting_level=-1, noise=0.5))
     courses = run_batch(model, 50, [4, 5], ["u.activation"], every=10)
@@ -122,7 +122,7 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
     assert shared.drop_attrs().identical(whole.drop_attrs())
 
 
-def test_what_cannot_be_is_refused():
+def test_invalid_batches_are_refused():
     with pytest.raises(ParameterError, match="each of them once"):
         run_batch(decider(), 10, [1, 1])
     with pytest.raises(ParameterError, match="each of them once"):

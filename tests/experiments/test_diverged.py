@@ -63,7 +63,7 @@ def finished(made: Experiment, *args: object, says: str = "3 of 9 trials diverge
     return data
 
 
-def test_the_trial_is_a_row_with_its_reason_and_the_others_keep_their_bits() -> None:
+def test_a_diverged_trial_is_a_row_with_its_reason_and_others_keep_their_bits() -> None:
     data = finished(
         experiment([0.1, 1e6, 0.3]),
         says="3 of 9 trials diverged; the variable 'diverged' gives the reasons, the first is: g became",
@@ -86,7 +86,7 @@ def test_the_trial_is_a_row_with_its_reason_and_the_others_keep_their_bits() -> 
     )
 
 
-def test_the_place_of_the_warning_is_the_call() -> None:
+def test_the_warning_points_to_the_call() -> None:
     with pytest.warns(RunWarning) as told:
         experiment([1e6, 0.1]).run()
     assert told[0].filename == __file__
@@ -103,7 +103,7 @@ def test_trials_run_one_by_one_give_the_same_rows() -> None:
         np.testing.assert_allclose(one[name].values, many[name].values, atol=1e-4)
 
 
-def test_a_coupling_that_is_looked_at_is_judged_one_by_one_as_in_a_batch() -> None:
+def test_a_sampled_coupling_that_diverges_gives_equal_rows_in_trials_and_batches() -> None:
     made = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
     one, many = (
         finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged")
@@ -117,7 +117,7 @@ def test_a_coupling_that_is_looked_at_is_judged_one_by_one_as_in_a_batch() -> No
     np.testing.assert_allclose(one["gain"].values, many["gain"].values, atol=1e-4)
 
 
-def test_a_trial_that_has_ended_before_is_no_trial_that_diverged() -> None:
+def test_a_trial_that_ends_before_it_diverges_has_its_own_outcome() -> None:
     step = _step(1e6)
     for at, outcome in ((step - 1, "early"), (step, "diverged")):
         [course, _] = run_batch(
@@ -151,7 +151,7 @@ def test_the_reason_does_not_depend_on_chunks(monkeypatch: pytest.MonkeyPatch, s
     )
 
 
-def test_a_batch_of_which_no_trial_is_left_raises_and_a_single_trial_too() -> None:
+def test_a_batch_in_which_all_trials_diverge_raises_as_a_single_trial_does() -> None:
     for trials in ([3], [3, 1]):
         with pytest.raises(NotFinite, match="g became infinite"):
             run_batch(model(1e6), 80, trials)
@@ -164,7 +164,7 @@ def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
     assert set(data["outcome"].values) == {"diverged"} and np.isnan(data["duration"].values).all()
 
 
-def test_those_that_diverged_leave_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_diverged_trials_are_dropped_from_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(batch, "WORTH", 0)
     values = {"g.factor": [1e6, 0.1, 1e6, 0.3, 1e6, 1e6]}
     with pytest.warns(RunWarning, match="4 of 6 trials"):
@@ -180,7 +180,7 @@ def test_those_that_diverged_leave_the_batch(monkeypatch: pytest.MonkeyPatch) ->
         np.testing.assert_allclose(some[k].values["v.activation"], good[k].values["v.activation"], atol=1e-5)
 
 
-def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(
+def test_rows_are_equal_with_workers_after_an_interruption_and_from_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
@@ -208,7 +208,7 @@ def test_rows_of_a_stop_of_workers_and_of_files_are_the_same(
     )
 
 
-def test_the_command_counts_them(
+def test_the_command_prints_the_number_of_diverged_trials(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -229,7 +229,7 @@ def test_the_command_counts_them(
     assert "warning: 6 of 6 trials diverged" in capsys.readouterr().err
 
 
-def test_the_name_is_taken() -> None:
+def test_diverged_is_a_reserved_column() -> None:
     with pytest.raises(dd.errors.ParameterError, match="'diverged' is a column of every table"):
         experiment([0.1], conditions=[Crosses("diverged", "v.activation")])
     assert math.isnan(float(finished(experiment([1e6], 1), says="1 of 1")["duration"][0]))

@@ -64,7 +64,7 @@ def choice(**changes):
     return Experiment("choice", line(), 150, precision="float64", **(given | changes))
 
 
-def test_a_file_says_the_same_again(tmp_path):
+def test_a_saved_experiment_is_equal_when_loaded(tmp_path):
     full = choice(
         actions=[
             Push(10, "u", 1.0, 5),
@@ -84,7 +84,7 @@ def test_a_file_says_the_same_again(tmp_path):
         full.save(tmp_path / "e.json")
 
 
-def test_the_schema_knows_every_kind():
+def test_the_schema_contains_every_kind():
     found = Experiment.schema()
     kinds = [part["properties"]["kind"]["const"] for part in found["properties"]["actions"]["items"]["oneOf"]]
     assert {"Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"} == set(
@@ -124,7 +124,7 @@ def test_factors_that_cannot_be_swept_have_separate_batches():
     assert experiment.run().sizes["trial"] == 16
 
 
-def test_designs():
+def test_factors_are_assigned_to_trials_by_the_design():
     factors = [Factor("a", [1, 2], "x"), Factor("b", [1, 2, 3], "y")]
     crossed = assign(factors, "crossed", 2, 0)
     assert crossed[:3] == [(0, 0), (0, 0), (0, 1)] and len(crossed) == 12
@@ -140,7 +140,7 @@ def test_designs():
     assert len(drawn) == 300 and min(drawn.count(cell) for cell in set(crossed)) > 25
 
 
-def test_conditions_of_conditions_and_the_one_awaited():
+def test_combined_conditions_are_detected_and_the_missing_one_is_named():
     both = [
         Appears("left up", "u", near=30, radius=8, ends=False),
         Appears("right up", "u", near=95, radius=4, ends=False),
@@ -265,7 +265,7 @@ def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
         choice(trials=1, measures=[Measure("end", "u")]).run(tmp_path / "out")
 
 
-def test_records_and_snapshots(tmp_path):
+def test_actions_switch_records_on_and_off_and_store_snapshots(tmp_path):
     actions = [
         Record(30),
         Record(10, on=False, when="detected"),
@@ -285,7 +285,7 @@ def test_records_and_snapshots(tmp_path):
     np.testing.assert_array_equal(then["u.activation"][0], record["u.activation"].sel(time=at))
 
 
-def test_pushes_ramps_and_resets():
+def test_push_ramp_and_reset_change_the_run():
     model = dd.Model("node")
     model.add(dd.Field("u", [], tau=10, resting_level=-1))
     still = {"watch": ["u.activation"], "precision": "float64"}
@@ -320,7 +320,7 @@ def test_pushes_ramps_and_resets():
     )
 
 
-def test_a_world_is_moved_after_an_event():
+def test_objects_of_a_world_are_moved_after_an_event():
     moved = Experiment(
         "robot",
         straight(),
@@ -340,7 +340,7 @@ def test_workers_give_the_same_table(tmp_path, monkeypatch):
     assert experiment.run(tmp_path / "out", workers=1).drop_attrs().identical(here.drop_attrs())
 
 
-def test_very_many_steps_in_total_are_announced(monkeypatch):
+def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
     experiment = Experiment("d", decider(), 50, 4)
     monkeypatch.setattr(module, "LONG_STEPS", 200)
     with pytest.warns(
@@ -377,7 +377,7 @@ def test_very_many_steps_in_total_are_announced(monkeypatch):
         ({"every": 0.5}, "every", "not a multiple"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_is_refused_before_anything_runs(tmp_path, changes, where, what):
+def test_invalid_experiments_are_refused_before_any_trial_runs(tmp_path, changes, where, what):
     experiment = choice(**({"conditions": [], "factors": [], "measures": []} | changes))
     with pytest.raises(dd.errors.DeodarError) as refused:
         experiment.run(tmp_path / "out")
@@ -420,7 +420,7 @@ def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
         Experiment.load(file)
 
 
-def test_names_that_a_table_could_not_tell_apart():
+def test_duplicate_names_of_columns_are_refused():
     with pytest.raises(ParameterError, match="'outcome' is a column of every table"):
         choice(conditions=[Appears("outcome", "u")], measures=[])
     with pytest.raises(ParameterError, match="'a' is the name of two columns"):

@@ -28,7 +28,7 @@ def rows():
     return [row for job in jobs() for row in job.run()]
 
 
-def test_all_is_run_and_progress_grows_to_the_end(tmp_path, rows):
+def test_all_jobs_are_run_and_progress_reaches_the_end(tmp_path, rows):
     seen = []
     kept = Rows(tmp_path / "runs.jsonl", {})
     carry_out(jobs(), kept, seen.append)
@@ -38,7 +38,7 @@ def test_all_is_run_and_progress_grows_to_the_end(tmp_path, rows):
     assert seen[3].share == pytest.approx(6 / 21)
 
 
-def test_only_what_is_missing_is_run(tmp_path, rows):
+def test_only_missing_jobs_are_run(tmp_path, rows):
     kept = Rows(tmp_path / "runs.jsonl", {})
     kept.append([row | {"outcome": "kept"} for row in rows[:2]])
     carry_out(jobs(), kept)

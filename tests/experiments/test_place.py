@@ -60,7 +60,7 @@ def test_the_compiled_position_is_that_of_the_highest_peak(axes, threshold):
 
 
 @pytest.mark.parametrize("axes", [(LINE,), (RING,), (HEIGHT, RING)], ids=["line", "ring", "plane"])
-def test_only_samples_near_a_place_belong_to_the_peak(axes):
+def test_only_samples_near_the_given_position_belong_to_the_peak(axes):
     near = tuple(0.6 * a.lower + 0.4 * a.upper for a in axes)
     radius = 0.22 * max(a.range for a in axes)
     inside = mask(axes, near, radius)
@@ -77,7 +77,7 @@ def test_only_samples_near_a_place_belong_to_the_peak(axes):
             )
 
 
-def test_a_ring_that_is_above_the_threshold_all_round_has_its_highest_sample():
+def test_a_ring_above_the_threshold_everywhere_gives_its_highest_sample():
     with jax.enable_x64(True):
         flat = np.ones(36)
         flat[7] = 1.0 + 1e-13
@@ -88,7 +88,7 @@ def test_a_ring_that_is_above_the_threshold_all_round_has_its_highest_sample():
         )
 
 
-def test_single_precision_gives_a_fraction_of_a_step():
+def test_the_position_in_single_precision_is_exact_to_a_fraction_of_a_sample():
     u = smooth(np.random.default_rng(1), (LINE,))
     assert position(jax.numpy.asarray(u, np.float32), (LINE,), 0.0)[0][0] == pytest.approx(
         peaks(u, (LINE,))[0].position[0], abs=1e-4
@@ -109,7 +109,7 @@ def experiment(**changes):
     return Experiment("place", model, 60, **(given | changes))
 
 
-def test_a_batch_and_single_trials_measure_the_same_position_across_the_border():
+def test_a_batch_and_single_trials_measure_equal_positions_across_the_ends():
     together = experiment().run()["place"].values
     # an action makes the trials run one by one
     single = experiment(actions=[Set(60, "u.tau", 10.0)]).run()["place"].values
@@ -120,7 +120,7 @@ def test_a_batch_and_single_trials_measure_the_same_position_across_the_border()
     assert len(set(together[:, 0].tolist()) - set(LINE.points.tolist())) == 3
 
 
-def test_a_trial_without_a_peak_has_no_place():
+def test_a_trial_without_a_peak_has_no_position():
     for actions in ([], [Set(60, "u.tau", 10.0)]):
         data = experiment(
             actions=actions, trials=2, measures=[Measure("place", "u.activation", "place", threshold=50.0)]
@@ -137,6 +137,6 @@ def test_the_threshold_of_an_output_has_to_be_given():
     assert not dc.replace(heaviside, measures=[Measure("place", "u.output", "place")]).check()
 
 
-def test_a_threshold_belongs_to_a_place_alone():
+def test_a_threshold_is_accepted_only_for_the_position_of_a_peak():
     with pytest.raises(ParameterError, match="threshold: is 1, and only reduce='place' has a threshold"):
         Measure("highest", "u.activation", "max", threshold=1.0)

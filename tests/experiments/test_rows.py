@@ -19,7 +19,7 @@ def test_rows_are_found_again(tmp_path):
 
 
 @pytest.mark.parametrize("cut", range(1, 120, 7))
-def test_a_file_cut_off_anywhere_can_be_resumed(tmp_path, cut):
+def test_a_file_truncated_at_any_byte_can_be_resumed(tmp_path, cut):
     file = tmp_path / "runs.jsonl"
     Rows(file, ABOUT).append(ROWS)
     whole = file.read_bytes()
@@ -30,7 +30,7 @@ def test_a_file_cut_off_anywhere_can_be_resumed(tmp_path, cut):
     assert file.read_bytes() == whole
 
 
-def test_a_file_cut_off_in_its_first_line_begins_anew(tmp_path):
+def test_a_file_truncated_in_its_first_line_is_started_again(tmp_path):
     file = tmp_path / "runs.jsonl"
     Rows(file, ABOUT).append(ROWS)
     whole = file.read_bytes()
@@ -39,14 +39,14 @@ def test_a_file_cut_off_in_its_first_line_begins_anew(tmp_path):
     assert file.read_bytes() == whole
 
 
-def test_a_key_is_kept_once(tmp_path):
+def test_a_row_with_a_stored_key_is_not_added(tmp_path):
     rows = Rows(tmp_path / "runs.jsonl", ABOUT)
     rows.append(ROWS[:1])
     rows.append([ROWS[0] | {"outcome": "time"}])
     assert rows.found["a/0"]["outcome"] == "reached" and len(rows.path.read_text().splitlines()) == 2
 
 
-def test_another_experiment_is_refused_and_left_alone(tmp_path):
+def test_a_file_of_another_experiment_is_refused_and_unchanged(tmp_path):
     file = tmp_path / "runs.jsonl"
     Rows(file, ABOUT).append(ROWS)
     before = file.read_bytes()
@@ -59,7 +59,7 @@ SMALL = {"paper": "test", "made_by": {"jax": "1"}, "runs": {"a": 3}, "carrots": 
 BY = ("runs", "carrots", "planners")
 
 
-def test_an_experiment_with_further_conditions_resumes_the_file(tmp_path):
+def test_an_experiment_with_additional_conditions_resumes_the_file(tmp_path):
     file = tmp_path / "runs.jsonl"
     Rows(file, SMALL, BY).append(ROWS)
     larger = {**SMALL, "runs": {"b": 1, "a": 3}, "planners": {"b": {"reflection": 0.8}}}
@@ -91,7 +91,7 @@ def test_a_condition_with_other_settings_or_another_version_is_refused(tmp_path,
     assert file.read_bytes() == before
 
 
-def test_without_names_of_conditions_an_entry_must_be_equal(tmp_path):
+def test_settings_without_conditions_must_be_equal(tmp_path):
     file = tmp_path / "runs.jsonl"
     Rows(file, SMALL).append(ROWS)
     with pytest.raises(OutputExists, match="runs differ"):
@@ -99,7 +99,7 @@ def test_without_names_of_conditions_an_entry_must_be_equal(tmp_path):
 
 
 @pytest.mark.parametrize("cut", [1, 20, 60])
-def test_an_extension_that_is_cut_off_is_extended_again(tmp_path, cut):
+def test_a_truncated_extension_is_extended_again(tmp_path, cut):
     file = tmp_path / "runs.jsonl"
     Rows(file, SMALL, BY).append(ROWS)
     larger = SMALL | {"runs": {"a": 3, "b": 1}}

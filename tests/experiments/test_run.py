@@ -27,7 +27,7 @@ def test_a_goal_that_is_reached_ends_the_trial():
     )
 
 
-def test_an_event_may_need_several_looks_and_need_not_end_the_trial():
+def test_an_event_may_require_several_samples_and_need_not_end_the_trial():
     once = run_trial(straight(), 500, room(), events=[GOAL]).times[-1]
     course = run_trial(
         straight(),
@@ -58,7 +58,7 @@ def test_a_port_that_crosses_a_value_ends_a_trial_without_a_world():
     np.testing.assert_allclose(u, whole, atol=1e-5)
 
 
-def test_the_first_look_may_end_a_trial():
+def test_the_first_sample_may_end_a_trial():
     assert run_trial(straight(), 100, room(goal=(12, 20)), events=[GOAL]).duration == 0
 
 
@@ -79,7 +79,7 @@ def test_an_object_that_appears_stops_the_robot_until_it_is_removed():
     assert run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"
 
 
-def test_a_goal_that_moves_is_put_back_after_the_trial():
+def test_a_moved_goal_is_restored_after_the_trial():
     world = room()
     early = run_trial(straight(), 500, world, events=[GOAL]).duration
     assert (
@@ -127,7 +127,7 @@ def test_a_trial_does_not_depend_on_earlier_trials():
     assert not np.array_equal(first.values["place"], other.values["place"])
 
 
-def test_what_cannot_be_is_refused():
+def test_invalid_trials_are_refused():
     with pytest.raises(WorldError, match="the action Remove needs a world, and none is given"):
         run_trial(decider(), 10, actions=[Remove(3, "box")])
     with pytest.raises(ParameterError, match="name of two events"):

@@ -70,7 +70,7 @@ def test_a_projection_takes_the_largest_value_along_the_other_axes() -> None:
     assert np.allclose(total, u.values[0].sum(axis=1).T * 2.0, rtol=1e-5)
 
 
-def test_the_threshold_is_always_part_of_the_colours() -> None:
+def test_the_range_of_colours_contains_the_threshold() -> None:
     """The noise of a silent field must not look like peaks."""
     silent = np.random.default_rng(1).normal(-5, 0.02, (20, 20))
     low, high = scale([silent], 0.0).get_clim()
@@ -87,7 +87,7 @@ def test_the_threshold_is_always_part_of_the_colours() -> None:
         (projection, {"axes": ["q"]}, "q"),
     ],
 )
-def test_what_was_not_recorded_is_refused(
+def test_a_time_or_trial_that_was_not_recorded_is_refused(
     data: xarray.Dataset, kind: Any, options: dict[str, Any], says: str
 ) -> None:
     with pytest.raises(dd.errors.RecordError, match=says):

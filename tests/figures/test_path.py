@@ -42,7 +42,7 @@ def test_the_figure_shows_arena_and_paths_to_scale(walked: xarray.DataArray) -> 
     assert len([line for line in alone.get_lines() if len(np.asarray(line.get_xydata())) == 26]) == 1
 
 
-def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path) -> None:
+def test_the_animation_shows_more_of_the_path_in_each_frame(walked: xarray.DataArray, tmp_path: Path) -> None:
     arena = Arena("blocks", unit="cm")
     file = path.animate_path(walked * 100, tmp_path / "walk.gif", arena, width=240, stride=5)
     with Image.open(file) as film:
@@ -57,7 +57,7 @@ def test_the_film_grows_frame_by_frame(walked: xarray.DataArray, tmp_path: Path)
         path.animate_path(walked * 100, file, arena)
 
 
-def test_the_film_of_a_view_shows_its_trial(walked: xarray.DataArray, tmp_path: Path) -> None:
+def test_the_animation_of_a_view_shows_its_trial(walked: xarray.DataArray, tmp_path: Path) -> None:
     arena, films = Arena("blocks"), []
     for k, variable in enumerate([walked, View(walked, trial=1), walked.isel(trial=[1])]):
         file = path.animate_path(variable, tmp_path / f"{k}.gif", arena, width=120, stride=20)
