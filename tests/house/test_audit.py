@@ -56,7 +56,9 @@ def audit() -> ModuleType:
         ("pip", "ERROR\nNo module named pip_audit", "nothing was audited: No module named pip_audit", 0),
     ],
 )
-def test_an_answer_is_read(audit: ModuleType, tool: str, answer: str, says: str, found: int) -> None:
+def test_the_answer_of_a_tool_becomes_a_verdict(
+    audit: ModuleType, tool: str, answer: str, says: str, found: int
+) -> None:
     verdict = getattr(audit, tool)(answer)
     assert says in str(verdict) and len(verdict.found) == found
 
@@ -64,7 +66,7 @@ def test_an_answer_is_read(audit: ModuleType, tool: str, answer: str, says: str,
 @pytest.mark.parametrize(
     ("npm", "pip", "status"), [(REFUSED, PIP_SKIPPED, 0), (CLEAN, PIP_FOUND, 1), (FOUND, PIP_CLEAN, 1)]
 )
-def test_the_status_tells_whether_something_is_known(
+def test_the_exit_status_states_whether_a_vulnerability_is_known(
     audit: ModuleType,
     npm: str,
     pip: str,

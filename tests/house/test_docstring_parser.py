@@ -89,6 +89,6 @@ def test_no_other_file_parses_docstrings() -> None:
     assert found == ["src/deodar/docstring.py"]
 
 
-def test_the_rule_sees_another_parser() -> None:
+def test_another_parser_of_docstrings_is_found() -> None:
     assert PATTERN.search('HEAD = re.compile(r"^([A-Z][A-Za-z ]*):\\s*$")')
     assert PATTERN.search('found = re.match(r"^(\\w+): (.*)$", line)')

@@ -52,7 +52,7 @@ def fields(cls: type[Any]) -> list[str]:
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_one_sentence_then_an_equation(name: str) -> None:
+def test_a_docstring_has_a_sentence_and_an_equation(name: str) -> None:
     found = read(KINDS[name])
     first = found.summary
     assert first.endswith(".") and len(first) < 150, "begin with one sentence in a paragraph of its own"
@@ -84,7 +84,7 @@ def test_every_port_is_named_with_its_axes(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [n for n in KINDS if n not in ELEMENTS])
-def test_shapes_are_stated(name: str) -> None:
+def test_the_docstring_states_shapes(name: str) -> None:
     assert read(KINDS[name]).sections.get("Shapes")
 
 
@@ -96,13 +96,13 @@ def test_shapes_are_stated(name: str) -> None:
         if issubclass(cls, Part) and any(p.form == "array" for p in parameters(cls))
     ],
 )
-def test_arrays_state_their_shape(name: str) -> None:
+def test_the_docstring_states_the_shape_of_arrays(name: str) -> None:
     shapes = read(KINDS[name]).entries("Shapes")
     assert {p.name for p in parameters(KINDS[name]) if p.form == "array"} <= set(shapes)
 
 
 @pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
-def test_units_are_said_where_they_are_declared(name: str) -> None:
+def test_the_docstring_states_declared_units(name: str) -> None:
     cls = KINDS[name]
     listed = read(cls).entries("Parameters")
     for p in parameters(cls):
@@ -117,14 +117,14 @@ def test_units_are_said_where_they_are_declared(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
-def test_every_parameter_says_what_it_means(name: str) -> None:
+def test_every_parameter_has_a_meaning(name: str) -> None:
     """The declaration has the meaning too: forms and the JSON Schema show it."""
     silent = [p.name for p in parameters(KINDS[name]) if not p.meaning]
     assert not silent
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_a_source_or_the_words_no_reference(name: str) -> None:
+def test_the_docstring_has_a_source_or_states_no_reference(name: str) -> None:
     says = read(KINDS[name]).sections.get("Reference", "")
     assert says == "no reference" or re.search(r"\((19|20)\d\d\)", says), (
         f"give authors, year and place, or: no reference ({says!r})"
@@ -132,5 +132,5 @@ def test_a_source_or_the_words_no_reference(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [n for n, cls in ELEMENTS.items() if issubclass(cls, Coupling)])
-def test_couplings_pass_their_input_on(name: str) -> None:
+def test_couplings_declare_direct_outputs(name: str) -> None:
     assert any(ELEMENTS[name].direct.values())

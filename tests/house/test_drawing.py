@@ -42,7 +42,7 @@ def test_matplotlib_is_imported_where_figures_are_drawn(path: Path) -> None:
         assert not _matplotlib(path), f"{path.name} draws: move it below src/deodar/figures"
 
 
-def test_only_the_style_names_colours() -> None:
+def test_colours_are_named_only_in_the_style() -> None:
     """A colour that a figure needs has a meaning, and a line in `Palette`."""
     allowed = {"_style.py", "film.py"}  # the video has a palette of its own, on the floor of the arena
     for path in sorted((SRC / "figures").glob("*.py")):

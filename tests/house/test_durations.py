@@ -24,7 +24,11 @@ def test_a_measured_function_replaces_its_row_and_others_keep_theirs(tmp_path: P
     here = "tests/house/test_durations.py"
     kept, quicker, slower = (
         f"{here}::{name}"
-        for name in ("test_every_slow_test_exists", "test_this_test_is_fast", "test_what_judges_bits_exists")
+        for name in (
+            "test_every_slow_test_exists",
+            "test_a_test_without_a_row_is_fast",
+            "test_every_default_program_exists",
+        )
     )
     file.write_text(f"test,seconds\n{kept},9.0\n{quicker},5.0\n{here}::test_that_is_gone,7.0\n")
     durations.write({quicker: 0.1, slower: 2.04}, file)
@@ -36,12 +40,12 @@ def test_the_cases_of_a_function_count_together() -> None:
     assert durations.files({"a.py::x": 1.0, "a.py::y": 2.0, "b.py::x": 4.0}) == {"a.py": 3.0, "b.py": 4.0}
 
 
-def test_this_test_is_fast(request: pytest.FixtureRequest) -> None:
+def test_a_test_without_a_row_is_fast(request: pytest.FixtureRequest) -> None:
     assert request.node.get_closest_marker("fast")
     assert not request.node.get_closest_marker("default_program")
 
 
-def test_programs_are_compiled_quickly_unless_the_default_is_asked_for(
+def test_programs_are_compiled_quickly_without_the_option_default_programs(
     request: pytest.FixtureRequest,
 ) -> None:
     default = request.config.getoption("--default-programs")
@@ -49,7 +53,7 @@ def test_programs_are_compiled_quickly_unless_the_default_is_asked_for(
     assert given.isdisjoint(conftest.QUICK_PROGRAMS) if default else given.issuperset(conftest.QUICK_PROGRAMS)
 
 
-def test_what_judges_bits_exists() -> None:
+def test_every_default_program_exists() -> None:
     root = Path(conftest.__file__).parents[1]
     places = [place.partition("::") for place in conftest.DEFAULT_PROGRAM]
     assert all((root / file).exists() for file, _, _ in places)

@@ -14,11 +14,11 @@ def test_no_module_is_part_of_a_cycle_of_imports() -> None:
     assert cycle(graph(SRC, trees(SRC))) == []
 
 
-def test_the_rule_sees_a_cycle() -> None:
+def test_a_cycle_of_imports_is_found() -> None:
     assert set(cycle({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}})) == {"a", "b", "c"}
 
 
-def test_the_graph_sees_an_import_inside_a_function_or_for_types() -> None:
+def test_imports_inside_functions_and_for_types_are_in_the_graph() -> None:
     imports = graph(SRC, trees(SRC))
     assert "deodar.batch.workers" in imports["deodar.batch.simulate"]
     assert "deodar.recording.record" in imports["deodar.batch.compute"]

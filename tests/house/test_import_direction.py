@@ -57,7 +57,7 @@ def _floor(name: str) -> int:
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
-def test_imports_point_one_way(path: Path) -> None:
+def test_imports_follow_the_levels_of_packages(path: Path) -> None:
     name = module(path)
     if not name:
         return  # the root package: checked by the names it gives
@@ -71,7 +71,7 @@ def test_imports_point_one_way(path: Path) -> None:
     assert not wrong, wrong
 
 
-def test_every_room_has_a_floor_and_every_floor_of_the_ground_is_there() -> None:
+def test_every_package_has_a_level_and_every_level_exists() -> None:
     rooms = {module(p).split(".")[0] for p in MODULES} - {""}
     for room in rooms:
         _floor(room)
@@ -89,7 +89,7 @@ def test_every_room_has_a_floor_and_every_floor_of_the_ground_is_there() -> None
     } <= rooms
 
 
-def test_the_root_package_imports_nothing_of_the_house_at_run_time() -> None:
+def test_the_root_package_imports_no_other_package_at_import() -> None:
     top = tree(SRC / "__init__.py")
     found = [n for n in top.body if isinstance(n, (ast.Import, ast.ImportFrom))]
     assert not [n for n in found if isinstance(n, ast.ImportFrom) and (n.module or "").startswith("deodar")]
@@ -105,12 +105,12 @@ def test_modules_are_named_where_they_are_imported(path: Path) -> None:
     assert not {"import_module", "__import__"} & set(names)
 
 
-def test_no_relative_imports() -> None:
+def test_imports_are_absolute() -> None:
     wrong = [p.name for p in MODULES for n in ast.walk(tree(p)) if isinstance(n, ast.ImportFrom) and n.level]
     assert not wrong
 
 
-def test_the_rule_sees_what_it_forbids(tmp_path: Path) -> None:
+def test_forbidden_imports_are_found(tmp_path: Path) -> None:
     """The reader finds imports at the top, inside functions and those for types only."""
     bad = tmp_path / "bad.py"
     bad.write_text(

@@ -56,7 +56,7 @@ def _mode(call: ast.Call) -> str:
     return next((text for text in texts if set(text) <= set("rwaxbt+")), "")
 
 
-def test_files_are_written_in_one_place() -> None:
+def test_files_are_written_by_one_module() -> None:
     found = {module(path): list(_writes(path)) for path in MODULES}
     writers = {name for name, calls in found.items() if calls}
     assert writers - set(OTHERS) == {"model.output"}, {
@@ -64,12 +64,12 @@ def test_files_are_written_in_one_place() -> None:
     }
 
 
-def test_the_list_of_other_writers_is_needed() -> None:
+def test_every_listed_writer_writes_files() -> None:
     writers = {module(path) for path in MODULES if list(_writes(path))}
     assert set(OTHERS) <= writers
 
 
-def test_the_rule_sees_what_it_forbids(tmp_path: Path) -> None:
+def test_forbidden_writers_are_found(tmp_path: Path) -> None:
     bad = tmp_path / "bad.py"
     bad.write_text(
         "open('a.txt', 'w')\npath.open(mode='ab')\nos.fdopen(3, 'wb')\npath.write_text('')\nos.replace(a, b)"

@@ -71,7 +71,7 @@ def test_the_stamp_follows_the_sources_of_the_page(page: ModuleType, studio: Pat
         assert stamp() != old, name
 
 
-def test_a_page_is_fresh_when_it_is_there_with_its_stamp(page: ModuleType, tmp_path: Path) -> None:
+def test_a_page_with_the_present_stamp_is_up_to_date(page: ModuleType, tmp_path: Path) -> None:
     assert not page.is_fresh("a", tmp_path)
     (tmp_path / page.STAMP).write_text("a")
     assert not page.is_fresh("a", tmp_path)
@@ -80,7 +80,7 @@ def test_a_page_is_fresh_when_it_is_there_with_its_stamp(page: ModuleType, tmp_p
     assert not page.is_fresh("b", tmp_path)
 
 
-def test_a_new_page_takes_the_place_of_the_old_one(page: ModuleType, tmp_path: Path) -> None:
+def test_a_new_page_replaces_the_old_one(page: ModuleType, tmp_path: Path) -> None:
     static = tmp_path / "static"
     for number, asset in enumerate(("assets/old.js", "assets/new.js")):
         made = tmp_path / f"made-{number}"
@@ -105,7 +105,7 @@ def test_a_new_page_takes_the_place_of_the_old_one(page: ModuleType, tmp_path: P
         ("node.exe", "node_modules/npm/bin/npm-cli.js"),
     ],
 )
-def test_node_is_found_where_the_wheels_put_it(
+def test_node_is_found_where_its_package_installs_it(
     page: ModuleType, tmp_path: Path, program: str, npm: str
 ) -> None:
     for name in (program, npm):
@@ -116,7 +116,7 @@ def test_node_is_found_where_the_wheels_put_it(
     assert found.environment()["PATH"].startswith(str((tmp_path / program).parent))
 
 
-def test_without_any_node_the_error_says_what_to_type(
+def test_without_node_the_error_states_what_to_type(
     page: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PATH", "")
@@ -139,7 +139,7 @@ def test_libraries_are_installed_once_for_a_lock_file(page: ModuleType, studio: 
     assert len((studio / "calls").read_text().splitlines()) == 3
 
 
-def test_a_failing_npm_is_quoted_and_the_way_around_named(page: ModuleType, studio: Path) -> None:
+def test_an_error_of_npm_is_printed_with_the_alternative(page: ModuleType, studio: Path) -> None:
     with pytest.raises(
         page.PageError, match=r"(?s)`npm ci` failed with status 3:.*no network here.*DEODAR_NO_PAGE=1"
     ):
@@ -147,7 +147,7 @@ def test_a_failing_npm_is_quoted_and_the_way_around_named(page: ModuleType, stud
     assert not (studio / "node_modules" / ".installed").exists()
 
 
-def test_a_word_that_means_nothing_is_answered_with_the_words(
+def test_an_unknown_command_prints_the_valid_ones(
     page: ModuleType, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert page.main(["biuld"]) == 2
@@ -165,7 +165,7 @@ def test_libraries_are_pinned() -> None:
     assert not loose
 
 
-def test_the_lock_file_is_portable_and_whole() -> None:
+def test_the_lock_file_is_portable_and_complete() -> None:
     lock = json.loads((STUDIO / "package-lock.json").read_text(encoding="utf-8"))
     packages = {name: package for name, package in lock["packages"].items() if name}
     assert not [name for name, package in packages.items() if "resolved" in package]

@@ -23,7 +23,7 @@ ROOMS = ("deodar.compiler", "deodar.numerics.choice", "deodar.numerics.waves")
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(SRC)))
-def test_an_element_names_nothing_of_the_compiler(path: Path) -> None:
+def test_elements_do_not_name_the_compiler(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert not [line for line in text.splitlines() if OPTIMISER.search(line)]
     imported = [

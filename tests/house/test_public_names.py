@@ -40,7 +40,7 @@ def test_the_root_has_exactly_the_names_of_the_snapshot() -> None:
 
 
 @pytest.mark.parametrize("name", SNAPSHOT.read_text().split())
-def test_every_name_resolves_and_says_what_it_is(name: str) -> None:
+def test_every_name_resolves_and_has_a_docstring(name: str) -> None:
     found = getattr(deodar, name)
     assert found.__doc__
     assert name in dir(deodar)
@@ -119,7 +119,7 @@ def test_an_unknown_private_name_suggests_nothing() -> None:
         deodar.__wrapped__  # noqa: B018
 
 
-def test_a_renamed_name_of_the_root_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_renamed_name_of_the_root_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(renamed, "RENAMED", {"dd.Feild": "dd.Field"})
     with pytest.raises(
         AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. dd.Feild is now dd.Field$"
@@ -175,7 +175,7 @@ def test_every_old_name_raises_an_error_that_states_the_new_one(old: str) -> Non
     [deodar.Model.add, deodar.animate_path, deodar.Model.set_ticks],
     ids=["add", "animate_path", "set_ticks"],
 )
-def test_every_is_no_argument_of_a_call_that_counts(call: Callable[..., object]) -> None:
+def test_calls_that_count_ticks_have_no_argument_every(call: Callable[..., object]) -> None:
     assert (
         "every" not in inspect.signature(call).parameters
         and {"ticks", "stride"} & inspect.signature(call).parameters.keys()
@@ -205,7 +205,7 @@ def test_a_module_with_moved_names_reports_unknown_names() -> None:
 
 
 @pytest.mark.parametrize("new", sorted(set(renamed.RENAMED.values())))
-def test_a_new_name_exists(new: str) -> None:
+def test_every_new_name_of_the_table_exists(new: str) -> None:
     """Where the new name is one of `dd`, or modules; calls and arguments are tested where they are."""
     if new.startswith("deodar."):
         assert [importlib.import_module(name) for name in re.split(", | and ", new)]

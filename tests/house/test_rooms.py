@@ -47,7 +47,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_every_file_of_a_room_registers_exactly_one_kind(module: str) -> None:
+def test_every_file_of_a_folder_of_kinds_registers_exactly_one_kind(module: str) -> None:
     importlib.import_module(module)
     assert len([cls for cls in registry.kinds().values() if cls.__module__ == module]) == 1
 
@@ -92,7 +92,7 @@ def test_a_kind_that_is_registered_twice_is_refused(room: Path) -> None:
         registry.kinds()
 
 
-def test_files_with_an_underscore_are_no_extensions(room: Path) -> None:
+def test_files_with_a_leading_underscore_register_no_kind(room: Path) -> None:
     (room / "_base.py").write_text(ONE)
     assert registry.modules("annexe") == []
 

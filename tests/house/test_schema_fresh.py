@@ -34,13 +34,13 @@ def _documents() -> list[Path]:
     return found
 
 
-def test_the_shipped_schema_is_fresh() -> None:
+def test_the_shipped_schema_is_up_to_date() -> None:
     assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), (
         "write it again: python -m deodar.model.schema"
     )
 
 
-def test_the_schema_is_one() -> None:
+def test_the_schema_is_a_valid_json_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(SHIPPED)
 
 
@@ -52,7 +52,7 @@ def test_the_schema_is_one() -> None:
         if issubclass(cls, Element) and cls.__module__.startswith("deodar.")
     ],
 )
-def test_what_we_write_is_valid(name: str) -> None:
+def test_saved_documents_are_valid(name: str) -> None:
     model = Model("one")
     model.add(registry.kind(name).example())
     VALIDATOR.validate(json.loads(model.to_json()))
@@ -78,7 +78,7 @@ def test_the_schema_refuses_what_load_refuses() -> None:
             files.from_data(data, {})
 
 
-def test_committed_documents_are_valid_and_good() -> None:
+def test_committed_documents_are_valid_and_have_no_problems() -> None:
     for path in _documents():
         VALIDATOR.validate(json.loads(path.read_text(encoding="utf-8")))
         model = Model(document=files.load(path), trusted=False)

@@ -54,7 +54,7 @@ def test_no_file_holds_forbidden_words(what: str) -> None:
     assert not found, found
 
 
-def test_the_words_are_found_where_they_stand() -> None:
+def test_forbidden_words_are_found_with_their_line() -> None:
     for what, line in {
         "unfinished work": "# TO" + "DO: more",
     }.items():
@@ -128,7 +128,7 @@ def test_no_state_at_module_level(path: Path) -> None:
     assert not extra, f"{name} keeps state in {sorted(extra)}: give it to an object that callers hold"
 
 
-def test_the_list_of_state_is_needed() -> None:
+def test_every_listed_module_holds_state() -> None:
     held = {(module(p) or "__init__", n) for p in MODULES for n in {*_state(p), *_written(p)}}
     assert set(STATE) <= held, set(STATE) - held
 
@@ -148,7 +148,7 @@ def test_only_the_command_line_prints(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
-def test_every_module_and_public_function_says_what_it_is(path: Path) -> None:
+def test_every_module_and_public_function_has_a_docstring(path: Path) -> None:
     assert path.name == "__init__.py" or ast.get_docstring(tree(path))
     silent = [
         n.name
@@ -160,7 +160,7 @@ def test_every_module_and_public_function_says_what_it_is(path: Path) -> None:
     assert not silent
 
 
-def test_no_drawer_for_everything() -> None:
+def test_no_module_is_named_after_no_particular_content() -> None:
     drawers = [p.name for p in MODULES if re.search("util|helper|misc|common|manager", p.stem)]
     assert not drawers, "one noun is one file"
 
@@ -181,7 +181,7 @@ def test_lines_of_the_manual_have_at_most_110_columns(path: Path) -> None:
     assert not long, "wrap the prose; code, tables and pictures may be wider"
 
 
-def test_no_type_of_the_page_has_two_meanings() -> None:
+def test_types_of_the_page_have_different_names() -> None:
     declared: dict[str, set[str]] = {}
     sources = ROOT / "studio" / "src"
     for path in (p for p in PAGE if sources in p.parents and p.suffix in {".ts", ".tsx"}):

@@ -17,12 +17,12 @@ from deodar.importers.report import ImportReport
 from tests.importers.cosivina.files import SAMPLES
 
 
-def test_tools_are_found_in_their_folders():
+def test_importers_are_found_in_their_folders():
     assert "cosivina" in tools()
     assert all(callable(tool.sniff) and callable(tool.read) for tool in tools().values())
 
 
-def test_our_own_documents_need_no_importer(tmp_path):
+def test_documents_of_deodar_need_no_importer(tmp_path):
     model = dd.Model("own")
     model.add(dd.Field('"simulator": {', [dd.Axis("x", 0, 1, samples=3)]))
     dd.save(model, tmp_path / "own.json")
@@ -39,13 +39,13 @@ def test_the_name_of_a_file_does_not_matter(tmp_path):
 
 
 @pytest.mark.parametrize("path", ["absent.json", Path("absent.json"), ".", 3, None, "\0"])
-def test_what_is_no_file_is_one_error(path, tmp_path, monkeypatch):
+def test_a_path_without_a_file_is_an_error(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DocumentError):
         dd.load(path)
 
 
-def test_another_tool_is_one_more_folder(tmp_path, monkeypatch):
+def test_a_new_folder_adds_an_importer(tmp_path, monkeypatch):
     other = types.ModuleType("deodar.importers.other")
     other.NAME = "other"
     other.sniff = lambda head: head.startswith(b"OTHER")

@@ -23,7 +23,7 @@ def parts(**changes):
     ]
 
 
-def test_values_are_taken_over_and_connections_stay(tmp_path):
+def test_values_of_a_preset_are_copied_and_connections_kept(tmp_path):
     model = dd.load(written(tmp_path, parts()))
     before = model.document
     other = parts(tau=20, beta=2)
@@ -38,7 +38,7 @@ def test_values_are_taken_over_and_connections_stay(tmp_path):
     assert model.undo() and model.document == before
 
 
-def test_what_does_not_match_is_listed(tmp_path):
+def test_values_without_a_match_are_listed(tmp_path):
     model = dd.load(
         written(
             tmp_path,
@@ -61,7 +61,7 @@ def test_what_does_not_match_is_listed(tmp_path):
     assert all(line.verdict == "dropped" for line in report.lines) and model.document == before
 
 
-def test_linked_values_stay(tmp_path):
+def test_linked_values_are_not_changed(tmp_path):
     model = dd.load(written(tmp_path, parts()))
     model.parameter("slow", 50.0)
     model.link("u.tau", "slow")
@@ -73,7 +73,7 @@ def test_linked_values_stay(tmp_path):
     assert model.get("u.tau") == 50
 
 
-def test_our_own_documents_are_presets_too(tmp_path):
+def test_documents_of_deodar_are_presets_too(tmp_path):
     model = dd.load(written(tmp_path, parts()))
     other = dd.load(written(tmp_path, parts(h=-3), name="b.json"))
     dd.save(other, tmp_path / "own.json")

@@ -40,7 +40,7 @@ def form(kind: Description, name: str) -> ParameterDescription:
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_a_kind_says_what_it_is(name: str) -> None:
+def test_a_kind_has_a_title_and_a_sentence(name: str) -> None:
     kind = KINDS[name]
     assert kind.title and kind.title.split()[0][0].isupper()
     assert kind.room in {"elements", "couplings", "kernels", "sigmoids", "windows", "worlds"}
@@ -75,11 +75,11 @@ def test_parameters_inside_parts_have_an_initial_value(name: str) -> None:
     dc.replace(example, **{p.name: made})
 
 
-def test_elements_and_worlds_have_no_value_to_start_from() -> None:
+def test_elements_and_worlds_have_no_initial_value() -> None:
     assert all(kind.example is None for name, kind in KINDS.items() if name not in INSIDE)
 
 
-def test_the_field() -> None:
+def test_the_description_of_a_field_is_complete() -> None:
     field = KINDS["Field"]
     assert (field.title, field.room) == ("Field", "elements")
     assert field.equation[0].startswith(r"\tau \frac{du}{dt} = -u + h")
@@ -114,7 +114,7 @@ def test_the_field() -> None:
     assert form(field, "axes").default == [] and form(field, "kernel").default == []
 
 
-def test_parameters_stand_in_the_order_in_which_they_are_written_down() -> None:
+def test_parameters_are_in_the_order_of_declaration() -> None:
     assert [p.name for p in KINDS["GaussianStimulus"].parameters] == [
         "axes",
         "center",
@@ -135,7 +135,7 @@ def test_symbols_are_those_of_the_equation() -> None:
     assert form(KINDS["Attractor"], "initial").symbol == ""
 
 
-def test_choices_optional_values_and_arrays() -> None:
+def test_choices_optional_values_and_arrays_are_described() -> None:
     boundary = form(KINDS["Gaussian"], "boundary")
     assert (
         boundary.optional and boundary.default is None and boundary.choices == ("periodic", "zero", "reflect")
@@ -159,11 +159,11 @@ def test_a_world_names_its_sensors() -> None:
         ("K", "K"),
     ],
 )
-def test_titles(name: str, words: str) -> None:
+def test_titles_separate_the_words_of_a_name(name: str, words: str) -> None:
     assert title(name) == words
 
 
-def test_kinds_from_outside_need_not_say_anything(outside: None) -> None:
+def test_custom_kinds_may_lack_all_descriptions(outside: None) -> None:
     @registry.register
     @dataclass(frozen=True)
     class Silent(Element):
@@ -188,7 +188,7 @@ def test_kinds_from_outside_need_not_say_anything(outside: None) -> None:
     assert "Hollow" in form(found["Field"], "kernel").of
 
 
-def test_a_parameter_has_its_range_and_its_default_as_one_types_it() -> None:
+def test_range_and_default_of_a_parameter_are_valid_python() -> None:
     field = {p.name: p for p in KINDS["Field"].parameters}
     assert (field["tau"].range, field["tau"].typed) == ("at least 1e-06", "20")
     assert field["sigmoid"].typed == "Logistic(beta=4, threshold=0)"

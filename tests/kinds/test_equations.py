@@ -44,7 +44,7 @@ def faults(line: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_every_equation_is_sound_tex(name: str) -> None:
+def test_every_equation_is_valid_tex(name: str) -> None:
     lines = describe(KINDS[name], KINDS).equation
     assert lines and not [fault for line in lines for fault in faults(line)], lines
     assert not [
@@ -58,5 +58,5 @@ def test_every_equation_is_sound_tex(name: str) -> None:
     ("line", "found"),
     [(r"\frac{a}{b", ["braces"]), (r"\left( a", [r"\left"]), (r"\fraq{a}{b}", ["fraq"]), (r"}{", ["braces"])],
 )
-def test_what_cannot_be_typeset_is_found(line: str, found: list[str]) -> None:
+def test_invalid_tex_is_found(line: str, found: list[str]) -> None:
     assert faults(line) == found

@@ -65,7 +65,7 @@ def driven() -> Iterator[Driven]:
     one.engine.close()
 
 
-def test_steps_and_a_shot_of_them(driven: Driven) -> None:
+def test_a_snapshot_after_steps_equals_that_of_a_script(driven: Driven) -> None:
     engine, place = driven.engine, (driven.u, "activation")
     driven.do(lambda: engine.show([place], []))
     driven.do(lambda: engine.step(123))
@@ -84,7 +84,7 @@ def test_a_port_requested_before_a_session_exists_is_shown(driven: Driven) -> No
     driven.until(lambda: place in engine.shot.arrays)
 
 
-def test_a_hand_is_seen_in_the_input(driven: Driven) -> None:
+def test_an_injected_input_is_part_of_the_input(driven: Driven) -> None:
     engine, place = driven.engine, (driven.u, "input")
     driven.do(lambda: engine.show([place], []))
     driven.until(lambda: place in engine.shot.arrays)
@@ -95,7 +95,7 @@ def test_a_hand_is_seen_in_the_input(driven: Driven) -> None:
     driven.until(lambda: np.allclose(engine.shot.arrays[place], before))
 
 
-def test_steps_wait_for_a_session_too(driven: Driven) -> None:
+def test_steps_wait_for_a_session(driven: Driven) -> None:
     engine = driven.engine
     driven.do(lambda: engine.load(None))
     driven.do(lambda: engine.step(7))
@@ -113,7 +113,7 @@ def test_play_waits_for_a_session(driven: Driven) -> None:
     assert not engine.running, "another document is paused at first"
 
 
-def test_real_time_is_kept_and_slow_motion_too(driven: Driven) -> None:
+def test_real_time_and_slow_motion_follow_the_wall_clock(driven: Driven) -> None:
     """At real time a second takes a second; the machine may be slow, so that only the upper side is sharp."""
     engine = driven.engine
     for speed in (1.0, 0.1):
@@ -126,7 +126,7 @@ def test_real_time_is_kept_and_slow_motion_too(driven: Driven) -> None:
         driven.do(lambda: engine.play(False))
 
 
-def test_as_fast_as_possible_is_faster(driven: Driven) -> None:
+def test_speed_none_is_faster_than_real_time(driven: Driven) -> None:
     engine = driven.engine
     driven.do(lambda: engine.pace.go(None))
     driven.do(lambda: engine.play(True))
@@ -154,7 +154,7 @@ def test_without_requested_ports_no_state_is_published(driven: Driven) -> None:
     driven.until(lambda: engine.shot.number > number + 1)
 
 
-def test_traces_hold_time_and_value_and_begin_anew_with_a_reset(driven: Driven) -> None:
+def test_traces_contain_times_and_values_and_are_cleared_by_a_reset(driven: Driven) -> None:
     engine = driven.engine
     requests = [TraceRequest((driven.u, "activation"), reduce) for reduce in ("max", "mean")] + [
         TraceRequest((driven.u, "activation"), "at", (50.0,))
@@ -233,7 +233,7 @@ def test_a_trace_keeps_the_newest_samples() -> None:
     ("unit", "seconds"),
     [("ms", 1e-3), ("s", 1), ("1 = 64 ms", 0.064), ("1 = 2 min", 120), ("abstract", 1e-3)],
 )
-def test_units_of_time_in_seconds(unit: str, seconds: float) -> None:
+def test_units_of_time_are_converted_to_seconds(unit: str, seconds: float) -> None:
     assert unit_seconds(unit) == pytest.approx(seconds)
 
 

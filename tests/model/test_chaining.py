@@ -45,7 +45,7 @@ def test_couplings_are_named_after_their_source(model: dd.Model) -> None:
     assert not problems(model.document)
 
 
-def test_a_chain_of_couplings(model: dd.Model) -> None:
+def test_a_chain_of_couplings_is_connected_in_order(model: dd.Model) -> None:
     model["a"] >> dd.Gain(2) >> dd.Project([X]) >> model["b"]
     assert _paths(model)[2:] == ["a>Gain", "a>Gain>Project"]
     assert [(s, t) for s, _, t, _ in _edges(model)] == [
@@ -55,7 +55,7 @@ def test_a_chain_of_couplings(model: dd.Model) -> None:
     ]
 
 
-def test_a_name_of_ones_own(model: dd.Model) -> None:
+def test_a_coupling_keeps_the_name_that_is_given(model: dd.Model) -> None:
     model["a"] >> dd.Gain(2, name="push") >> model["b"]
     assert _paths(model)[2] == "push"
 
@@ -68,7 +68,7 @@ def test_couplings_are_in_the_group_of_their_source() -> None:
     assert _paths(model) == ["g.a", "b", "g.a>Gain"]
 
 
-def test_ports_by_name(model: dd.Model) -> None:
+def test_ports_are_connected_by_name(model: dd.Model) -> None:
     product = model.add(Product(name="p"))
     model["a"]["activation"] >> product["input"]
     model["b"] >> product["factor"]
@@ -81,7 +81,7 @@ def test_paths_connect_as_handles_do(model: dd.Model) -> None:
     assert _edges(model) == [("a", "activation", "b", "input")]
 
 
-def test_a_chain_returns_its_right_side(model: dd.Model) -> None:
+def test_the_arrow_returns_the_handle_on_its_right(model: dd.Model) -> None:
     gain = model["a"] >> dd.Gain(2)
     assert gain.path == "a>Gain"
     assert repr(gain) == "<Gain a>Gain: factor=2.0>"
@@ -100,7 +100,7 @@ def test_an_unknown_port_suggests_the_nearest(model: dd.Model) -> None:
         model["a"]["activaton"]
 
 
-def test_one_arrow_is_one_change() -> None:
+def test_each_arrow_is_one_change_of_the_history() -> None:
     model = dd.Model("m")
     x = dd.Axis("x", 0, 10, samples=11)
     u, v = model.add(dd.Field("u", [x])), model.add(dd.Field("v", [x]))

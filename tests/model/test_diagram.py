@@ -44,7 +44,7 @@ def pair():
     return model, a, b
 
 
-def test_couplings_on_the_way_are_text_on_a_connection_and_give_its_sign():
+def test_couplings_of_a_connection_are_written_on_it_and_give_its_sign():
     model, a, b = pair()
     a >> dd.Gain(-2.0) >> b
     b >> dd.Gain(-2.0) >> Convolve([dd.Gaussian(-1.0, 3.0)]) >> a
@@ -57,7 +57,7 @@ def test_couplings_on_the_way_are_text_on_a_connection_and_give_its_sign():
     assert [i.name for i in sketch(model.document).items] == ["a", "b"]
 
 
-def test_a_coupling_with_several_inputs_or_outputs_is_a_box_that_passes_its_sign_on():
+def test_a_coupling_with_several_inputs_or_outputs_is_a_box_and_keeps_the_sign():
     model, a, b = pair()
     model.add(RateNode("c"))
     split = model.add(dd.Gain(-1.0, name="split"))
@@ -81,7 +81,7 @@ def test_a_coupling_with_several_inputs_or_outputs_is_a_box_that_passes_its_sign
     }
 
 
-def test_a_ring_of_couplings_alone_is_drawn():
+def test_a_loop_of_couplings_alone_is_drawn():
     model = dd.Model("ring")
     one, two = model.add(dd.Gain(1.0, name="one")), model.add(dd.Gain(1.0, name="two"))
     one >> two
@@ -109,7 +109,7 @@ def test_a_ring_of_couplings_alone_is_drawn():
     ],
     ids=lambda v: v if isinstance(v, str) else type(v).__name__,
 )
-def test_the_sign_of_what_acts(element, sign):
+def test_polarity_is_the_sign_of_the_parameters(element, sign):
     assert element.polarity() == sign
 
 
@@ -154,7 +154,7 @@ def test_a_picture_names_axes_groups_templates_ports_sensors_and_motors():
     assert forms == {"u": "field", "eye": "sensor", "wheel": "motor", "v": "node"}
 
 
-def test_a_stimulus_repeats_no_axes_and_a_number_for_a_coupling_inhibits_nothing():
+def test_a_stimulus_omits_the_axes_of_its_target_and_has_no_sign_towards_a_product():
     model, a, _ = pair()
     model.add(dd.GaussianStimulus("s", [X], amplitude=-1.0)) >> a
     code = model.add(Product(name="and"))
@@ -212,7 +212,7 @@ def test_a_notebook_shows_the_picture():
     assert repr(dd.draw(model)).startswith("<Diagram of 'pair', ")
 
 
-def test_files(tmp_path):
+def test_pictures_are_saved_as_svg_pdf_and_png(tmp_path):
     model, a, b = pair()
     a >> dd.Gain(2) >> b
     made = dd.draw(model)

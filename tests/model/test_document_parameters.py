@@ -46,14 +46,14 @@ def test_a_linked_parameter_is_not_set_directly(model: dd.Model, path: str) -> N
     assert model.document is before
 
 
-def test_a_value_that_one_of_them_refuses_changes_none(model: dd.Model) -> None:
+def test_a_value_that_one_parameter_refuses_changes_none(model: dd.Model) -> None:
     before = model.document
     with pytest.raises(ParameterError, match="below its lower bound"):
         model.set("gain", 0)
     assert model.document is before
 
 
-def test_unlinked_parameters_keep_their_value_and_stand_alone(model: dd.Model) -> None:
+def test_unlinked_parameters_keep_their_value_and_are_independent(model: dd.Model) -> None:
     model.unlink("v.tau")
     model.set("gain", 8)
     assert (model.get("u.tau"), model.get("v.tau")) == (8.0, 3.0)
@@ -91,7 +91,9 @@ def test_links_follow_rename_and_move(model: dd.Model) -> None:
         (lambda m: m.parameter("k", 10**400), ParameterError, "finite number"),
     ],
 )
-def test_refusals(model: dd.Model, call: object, error: type[Exception], says: str) -> None:
+def test_invalid_document_parameters_are_refused(
+    model: dd.Model, call: object, error: type[Exception], says: str
+) -> None:
     before = model.document
     with pytest.raises(error) as caught:
         call(model)  # type: ignore[operator]
@@ -107,7 +109,7 @@ def test_a_missing_document_parameter_says_how_to_create_it() -> None:
 
 
 @pytest.mark.parametrize("change", ["link", "put", "number", "move", "every"])
-def test_an_element_that_is_gone_is_an_error_that_says_so(model: dd.Model, change: str) -> None:
+def test_an_edit_of_a_removed_element_is_an_error(model: dd.Model, change: str) -> None:
     doc, gone = model.document, model["u"].id
     model.remove("u")
     with pytest.raises(UnknownName, match="removed"):

@@ -71,7 +71,7 @@ def test_undo_and_redo_give_the_identical_document(name: str) -> None:
     assert not model.redo()
 
 
-def test_undo_goes_back_through_everything_to_the_start() -> None:
+def test_undo_reverts_every_change_to_the_start() -> None:
     model = dd.Model("m")
     start = model.document
     seen = [start]
@@ -149,7 +149,7 @@ REFUSED: dict[str, tuple[type[DeodarError], Callable[[dd.Model], object]]] = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_what_is_refused_changes_nothing(name: str) -> None:
+def test_a_refused_edit_does_not_change_the_document(name: str) -> None:
     error, operation = REFUSED[name]
     model = make()
     before = model.document
@@ -183,7 +183,7 @@ def test_ids_survive_rename_move_group_and_ungroup() -> None:
     )
 
 
-def test_handles_follow_and_say_when_their_element_is_gone() -> None:
+def test_handles_follow_their_element_and_report_its_removal() -> None:
     model = make()
     u = model["g.u"]
     model.rename("g", "other")
@@ -211,7 +211,7 @@ def test_a_name_given_again_gets_another_id() -> None:
     assert first.id != second.id
 
 
-def test_removing_takes_connections_and_links_along() -> None:
+def test_removing_an_element_removes_its_connections_and_links() -> None:
     model = make()
     u = model["g.u"]
     model.remove("g.u")
@@ -240,7 +240,7 @@ def test_layout_is_separate_from_the_model() -> None:
     assert arranged.layout == {"left": [1, 2]} and doc.layout == {}
 
 
-def test_setting_the_same_value_is_no_surprise() -> None:
+def test_setting_the_same_value_is_a_change_of_the_history() -> None:
     model = dd.Model("m")
     model.add(Boost("b", [X]))
     model.set("b.amplitude", 2)

@@ -9,7 +9,7 @@ from deodar.errors import UnknownName
 from deodar.model import find
 
 
-def test_an_unknown_path_is_answered_with_the_nearest_one() -> None:
+def test_an_unknown_path_suggests_the_nearest() -> None:
     model = dd.Model("paths")
     model.add(dd.Field("memory", []), group="working")
     model.add(dd.Field("input", []))

@@ -38,7 +38,7 @@ def _edges(model: dd.Model, group: str) -> set[tuple[str, str]]:
     }
 
 
-def test_four_alike_behaviours_have_one_document_parameter() -> None:
+def test_four_equal_behaviours_share_one_document_parameter() -> None:
     model = dd.Model("four")
     for name in ("reach", "grasp", "lift", "drop"):
         model.insert(behaviour(), name)
@@ -59,7 +59,7 @@ def test_an_inserted_template_is_a_copy() -> None:
     assert ("one", "end") in model.document.groups
 
 
-def test_a_copied_group_keeps_what_is_inside_and_leaves_what_is_outside() -> None:
+def test_a_copied_group_has_the_connections_inside_and_not_those_outside() -> None:
     model = dd.Model("m")
     model.insert(behaviour(), "a")
     left = model.add(dd.GaussianStimulus("left", [X]))
@@ -94,7 +94,7 @@ def test_copying_keeps_the_steps_of_parts() -> None:
     assert model.document.by_names()["b", "u"].every == 4
 
 
-def test_nested_groups_move_and_dissolve() -> None:
+def test_nested_groups_are_moved_and_ungrouped() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X]), group="a.b.c")
     assert model.document.groups == (("a",), ("a", "b"), ("a", "b", "c"))
@@ -107,7 +107,7 @@ def test_nested_groups_move_and_dissolve() -> None:
     assert model.document.groups == (("b",),)
 
 
-def test_removing_a_group_takes_everything_in_it() -> None:
+def test_removing_a_group_removes_its_elements() -> None:
     model = dd.Model("m")
     model.insert(behaviour(), "a")
     model.insert(behaviour(), "ab")
@@ -115,7 +115,7 @@ def test_removing_a_group_takes_everything_in_it() -> None:
     assert all(p.startswith("ab.") for p in _paths(model))
 
 
-def test_empty_groups_survive_the_file() -> None:
+def test_empty_groups_are_saved_and_loaded() -> None:
     from deodar.model import files
 
     model = dd.Model("m")

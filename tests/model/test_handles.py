@@ -85,7 +85,7 @@ def test_a_misspelt_parameter_is_refused_with_the_nearest_name(
         where(u)
 
 
-def test_what_is_a_port_says_how_to_write_it(u: Handle) -> None:
+def test_a_port_used_as_an_attribute_states_how_to_write_it(u: Handle) -> None:
     with pytest.raises(
         UnknownName, match=re.escape('g.u.activation is a port, not a parameter. Write: u["activation"]')
     ):
@@ -95,14 +95,14 @@ def test_what_is_a_port_says_how_to_write_it(u: Handle) -> None:
     assert not hasattr(u, "activation") and hasattr(u, "tau")
 
 
-def test_an_index_beyond_the_parts_ends_a_loop_and_says_how_many_there_are(u: Handle) -> None:
+def test_an_index_beyond_the_parts_is_an_index_error_that_states_their_number(u: Handle) -> None:
     with pytest.raises(IndexError, match=r"g\.u\.kernel has 1 part, counted from 0; there is no part 1"):
         u.kernel[1]
     with pytest.raises(ParameterError, match="the index of a part is a whole number, not 'a'"):
         u.kernel["a"]
 
 
-def test_a_handle_of_a_removed_element_says_so(model: dd.Model, u: Handle) -> None:
+def test_a_handle_of_a_removed_element_is_an_error(model: dd.Model, u: Handle) -> None:
     kernel = u.kernel[0]
     model.remove(u)
     for read in (lambda: u.tau, lambda: setattr(u, "tau", 3), lambda: kernel.sigma):
@@ -145,7 +145,7 @@ def test_a_part_is_deleted(model: dd.Model, u: Handle) -> None:
         del u.kernel[2]
 
 
-def test_parts_of_one_element_are_given_to_another(model: dd.Model, u: Handle) -> None:
+def test_parts_of_one_element_are_assigned_to_another(model: dd.Model, u: Handle) -> None:
     model["v"].kernel = u.kernel
     model["v"].sigmoid = u.sigmoid
     w = model.add(dd.Field("w", u.axes, kernel=[u.kernel[0], dd.Gaussian(-1, 4)], sigmoid=u.sigmoid))
@@ -261,7 +261,7 @@ def test_no_parameter_has_the_name_of_an_attribute_of_handles(model: dd.Model, k
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_no_parameter_has_the_name_of_what_elements_declare(kind: str) -> None:
+def test_no_parameter_has_the_name_of_an_attribute_of_elements(kind: str) -> None:
     declared = {name for name in {*vars(Element), *vars(Coupling)} if not name.startswith("__")} - {"name"}
     assert not declared & {p.name for p in parameters(KINDS[kind])}
 
@@ -288,7 +288,7 @@ def test_set_takes_one_or_many(model: dd.Model) -> None:
     assert model["v"].tau == 12.0
 
 
-def test_many_are_set_all_or_none_and_every_mistake_is_listed(model: dd.Model) -> None:
+def test_several_values_are_set_together_or_not_at_all_with_all_problems(model: dd.Model) -> None:
     before = model.document
     with pytest.raises(ParameterError) as caught:
         model.set({"g.u.tau": 30, "v.tau": -1, "v.nosie": 1})
@@ -299,7 +299,7 @@ def test_many_are_set_all_or_none_and_every_mistake_is_listed(model: dd.Model) -
 
 
 @pytest.mark.parametrize("holder", ["model", "session"])
-def test_set_without_a_value_says_what_to_write(model: dd.Model, holder: str) -> None:
+def test_set_without_a_value_is_an_error_that_states_what_to_write(model: dd.Model, holder: str) -> None:
     target = model if holder == "model" else dd.Session(model)
     with pytest.raises(ParameterError, match=re.escape("""set("g.u.tau", value)""")):
         target.set("g.u.tau")  # type: ignore[attr-defined]
@@ -307,7 +307,7 @@ def test_set_without_a_value_says_what_to_write(model: dd.Model, holder: str) ->
         target.set({"g.u.tau": 30}, 5)  # type: ignore[attr-defined]
 
 
-def test_a_session_sets_many_at_one_tick(model: dd.Model) -> None:
+def test_a_session_sets_several_values_at_one_tick(model: dd.Model) -> None:
     session = dd.Session(model)
     session.step(3)
     assert session.set({"g.u.tau": 30, "v.tau": 10}) == "live"

@@ -30,7 +30,7 @@ def document(case: dict[str, Any]) -> Document:
     return from_data(case["document"], arrays)
 
 
-def test_a_hundred_documents_of_at_least_forty_kinds_of_mistake() -> None:
+def test_there_are_100_documents_of_at_least_40_kinds_of_mistake() -> None:
     assert len(CASES) == 100 and len(KINDS) >= 40
     assert all(1 <= len(group["cases"]) <= 5 and group["mistake"] for group in KINDS.values())
     names = {case["document"]["name"] for group in KINDS.values() for case in group["cases"]}
@@ -38,14 +38,14 @@ def test_a_hundred_documents_of_at_least_forty_kinds_of_mistake() -> None:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_every_document_loads_and_says_what_is_expected(case: dict[str, Any]) -> None:
+def test_every_document_loads_and_states_the_expected_problem(case: dict[str, Any]) -> None:
     doc = document(case)
     assert case["where"] in [*(e.path for e in doc.entries), *(k.name for k in doc.parameters)]
     assert case["severity"] in ("problem", "warning") and case["words"]
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_every_mistake_is_caught_where_it_is_with_the_sentence(case: dict[str, Any]) -> None:
+def test_every_mistake_is_reported_at_its_path_with_a_fix(case: dict[str, Any]) -> None:
     found = check(document(case))
     said = [p for p in found if p.where == case["where"] and p.severity == case["severity"]]
     assert any(

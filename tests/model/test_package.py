@@ -50,7 +50,7 @@ def test_the_same_model_gives_the_same_bytes(tmp_path: Path) -> None:
         dd.save(model(), tmp_path / "a.deodar")
 
 
-def test_a_package_is_known_by_its_content(tmp_path: Path) -> None:
+def test_a_package_is_recognised_by_its_content(tmp_path: Path) -> None:
     dd.save(model(), tmp_path / "a.deodar")
     (tmp_path / "a.deodar").rename(tmp_path / "a.json")
     assert dd.load(tmp_path / "a.json").document == model().document
@@ -119,7 +119,7 @@ def test_hostile_packages_are_refused(how: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:Duplicate name")
-def test_one_name_twice_is_refused(tmp_path: Path) -> None:
+def test_a_package_with_a_duplicate_name_is_refused(tmp_path: Path) -> None:
     archive(tmp_path / "a.deodar", [("a.json", b"{}"), ("a.json", b"{}")])
     with pytest.raises(DocumentError, match="twice"):
         dd.load(tmp_path / "a.deodar")
@@ -144,6 +144,6 @@ def test_encrypted_files_are_refused(tmp_path: Path) -> None:
         dd.load(path)
 
 
-def test_the_constant_of_a_zip_file_is_what_is_written(tmp_path: Path) -> None:
+def test_a_package_begins_with_the_signature_of_zip_files(tmp_path: Path) -> None:
     dd.save(model(), tmp_path / "a.deodar")
     assert (tmp_path / "a.deodar").read_bytes().startswith(package.MAGIC)

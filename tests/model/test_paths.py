@@ -41,7 +41,7 @@ STRANGE = [
 
 
 @pytest.mark.parametrize("name", STRANGE)
-def test_split_takes_back_what_quote_gives(name: str) -> None:
+def test_split_reverses_quote(name: str) -> None:
     assert split(dd.quote(name)) == (name,)
     assert split(f"{dd.quote('g')}.{dd.quote(name)}.output") == ("g", name, "output")
     assert split(display(("g", name))) == ("g", name)
@@ -68,7 +68,7 @@ def test_an_element_of_any_name_is_reached_and_set(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", STRANGE)
-def test_any_name_survives_the_file(name: str) -> None:
+def test_any_name_is_saved_and_loaded(name: str) -> None:
     model = dd.Model(name)
     u = model.add(dd.Field(name, [X], kernel=[dd.Gaussian()]), group="grp")
     v = model.add(dd.Field(f"{name}2", [X]))
@@ -79,7 +79,7 @@ def test_any_name_survives_the_file(name: str) -> None:
     assert again == model.document
 
 
-def test_names_as_they_are_where_nothing_else_could_be_meant() -> None:
+def test_a_name_with_a_dot_needs_no_quotes_if_it_is_unambiguous() -> None:
     model = dd.Model("m")
     model.add(dd.Field("a.b", [X]))
     assert model["a.b"].id == model['"a.b"'].id
@@ -87,7 +87,7 @@ def test_names_as_they_are_where_nothing_else_could_be_meant() -> None:
     assert model.get('"a.b".tau') == 5
 
 
-def test_where_two_readings_exist_quotes_decide() -> None:
+def test_quotes_select_one_of_two_readings_of_a_path() -> None:
     model = dd.Model("m")
     dotted = model.add(dd.Field("a.b", [X]))
     grouped = model.add(dd.Field("b", [X]), group="a")
@@ -100,7 +100,7 @@ def test_where_two_readings_exist_quotes_decide() -> None:
     assert files.from_data(json.loads(model.to_json()), {}) == model.document
 
 
-def test_an_element_named_like_a_parameter_path() -> None:
+def test_an_element_named_like_a_parameter_is_found_by_its_path() -> None:
     model = dd.Model("m")
     u = model.add(dd.Field("u", [X]))
     odd = model.add(dd.Field("u.tau", [X]))
@@ -110,7 +110,7 @@ def test_an_element_named_like_a_parameter_path() -> None:
 
 
 @pytest.mark.parametrize("path", ['"open', '"u"x', '"u"x.tau', '"\\q"'])
-def test_broken_quotes_are_named(path: str) -> None:
+def test_unbalanced_quotes_are_reported(path: str) -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X]))
     with pytest.raises(UnknownName) as caught:
@@ -118,7 +118,7 @@ def test_broken_quotes_are_named(path: str) -> None:
     assert repr(path) in str(caught.value)
 
 
-def test_every_reading_is_listed() -> None:
+def test_readings_lists_every_reading_of_a_path() -> None:
     known = [("a",), ("a", "b"), ("a.b",)]
     assert [names for names, _ in readings("a.b", Index.of(known))] == [("a", "b"), ("a",), ("a.b",)]
     assert readings("a.tau", Index.of(known)) == [(("a",), "tau")]

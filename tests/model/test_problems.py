@@ -70,7 +70,7 @@ def test_every_problem_is_listed_at_once_with_its_line() -> None:
     assert all(where in str(caught.value) for where in found)
 
 
-def test_axes_that_miss_on_both_sides_print_both_and_the_project_to_write() -> None:
+def test_axes_missing_on_both_sides_are_printed_with_the_project_to_write() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [Y]))
     (problem,) = model.check()
@@ -93,7 +93,7 @@ UNIT = dd.Axis("y", 0, 1, samples=3)
         ([X], [dd.Axis("x", 0, 10, samples=11, periodic=True)], "Resample([x])"),
     ],
 )
-def test_what_to_write_for_unlike_axes_keeps_the_places_of_the_source(
+def test_the_fix_for_different_axes_keeps_the_positions_of_the_source(
     source: list[dd.Axis], target: list[dd.Axis], coupling: str
 ) -> None:
     """Two places of the source give two different inputs of the target."""
@@ -119,7 +119,7 @@ def test_what_to_write_for_unlike_axes_keeps_the_places_of_the_source(
     assert np.abs(seen[0] - seen[1]).max() > 0.1 * np.abs(seen[0]).max()
 
 
-def test_what_a_project_loses_is_said_where_it_is_suggested() -> None:
+def test_a_suggested_project_states_what_it_loses() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X])) >> model.add(dd.Field("v", [UNIT]))
     (problem,) = model.check()
@@ -187,7 +187,7 @@ def test_a_loop_without_a_state_is_named() -> None:
     assert float(dd.simulate(model, duration=3, record="h.output", dt=1)["h.output"].isel(time=-1).max()) < 1
 
 
-def test_a_delayed_loop_sums_up_what_came_before() -> None:
+def test_a_delayed_loop_sums_its_input_over_time() -> None:
     model = dd.Model("m")
     one = model.add(Boost("one"))
     total = model.add(Sum(name="total"))
@@ -198,7 +198,7 @@ def test_a_delayed_loop_sums_up_what_came_before() -> None:
     assert data["total.output"].values.tolist() == [1, 2, 3, 4, 5]
 
 
-def test_axes_that_follow_only_from_themselves_are_unknown() -> None:
+def test_axes_that_depend_only_on_themselves_are_unknown() -> None:
     model = dd.Model("m")
     g, h = model.add(dd.Gain(1, name="g")), model.add(dd.Gain(1, name="h"))
     g >> h
@@ -240,7 +240,7 @@ def test_the_output_of_a_coupling_has_no_step_of_its_own(reads: str) -> None:
     assert "Leave reads out" in problem.fix
 
 
-def test_delayed_is_allowed_everywhere() -> None:
+def test_delayed_reads_are_allowed_for_elements_and_couplings() -> None:
     model = dd.Model("m")
     u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [X]))
     gain = u >> dd.Gain(2)
@@ -264,21 +264,21 @@ def test_weights_of_another_shape_name_both() -> None:
     assert "weights has shape [1, 2], target and source have [11, 11] samples" in problem.what
 
 
-def test_five_axes_are_too_many() -> None:
+def test_a_field_over_five_axes_is_refused() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [dd.Axis(name, 0, 1, samples=2) for name in "abcde"]))
     (problem,) = model.check()
     assert "at most 4" in problem.what
 
 
-def test_two_axes_of_one_name() -> None:
+def test_two_axes_of_one_name_are_refused() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X, X]))
     (problem,) = model.check()
     assert "two of its axes are called 'x'" in problem.what
 
 
-def test_a_product_of_fields_over_different_axes() -> None:
+def test_a_product_of_fields_over_different_axes_is_a_problem() -> None:
     model = dd.Model("m")
     u, v = model.add(dd.Field("u", [X])), model.add(dd.Field("v", [Y]))
     p = model.add(Product(name="p"))
@@ -298,7 +298,7 @@ def test_problems_of_a_source_are_not_repeated() -> None:
     assert len(model.check()) == 1
 
 
-def test_the_line_to_type_is_one_that_works() -> None:
+def test_the_suggested_coupling_removes_the_problem() -> None:
     """Whatever does not fit: every coupling that is named, taken at its word, compiles."""
     x, y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 10, samples=6, unit="deg")
     hue, far = dd.Axis("hue", 0, 360, samples=12, periodic=True), dd.Axis("x", 0, 20, samples=11)

@@ -38,14 +38,14 @@ def test_a_memory_on_a_coarse_grid_gets_a_warning_with_the_line_to_type(
     assert 'quadrature="cell"' in said and "samples=" in said and "'x'" in said
 
 
-def test_what_the_warning_suggests_removes_it() -> None:
+def test_the_suggested_fix_removes_the_warning() -> None:
     for sigmoid in (dd.Logistic(4), dd.Logistic(30), Absolute(10)):
         (said,) = warned(memory(sigmoid=sigmoid))
         assert warned(memory(sigmoid=sigmoid, quadrature="cell")) == []
         assert warned(memory(sigmoid=sigmoid, samples=int(said.split("samples=")[1].split()[0]))) == []
 
 
-def test_no_number_of_samples_helps_a_step() -> None:
+def test_for_a_step_sigmoid_the_warning_suggests_no_number_of_samples() -> None:
     (said,) = warned(memory(sigmoid=Step(), samples=4001))
     assert 'quadrature="cell"' in said and "samples=" not in said
 
@@ -62,7 +62,7 @@ def test_no_number_of_samples_helps_a_step() -> None:
     ],
     ids=["fine grid", "flat sigmoid", "no memory", "linear", "no interaction", "no peak but a front"],
 )
-def test_what_is_resolved_or_holds_no_peak_gets_none(model: dd.Model) -> None:
+def test_fields_on_fine_grids_or_without_memory_get_no_warning(model: dd.Model) -> None:
     assert warned(model) == []
 
 

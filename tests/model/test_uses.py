@@ -79,7 +79,7 @@ def test_a_refresh_adds_new_elements_removes_missing_ones_and_keeps_the_others()
     assert "left.drives" not in model and "copy.drives" in model
 
 
-def test_names_may_be_exchanged() -> None:
+def test_elements_of_a_template_may_exchange_names() -> None:
     changed, model = template(), host()
     first, second = model["left.a"].id, model["left.b"].id
     changed.rename("a", "c")
@@ -90,7 +90,7 @@ def test_names_may_be_exchanged() -> None:
     assert ("less", "left.b") in edges(model) and model.get("left.b.resting_level") == -2
 
 
-def test_document_parameters_keep_their_values_here_and_drive_what_is_new() -> None:
+def test_document_parameters_keep_their_values_and_drive_new_elements() -> None:
     model, changed = host(), template()
     model.set("tempo", 50)
     model.parameter("low", -7.0)
@@ -136,7 +136,7 @@ def test_a_template_of_templates_stays_linked_at_both_levels() -> None:
     assert model.get("x.inner.a.resting_level") == -4
 
 
-def test_a_group_that_is_dissolved_or_removed_is_no_use() -> None:
+def test_an_ungrouped_or_removed_group_is_no_longer_linked() -> None:
     model = host()
     model.ungroup("left")
     model.remove("right")
@@ -153,7 +153,7 @@ def test_a_refresh_can_be_undone() -> None:
     assert model.undo() and model.document == before
 
 
-def test_a_template_that_lost_what_others_need_is_refused() -> None:
+def test_a_template_without_a_required_element_or_port_is_refused() -> None:
     model, changed = host(), template()
     changed.remove("b")
     before = model.document
@@ -172,7 +172,7 @@ def test_a_template_that_lost_what_others_need_is_refused() -> None:
         ({"lost": {"template": "switch", "elements": {}}}, "there is no group 'lost'"),
     ],
 )
-def test_bad_uses_in_a_document_are_named(uses: object, what: str) -> None:
+def test_invalid_uses_in_a_document_are_reported(uses: object, what: str) -> None:
     data, _ = files.to_data(host().document)
     with pytest.raises(DocumentError, match=what):
         files.from_data(data | {"uses": uses}, {})

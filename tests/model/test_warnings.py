@@ -36,7 +36,7 @@ def test_an_element_warns_with_its_path_and_line() -> None:
     assert found.where.startswith("b (test_warnings.py:")
 
 
-def test_a_warning_stops_no_run() -> None:
+def test_a_warning_does_not_prevent_a_run() -> None:
     model = _model()
     assert problems(model.document) == []
     model.require()
@@ -48,7 +48,7 @@ def test_a_warning_stops_no_run() -> None:
     session.step(2)
 
 
-def test_problems_come_without_warnings_because_these_need_a_graph_that_is_sound() -> None:
+def test_a_model_with_problems_has_no_warnings() -> None:
     model = _model()
     model.add(dd.Gain(2, name="loose"))
     assert {p.severity for p in check(model.document)} == {"problem"}

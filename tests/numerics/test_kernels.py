@@ -49,7 +49,7 @@ def test_normalized_means_an_integral_of_the_amplitude_at_every_width(width):
 
 
 @pytest.mark.parametrize("width", [0.5, 1.0, 2.0])
-def test_plain_amplitudes_stand_at_the_centre(width):
+def test_the_integral_of_a_gaussian_follows_from_its_amplitude_and_width(width):
     assert integral(Gaussian(3.0, width / 2), (LINE,)) == pytest.approx(
         3.0 * math.sqrt(2 * math.pi) * width / 2, rel=1e-8
     )
@@ -81,7 +81,7 @@ def test_the_integral_of_a_box_is_exact_at_any_width(width):
 
 
 @pytest.mark.parametrize("width", [11.9, 12.0, 12.1, 18.0, 23.9, 24.0, 25.0, 30.0, 1000.0])
-def test_a_box_wider_than_a_ring_winds_round_it(width):
+def test_a_box_wider_than_a_ring_wraps_around_it(width):
     assert integral(Box(2.0, width), (RING,)) == pytest.approx(2.0 * width, rel=1e-12)
 
 
@@ -114,7 +114,7 @@ KERNELS = [
 @pytest.mark.parametrize(
     "kernel", KERNELS, ids=lambda k: f"{type(k).__name__} {getattr(k, 'sigma', getattr(k, 'width', ''))}"
 )
-def test_reflection_keeps_the_integral_and_ones(kernel):
+def test_the_boundary_reflect_keeps_integrals_and_constants(kernel):
     """What leaves at a border comes back: integrals are kept, and a homogeneous field stays homogeneous."""
     y = np.random.default_rng(2).random(161)
     assert convolved(kernel, (LINE,), y).sum() == pytest.approx(y.sum(), rel=1e-12)

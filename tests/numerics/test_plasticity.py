@@ -25,7 +25,7 @@ W, PRE, POST = RNG.standard_normal((2, 3, 6, 5)).astype(np.float32), active(2, 3
 PRE[0, 1], POST[1, 2] = 0, 0
 
 
-def test_reading_in_batches_of_batches():
+def test_weights_are_read_in_nested_batches():
     wanted = np.einsum("abi,abij->abj", PRE, W)
     np.testing.assert_allclose(jax.vmap(jax.vmap(read))(W, PRE), wanted, atol=1e-5)
     np.testing.assert_allclose(jax.vmap(read)(W[0], PRE[0]), wanted[0], atol=1e-5)
@@ -37,7 +37,7 @@ def test_reading_in_batches_of_batches():
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_learning_in_batches_of_batches(rule):
+def test_weights_are_learned_in_nested_batches(rule):
     def one(w, x, y):
         return learn(rule, w, x, y, jnp.float32(0.1), jnp.float32(0.02), jnp.float32(0.6))
 
@@ -56,11 +56,11 @@ def test_a_step_longer_than_the_relaxation_time_ends_at_the_attractor(rule):
     assert change(rule, 5.0, 1.0, 1.0, 30.0, 0.0) == pytest.approx(1.0)
 
 
-def test_what_comes_after_a_result_is_the_value():
+def test_after_returns_its_first_argument():
     assert after(jnp.float32(0.3), jnp.zeros(4)) == np.float32(0.3)
 
 
-def test_random_weights_lie_between_none_and_one_and_hold_their_share():
+def test_random_weights_are_between_0_and_1_with_the_stated_share():
     x = [Axis("x", 0, 1, 64, periodic=True)]
     drawn = np.asarray(random_weights((*x,), (*x,), 64, 0.1, 7, np.float32))
     assert drawn.shape == (64, 64) and 0.08 < (drawn > 0).mean() < 0.12 and drawn.max() < 1

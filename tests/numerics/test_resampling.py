@@ -21,13 +21,13 @@ def weights(axis, points, how="linear", dtype=jnp.float64):
 
 @pytest.mark.parametrize("how", resampling.INTERPOLATIONS)
 @pytest.mark.parametrize("axis", [LINE, RING], ids=["line", "ring"])
-def test_samples_are_unchanged(axis, how):
+def test_resampling_to_the_same_grid_keeps_the_samples(axis, how):
     assert np.array_equal(weights(axis, axis.points, how), np.eye(axis.samples))
 
 
 @pytest.mark.parametrize("dtype", [jnp.float32, jnp.float64])
 @pytest.mark.parametrize("samples", [3, 7, 100, 641])
-def test_the_ends_survive_any_sampling(samples, dtype):
+def test_the_last_sample_is_within_reach_of_any_sampling(samples, dtype):
     """Rounding never takes the last sample of an axis out of the other's reach."""
     fine = Axis("x", 0.1, 0.7, samples)
     for how in resampling.INTERPOLATIONS:
@@ -36,26 +36,26 @@ def test_the_ends_survive_any_sampling(samples, dtype):
         )
 
 
-def test_linear_follows_straight_lines():
+def test_linear_resampling_of_a_line_is_exact():
     points = np.linspace(0, 10, 37)
     np.testing.assert_allclose(
         weights(LINE, points) @ (3 - 2 * LINE.points), 3 - 2 * points, rtol=1e-12, atol=1e-12
     )
 
 
-def test_linear_closes_the_ring():
+def test_linear_resampling_interpolates_across_the_ends_of_a_ring():
     w = weights(RING, [11.25])
     assert w[0, 11] == 0.75 and w[0, 0] == 0.25
     np.testing.assert_allclose(weights(RING, [-0.75, 35.25]), np.stack([w[0], w[0]]), atol=1e-12)
 
 
-def test_nearest_takes_one_and_the_upper_of_two():
+def test_nearest_takes_the_upper_of_two_equidistant_samples():
     w = weights(LINE, [2.4, 2.5, 2.6, -0.5, 10.4], "nearest")
     assert w.argmax(1).tolist() == [2, 3, 3, 0, 10] and np.array_equal(w.sum(1), np.ones(5))
     assert weights(RING, [11.5, -0.5, -0.6], "nearest").argmax(1).tolist() == [0, 0, 11]
 
 
-def test_beyond_the_ends_there_is_nothing():
+def test_values_beyond_the_ends_are_zero():
     """Zeros follow the last sample: linear weights fall to nothing within one cell, the nearest within half
     of one.
     """
@@ -64,13 +64,13 @@ def test_beyond_the_ends_there_is_nothing():
     assert not weights(LINE, [-0.6, 10.5], "nearest").any()
 
 
-def test_a_ring_of_one_sample_is_the_same_everywhere():
+def test_a_ring_of_one_sample_is_constant():
     one = Axis("x", 0, 5, 1, periodic=True)
     for how in resampling.INTERPOLATIONS:
         assert np.array_equal(weights(one, [0, 1.3, 2.5, 4.9], how), np.ones((4, 1)))
 
 
-def test_reductions():
+def test_every_reduction_agrees_with_numpy():
     y = jnp.asarray(np.random.default_rng(0).random((4, 5)), jnp.float32)
     axis = Axis("y", 0, 2, 5)
     expected = {

@@ -71,7 +71,7 @@ def exact_mean(g: SigmoidFunction, a: float, b: float) -> float:
 
 
 @pytest.mark.parametrize("g", ALL, ids=repr)
-def test_the_mean_over_a_range(g):
+def test_the_mean_over_a_range_agrees_with_the_exact_mean(g):
     exact = np.array([exact_mean(g, a, b) for a, b in ENDS])
     ends = np.array(ENDS)
     single = np.asarray(jax.jit(g.mean)(*ends.T.astype(np.float32)))

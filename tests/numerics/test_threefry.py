@@ -21,13 +21,13 @@ KNOWN = [
 
 
 @pytest.mark.parametrize(("counter", "key", "answer"), KNOWN)
-def test_known_answers(counter, key, answer):
+def test_threefry_gives_the_published_answers(counter, key, answer):
     assert plain.threefry(counter, key) == answer
     found = noise.threefry(*(jnp.uint32(word) for word in (*counter, *key)))
     assert tuple(int(word) for word in found) == answer
 
 
-def test_the_same_as_the_threefry_of_jax():
+def test_threefry_equals_that_of_jax():
     from jax.extend.random import threefry_2x32
 
     counter = np.arange(64, dtype=np.uint32)
@@ -39,7 +39,7 @@ def test_the_same_as_the_threefry_of_jax():
 
 @pytest.mark.parametrize("seed", [0, 1, 2**32 - 1])
 @pytest.mark.parametrize("trial", [0, 99])
-def test_integers_of_an_element(seed, trial):
+def test_the_integers_of_an_element_are_those_of_the_plain_version(seed, trial):
     ident = 0xDEADBEEF
     key = noise.element_keys(seed, trial, [ident])[0]
     for tick in (0, 1, 2, 7, 2**32 - 1):
@@ -50,7 +50,7 @@ def test_integers_of_an_element(seed, trial):
 
 @pytest.mark.parametrize("every", [1, 3])
 @pytest.mark.parametrize("trial", [0, 7])
-def test_normals_in_a_running_model(every, trial):
+def test_the_noise_of_a_running_model_is_that_of_the_plain_version(every, trial):
     """The deviates of an element follow from its stored id and its own tick alone."""
     axes = [dd.Axis("x", 0, 4, 3), dd.Axis("y", 0, 1, 2)]
     model = dd.Model("noisy")
@@ -76,7 +76,7 @@ def test_float32_normals_agree_with_float64():
 
 
 @pytest.mark.parametrize("word", [0, 1, 511, 512, 2**31, 2**32 - 513, 2**32 - 1])
-def test_extreme_words_give_finite_deviates(word):
+def test_extreme_integers_give_finite_deviates(word):
     """Uniform deviates lie strictly between 0 and 1, so that no logarithm diverges."""
     uniform = float(noise._uniform(jnp.uint32(word)))
     assert uniform == ((word >> 9) + 0.5) / 2**23

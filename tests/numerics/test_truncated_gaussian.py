@@ -28,7 +28,7 @@ def response(kernel, axis, at=5, precision="float64"):
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
 @pytest.mark.parametrize(("cutoff", "reach"), [(0.0, 0), (0.9, 1), (1.0, 1), (1.01, 2), (2.5, 3), (100.0, 5)])
-def test_it_ends_after_so_many_widths(cutoff, reach, precision):
+def test_a_truncated_gaussian_ends_at_the_cutoff(cutoff, reach, precision):
     seen = response(TruncatedGaussian(2.0, 3.0, cutoff), LINE, precision=precision)
     assert np.flatnonzero(seen > 1e-30).tolist() == list(range(5 - reach, 5 + reach + 1))
     assert seen[5] == pytest.approx(2.0 * LINE.step)
@@ -38,14 +38,14 @@ def test_it_ends_after_so_many_widths(cutoff, reach, precision):
 
 @pytest.mark.parametrize("axis", [RING, EVEN], ids=["odd", "even"])
 @pytest.mark.parametrize(("sigma", "cutoff"), [(20.0, 1.0), (60.0, 2.0), (200.0, 5.0)])
-def test_on_a_ring_every_place_counts_once(axis, sigma, cutoff):
+def test_on_a_ring_every_sample_counts_once(axis, sigma, cutoff):
     seen = response(TruncatedGaussian(1.5, sigma, cutoff, normalized=True), axis)
     assert seen.sum() == pytest.approx(1.5, rel=1e-12)
     turned = np.roll(seen, -5)
     assert np.allclose(turned[1:], turned[1:][::-1], rtol=0, atol=1e-15)
 
 
-def test_on_a_line_the_sum_is_that_over_the_support_not_over_what_is_seen():
+def test_normalization_on_a_line_is_over_the_whole_support():
     kernel = TruncatedGaussian(1.0, 6.0, 1.5, normalized=True)
     lags = np.arange(-3, 4)
     weights = np.exp(-0.5 * (lags * 3 / 6) ** 2)
@@ -53,18 +53,18 @@ def test_on_a_line_the_sum_is_that_over_the_support_not_over_what_is_seen():
     assert response(kernel, LINE, at=0).sum() == pytest.approx(weights[3:].sum() / weights.sum(), rel=1e-12)
 
 
-def test_a_narrow_one_may_end_where_a_wider_one_does():
+def test_the_least_reach_extends_a_narrow_kernel():
     assert (response(TruncatedGaussian(1.0, 3.0, 1.0, least=9.0), LINE) > 0).sum() == 7
 
 
-def test_far_narrower_than_a_step_it_is_the_place_alone():
+def test_a_kernel_much_narrower_than_a_step_is_one_sample():
     assert (
         response(TruncatedGaussian(1.5, 1e-6, 5.0, normalized=True), RING).tolist()
         == [0] * 5 + [1.5] + [0] * 5
     )
 
 
-def test_without_amplitude_it_costs_nothing_and_can_come_back():
+def test_a_kernel_of_amplitude_zero_has_no_terms_until_it_is_set():
     model = dd.Model("back")
     u = model.add(dd.Field("u", [LINE], kernel=[TruncatedGaussian(0.0, 3.0)], resting_level=1.0))
     assert u.element.kernel[0].terms() == ()

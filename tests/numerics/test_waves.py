@@ -24,7 +24,7 @@ BOUNDARIES = ("periodic", "zero", "reflect")
 
 
 @pytest.mark.parametrize(("boundary", "samples"), list(itertools.product(BOUNDARIES, (7, 8))))
-def test_all_waves_together_are_a_basis(boundary: str, samples: int) -> None:
+def test_the_waves_are_an_orthonormal_basis(boundary: str, samples: int) -> None:
     length = {"periodic": samples, "zero": samples + 5, "reflect": 2 * samples}[boundary]
     waves = Waves(boundary, samples, length, samples - 1 if boundary == "reflect" else length // 2)
     table = waves.basis()
@@ -75,7 +75,7 @@ def choose_waves(
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
-def test_taps_agree_with_a_matrix(boundary: str) -> None:
+def test_taps_agree_with_matrices(boundary: str) -> None:
     axes = (Axis("x", 0, 199, 200),)
     kernels = [
         dd.Gaussian(7, 3.0, boundary=[boundary]),
@@ -87,13 +87,13 @@ def test_taps_agree_with_a_matrix(boundary: str) -> None:
     assert np.abs(applied(kernels, axes, y, True) - applied(kernels, axes, y, False)).max() < 1e-5 * total
 
 
-def test_buckets_hold_their_widths() -> None:
+def test_a_bucket_contains_its_width() -> None:
     for width in (1e-3, 0.7, 1.0, 3.0, 1000.0):
         low, high = bounds(bucket(width))
         assert low <= width * (1 + 1e-9) and width < high * (1 + 1e-9) and high / low < 1.2
 
 
-def test_the_chosen_strategies() -> None:
+def test_the_strategy_with_the_lowest_cost_is_chosen() -> None:
     line = (Axis("x", 0, 99, 100),)
     square, large = (
         tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"),
@@ -130,7 +130,7 @@ def model(sigma: float = 4.0) -> dd.Model:
     return made
 
 
-def test_default_plans_stay_near_exact_ones() -> None:
+def test_default_strategies_are_within_1e_4_of_exact_ones() -> None:
     """1e-4 in activation after 400 steps without noise, with peaks at the borders."""
     made = model()
     field = made["u"].element
@@ -140,7 +140,7 @@ def test_default_plans_stay_near_exact_ones() -> None:
     assert exact.max() > 3 and np.abs(default - exact).max() < 1e-4
 
 
-def test_exact_accuracy_takes_matrices_and_a_record_says_so() -> None:
+def test_exact_accuracy_uses_matrices_and_is_stated_in_the_record() -> None:
     made = model()
     exact = dd.simulate(made, 100, precision="float64")["u.activation"].values
     asked = dd.simulate(made, 100, accuracy="exact")
@@ -157,7 +157,7 @@ def test_exact_accuracy_takes_matrices_and_a_record_says_so() -> None:
         dd.simulate(made, 1, accuracy="high")
 
 
-def test_widths_change_inside_a_bucket_without_compiling_and_outside_it_with() -> None:
+def test_only_widths_outside_of_the_bucket_recompile() -> None:
     made = model(4.2)
     session = dd.Session(made)
     session.step(50)

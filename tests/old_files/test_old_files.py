@@ -70,7 +70,7 @@ def stopped(old: Path, tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     "name", ["choice.json", "choice.deodar", "experiment.model.json", "stopped/model.json"]
 )
-def test_a_document_opens_as_the_present_version(name: str, old: Path, tmp_path: Path) -> None:
+def test_an_old_document_opens_as_the_present_version(name: str, old: Path, tmp_path: Path) -> None:
     model = dd.load(old / name)
     assert migrated(model, old)
     assert not model.check()
@@ -80,7 +80,7 @@ def test_a_document_opens_as_the_present_version(name: str, old: Path, tmp_path:
 
 
 @both
-def test_a_preset_gives_its_values(old: Path) -> None:
+def test_an_old_preset_sets_its_values(old: Path) -> None:
     model = dd.load(old / "choice.json")
     model.set("u.tau", 99.0)
     report = dd.apply_preset(model, old / "choice.deodar")
@@ -126,7 +126,7 @@ def test_a_record_is_run_and_drawn_by_the_commands(
 
 
 @both
-def test_an_experiment_is_read(old: Path) -> None:
+def test_an_old_experiment_is_read(old: Path) -> None:
     assert dd.Experiment.load(old / "experiment.json").check() == []
 
 

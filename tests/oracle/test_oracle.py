@@ -28,14 +28,14 @@ def test_a_wave_is_an_eigenvector_of_a_convolution_on_a_ring():
 
 
 @pytest.mark.parametrize("boundary", ["periodic", "reflect"])
-def test_images_keep_a_homogeneous_field(boundary):
+def test_the_weights_of_a_normalized_kernel_sum_to_1(boundary):
     axis = dd.Axis("x", -1, 6, 15)
     w = kernels.dense([Box(1.0, 3.3, normalized=True, boundary=[boundary])], (axis,))
     np.testing.assert_allclose(w.sum(axis=1), 1.0, rtol=1e-12)
     np.testing.assert_allclose(w.sum(axis=0), 1.0, rtol=1e-12)
 
 
-def test_shifts_add_up():
+def test_two_shifts_equal_the_shift_by_their_sum():
     y = np.random.default_rng(0).random(40)
     twice = couplings.shift(couplings.shift(y, [RING], 7.5), [RING], 12.5)
     np.testing.assert_allclose(twice, y)

@@ -13,7 +13,7 @@ from deodar.errors import UnknownName
 
 @pytest.mark.parametrize("name", papers.names())
 @pytest.mark.parametrize("quick", [True, False])
-def test_a_paper_is_what_the_command_needs(name, quick):
+def test_a_paper_has_the_parts_that_the_command_uses(name, quick):
     paper = papers.paper(name)
     assert paper.HELP and "\n" not in paper.HELP and paper.__doc__
     jobs = paper.jobs(quick)
@@ -27,7 +27,7 @@ def test_a_paper_is_what_the_command_needs(name, quick):
 
 
 @pytest.mark.parametrize("name", papers.names())
-def test_without_runs_nothing_is_decided(name):
+def test_without_runs_every_claim_is_undecided(name):
     report = papers.paper(name).report({}, True)
     assert report.claims and not report.figures
     assert all(c.holds is None for c in report.claims)

@@ -88,7 +88,7 @@ def test_a_package_that_cannot_be_used_is_a_line_of_doctor_and_the_rest_works(
     )
 
 
-def test_of_two_packages_with_one_name_the_first_has_it(install: Install) -> None:
+def test_the_first_of_two_packages_with_one_name_is_used(install: Install) -> None:
     for package in ("second", "first"):
         install(
             package,
@@ -106,7 +106,7 @@ def test_a_misspelt_kind_of_a_package_suggests_it_without_importing_it(install: 
         registry.kind("Detectr")
 
 
-def test_a_command_of_a_package_that_raises_says_so(
+def test_a_command_of_a_package_that_raises_is_an_error_that_names_it(
     install: Install, capsys: pytest.CaptureFixture[str]
 ) -> None:
     install(
@@ -223,7 +223,7 @@ def test_a_package_for_another_version_is_a_line_of_doctor_for_each_group(
     ],
     ids=["another name", "no measure", "no figure"],
 )
-def test_what_is_no_measure_or_figure_is_a_line_of_doctor(
+def test_an_entry_that_is_not_a_measure_or_figure_is_a_line_of_doctor(
     group: str, text: str, problem: str, install: Install, capsys: pytest.CaptureFixture[str]
 ) -> None:
     value = "odd:Odd" if group == "measures" else "odd"
@@ -231,7 +231,7 @@ def test_what_is_no_measure_or_figure_is_a_line_of_doctor(
     assert _doctor(capsys) == [f"plug-in    odd 0.1.0: PROBLEM: Odd {problem}"]
 
 
-def test_a_broken_measure_is_an_error_of_the_experiments_that_name_it_alone(install: Install) -> None:
+def test_a_broken_measure_is_an_error_only_of_experiments_that_name_it(install: Install) -> None:
     install("odd", {"odd": MEASURE.format(name="Odd") + RAISES}, {"deodar.measures": {"Odd": "odd:Odd"}})
     data = {"experiment": 2, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
     assert [m.name for m in dd.Experiment.from_data(data).measures] == ["u"]
@@ -245,7 +245,7 @@ def test_a_broken_measure_is_an_error_of_the_experiments_that_name_it_alone(inst
     )
 
 
-def test_a_broken_figure_is_an_error_of_the_plot_that_asks_for_it_alone(
+def test_a_broken_figure_is_an_error_only_of_plots_that_name_it(
     install: Install, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     install("odd", {"odd": RAISES}, {"deodar.figures": {"odd": "odd"}})

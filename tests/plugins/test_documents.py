@@ -51,7 +51,7 @@ def test_a_document_names_package_and_version_of_its_kinds_and_opens_again(
     assert dd.load(tmp_path / "m.json").document == model.document
 
 
-def test_a_document_of_deodar_alone_names_no_package(tmp_path: Path) -> None:
+def test_a_document_without_kinds_of_packages_names_no_package(tmp_path: Path) -> None:
     model = dd.Model("m")
     model.add(dd.Boost("b"))
     dd.save(model, tmp_path / "m.json")
@@ -77,7 +77,7 @@ def test_a_missing_package_is_the_first_problem_and_a_line_of_doctor(
     ]
 
 
-def test_another_version_is_named_where_the_document_does_not_open(install: Install, tmp_path: Path) -> None:
+def test_a_document_that_does_not_open_names_the_other_version(install: Install, tmp_path: Path) -> None:
     install(
         "deodar-detector",
         {"detector": KIND},
@@ -93,7 +93,7 @@ def test_another_version_is_named_where_the_document_does_not_open(install: Inst
 
 
 @pytest.mark.parametrize("package", [3, "deodar-detector", "x; rm -rf / 1.0", "-r evil.txt 1"])
-def test_what_is_no_package_and_version_is_a_problem(package: object, tmp_path: Path) -> None:
+def test_an_invalid_entry_of_packages_is_a_problem(package: object, tmp_path: Path) -> None:
     path = _write(tmp_path / "m.json", {"deodar": 3, "elements": {}, "packages": {"Detector": package}})
     with pytest.raises(DocumentError, match="needs a package and its version"):
         dd.load(path)

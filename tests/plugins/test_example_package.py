@@ -42,7 +42,7 @@ def test_nothing_is_imported_before_a_kind_is_looked_up() -> None:
     assert "deodar_change.lamp" not in sys.modules and "deodar_change.command" not in sys.modules
 
 
-def test_check_and_run_know_the_kind_and_the_world(
+def test_check_and_run_find_the_kind_and_the_world(
     file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["check", str(file)]) == 0
@@ -74,7 +74,7 @@ def test_check_and_run_know_the_kind_and_the_world(
     ],
     ids=["no argument", "a wrong argument"],
 )
-def test_a_world_that_cannot_be_opened_says_what_to_type(
+def test_a_world_that_cannot_be_opened_states_what_to_type(
     world: str, message: str, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["run", str(file), "--duration", "1", "--world", world]) == 1
@@ -160,7 +160,9 @@ def test_a_misspelt_measure_suggests_that_of_the_package(experiment: Path) -> No
         dd.Experiment.load(experiment)
 
 
-def test_its_figure_is_a_kind_of_plot(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_figure_of_the_package_is_a_kind_of_plot(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     record = tmp_path / "run.zarr"
     run = dd.simulate(
         dd.load(file), 20, record=["change.output", "step.output"], world=registry.kind("Lamp")()
@@ -176,14 +178,14 @@ def test_its_figure_is_a_kind_of_plot(file: Path, tmp_path: Path, capsys: pytest
     assert "Did you mean 'histogram'?" in capsys.readouterr().err
 
 
-def test_a_figure_of_a_package_is_drawn_only_where_it_is_asked_for() -> None:
+def test_a_figure_of_a_package_is_drawn_only_by_its_name() -> None:
     from deodar.figures import _panels
 
     assert "histogram" not in _panels.kinds()
     assert not [name for name in sys.modules if name.startswith("deodar_change")]
 
 
-def test_the_studio_knows_the_kind_and_the_world() -> None:
+def test_the_studio_lists_the_kind_and_the_world() -> None:
     rooms = {kind.name: kind.room for kind in kinds()}
     assert rooms["Change"] == "own" and rooms["Lamp"] == "worlds"
 
@@ -194,7 +196,7 @@ def test_the_list_of_elements_shows_the_kind_and_the_world(capsys: pytest.Captur
     assert list(listed["own"]) == ["Change"] and "Lamp" in listed["worlds"]
 
 
-def test_its_command_is_a_command(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_of_the_package_runs(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["change", "--tau", "200"]) == 0
     assert capsys.readouterr().out.splitlines()[:2] == ["0 ms: 1.000", "100 ms: 0.606"]
     with pytest.raises(SystemExit):
@@ -202,7 +204,7 @@ def test_its_command_is_a_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert "print how the detector of change answers" in capsys.readouterr().out
 
 
-def test_doctor_lists_what_it_brings(capsys: pytest.CaptureFixture[str]) -> None:
+def test_doctor_lists_what_the_package_adds(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor"]) == 0
     page = capsys.readouterr().out.splitlines()
     found = [line for line in page if line.startswith("plug-in")]

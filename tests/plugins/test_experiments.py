@@ -57,7 +57,7 @@ def test_an_experiment_names_package_and_version_of_its_measures_and_opens_again
     assert dd.Experiment.schema()["properties"]["packages"]["type"] == "object"
 
 
-def test_an_experiment_of_deodar_alone_names_no_package(install: Install) -> None:
+def test_an_experiment_without_measures_of_packages_names_no_package(install: Install) -> None:
     _install(install, "1.2")
     assert "packages" not in dd.Experiment.from_data(_data("Measure")).to_data()
 
@@ -98,7 +98,7 @@ def test_doctor_examines_the_model_of_an_experiment(
     )
 
 
-def test_another_version_is_named_where_the_experiment_does_not_open(install: Install) -> None:
+def test_an_experiment_that_does_not_open_names_the_other_version(install: Install) -> None:
     _install(install, "2.0")
     data = _data(packages={"Spread": "deodar-spread 1.2"})
     assert [m.name for m in dd.Experiment.from_data(data).measures] == ["u"]
@@ -112,7 +112,7 @@ def test_another_version_is_named_where_the_experiment_does_not_open(install: In
 
 
 @pytest.mark.parametrize("packages", [3, {"Spread": 3}, {"Spread": "-r evil.txt 1"}])
-def test_what_is_no_package_and_version_is_a_problem_of_an_experiment(packages: object) -> None:
+def test_an_invalid_entry_of_packages_is_a_problem_of_an_experiment(packages: object) -> None:
     with pytest.raises(DocumentError, match=r"needs an object|needs a package and its version"):
         dd.Experiment.from_data(_data("Measure", packages=packages))
 

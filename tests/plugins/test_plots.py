@@ -77,7 +77,7 @@ def test_a_plot_is_not_imported_before_the_studio_starts() -> None:
     ],
     ids=["parts", "title", "axes", "periodic", "a path", "no file", "a comma", "a name of deodar"],
 )
-def test_what_is_no_plot_is_a_line_of_doctor_and_the_page_is_not_sent_it(
+def test_an_invalid_plot_is_a_line_of_doctor_and_not_sent_to_the_page(
     text: str, name: str, problem: str, install: Install, capsys: pytest.CaptureFixture[str]
 ) -> None:
     _install(install, text, name)
@@ -87,7 +87,7 @@ def test_what_is_no_plot_is_a_line_of_doctor_and_the_page_is_not_sent_it(
     assert found == [f"plug-in    odd 0.1.0: PROBLEM: {name} {problem}"]
 
 
-def test_an_object_that_is_no_module_is_no_plot(install: Install) -> None:
+def test_an_object_that_is_not_a_module_is_refused_as_a_plot(install: Install) -> None:
     install("odd", {"odd": "Plot = 3"}, {"deodar.plots": {"odd": "odd:Plot"}})
     assert [plots.PLOTS.problem(p) for p in plots.PLOTS.packaged()] == [
         "names odd:Plot as 'odd', which is not a module"

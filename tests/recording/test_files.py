@@ -25,7 +25,7 @@ def data() -> xarray.Dataset:
 
 
 @pytest.mark.parametrize("suffix", [".zarr", ".nc"])
-def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
+def test_a_saved_record_is_equal_when_loaded(data: xarray.Dataset, suffix: str, tmp_path: Path) -> None:
     path = files.save_record(data, tmp_path / f"record{suffix}")
     again = files.load_record(path)
     assert again.identical(data)
@@ -36,7 +36,7 @@ def test_what_is_read_is_what_was_written(data: xarray.Dataset, suffix: str, tmp
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
 
-def test_other_programs_open_it_without_a_warning(data: xarray.Dataset, tmp_path: Path) -> None:
+def test_xarray_opens_a_saved_record_without_a_warning(data: xarray.Dataset, tmp_path: Path) -> None:
     plain = data[["u.activation"]]
     files.save_record(plain, tmp_path / "record.zarr")
     files.save_record(plain, tmp_path / "record.nc")
@@ -88,7 +88,7 @@ def test_variables_over_other_dimensions_leave_cells_empty_for_pandas(
     )
 
 
-def test_the_metadata_of_a_table_stand_beside_it(data: xarray.Dataset, tmp_path: Path) -> None:
+def test_the_metadata_of_a_table_are_in_a_file_beside_it(data: xarray.Dataset, tmp_path: Path) -> None:
     """As the W3C's metadata for tabular data: where its readers look, with a column for each of the table."""
     path = files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["record.csv", "record.csv-metadata.json"]
@@ -129,7 +129,7 @@ def test_nothing_is_replaced_without_force(data: xarray.Dataset, suffix: str, tm
     assert {p.name for p in tmp_path.iterdir()} - {"record.csv-metadata.json"} == {path.name}
 
 
-def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Path) -> None:
+def test_a_folder_that_is_not_a_record_is_never_replaced(data: xarray.Dataset, tmp_path: Path) -> None:
     small = data[["n.activation"]]
     (tmp_path / "thesis.zarr").mkdir()
     (tmp_path / "thesis.zarr" / "chapter.txt").write_text("do not lose me")
@@ -146,7 +146,7 @@ def test_what_is_no_record_is_never_replaced(data: xarray.Dataset, tmp_path: Pat
         files.save_record(small, tmp_path / "record.xyz")
 
 
-def test_a_failure_on_the_way_leaves_nothing(
+def test_a_failed_write_leaves_no_file(
     data: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: object, **__: object) -> None:
@@ -160,7 +160,7 @@ def test_a_failure_on_the_way_leaves_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_damaged_and_foreign_files_are_one_clear_error(data: xarray.Dataset, tmp_path: Path) -> None:
+def test_damaged_and_foreign_files_are_an_error_that_names_them(data: xarray.Dataset, tmp_path: Path) -> None:
     good = files.save_record(data, tmp_path / "good.nc").read_bytes()
     (tmp_path / "cut.nc").write_bytes(good[: len(good) // 2])
     (tmp_path / "noise.nc").write_bytes(b"\x00\x01nonsense" * 50)

@@ -39,7 +39,7 @@ print(data.identical(before))
 
 
 @pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
-def test_a_write_that_fails_leaves_the_data_and_no_file(suffix: str, tmp_path: Path) -> None:
+def test_a_failed_write_keeps_the_data_and_leaves_no_file(suffix: str, tmp_path: Path) -> None:
     """A real one: the system lets no file grow beyond 1000 bytes."""
     code = SMALL.format(path=sys.path)
     command = [sys.executable, "-B", "-c", code, str(tmp_path / f"record{suffix}")]
@@ -65,7 +65,7 @@ def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
-def test_a_disk_that_is_full_at_the_last_moment_is_noticed(
+def test_a_disk_that_is_full_when_a_file_is_flushed_is_an_error(
     suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     data = record()
@@ -75,9 +75,7 @@ def test_a_disk_that_is_full_at_the_last_moment_is_noticed(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_document_in_place_survives_a_write_that_fails(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failed_write_keeps_the_existing_document(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     model = dd.Model("kept")
     dd.save(model, tmp_path / "kept.json")
     full(monkeypatch)
@@ -88,15 +86,13 @@ def test_a_document_in_place_survives_a_write_that_fails(
     ]
 
 
-def test_a_file_system_without_the_call_is_no_failure(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_system_without_fsync_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     full(monkeypatch, errno.EINVAL)
     files.save_record(record(), tmp_path / "record.zarr")
     assert files.load_record(tmp_path / "record.zarr").sizes["time"]
 
 
-def test_everything_is_on_the_disk_before_it_gets_its_name(
+def test_a_record_is_flushed_to_disk_before_it_is_renamed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Each file of a record, then its folders; the name of the record comes last."""
@@ -115,7 +111,7 @@ def test_everything_is_on_the_disk_before_it_gets_its_name(
     assert {p.name for p in (tmp_path / "record.zarr").rglob("*")} <= before
 
 
-def test_a_document_is_on_the_disk_before_it_gets_its_name(
+def test_a_document_is_flushed_to_disk_before_it_is_renamed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     events: list[str] = []
@@ -128,9 +124,7 @@ def test_a_document_is_on_the_disk_before_it_gets_its_name(
     assert events == ["file", "replace", "folder"]
 
 
-def test_rows_that_could_not_be_written_whole_are_taken_back(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_rows_that_were_written_in_part_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """So that the next row, once there is room, does not continue half a line."""
     rows = Rows(tmp_path / "rows.jsonl", {"name": "e"})
     rows.append([{"key": "1"}])
@@ -144,7 +138,7 @@ def test_rows_that_could_not_be_written_whole_are_taken_back(
     assert set(Rows(tmp_path / "rows.jsonl", {"name": "e"}).found) == {"1", "2"}
 
 
-def test_rows_are_on_the_disk_when_they_are_kept_and_a_new_file_has_its_name_there(
+def test_appended_rows_and_the_name_of_a_new_file_are_flushed_to_disk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     events: list[tuple[str, int]] = []
@@ -161,7 +155,7 @@ def test_rows_are_on_the_disk_when_they_are_kept_and_a_new_file_has_its_name_the
     assert events == [("file", 1), ("folder", 1), ("file", 3)]
 
 
-def test_the_studio_waits_for_the_disk_before_a_file_gets_its_name(
+def test_the_studio_flushes_a_file_to_disk_before_it_is_renamed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     waited: list[list[str]] = []
@@ -171,7 +165,7 @@ def test_the_studio_waits_for_the_disk_before_a_file_gets_its_name(
     assert len(waited) == 2 and waited[0][0].startswith(".a.json.") and waited[1] == ["a.json"]
 
 
-def test_a_file_of_the_studio_survives_a_write_that_fails(
+def test_a_failed_write_of_the_studio_keeps_the_existing_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with OpenFolder(tmp_path) as folder:
@@ -182,7 +176,7 @@ def test_a_file_of_the_studio_survives_a_write_that_fails(
     assert [(p.name, p.read_bytes()) for p in tmp_path.iterdir()] == [("a.json", b"1")]
 
 
-def test_a_file_that_can_be_made_again_is_not_waited_for(
+def test_a_file_that_is_not_durable_is_not_flushed_to_disk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     full(monkeypatch)

@@ -12,7 +12,7 @@ from deodar.recording.record import about
 from tests.recording.models import model, record, x
 
 
-def test_dimensions_coordinates_and_units() -> None:
+def test_a_record_has_dimensions_coordinates_and_units() -> None:
     data = record(trials=[4, 2], sweep={"s.amplitude": [1, 2, 3]})
     u = data["u.activation"]
     assert u.dims == ("s.amplitude", "trial", "time", "x") and u.shape == (3, 2, 5, 11)
@@ -34,7 +34,7 @@ def test_trial_is_a_dimension_only_where_trials_are_given() -> None:
     assert "trial" not in record().dims and record(trials=1).sizes["trial"] == 1
 
 
-def test_another_sampling_of_a_name_and_a_name_twice_become_dimensions_of_their_own() -> None:
+def test_axes_of_equal_name_and_different_sampling_are_separate_dimensions() -> None:
     made = dd.Model("names")
     made.add(dd.Field("coarse", [dd.Axis("x", 0, 20, samples=6)]))
     made.add(dd.Field("fine", [x]))
@@ -51,7 +51,7 @@ def test_another_sampling_of_a_name_and_a_name_twice_become_dimensions_of_their_
     assert len(data["fine.activation.x"]) == 11
 
 
-def test_it_says_what_made_it() -> None:
+def test_a_record_states_document_seed_and_versions() -> None:
     data = record(precision="float64", dt=0.5)
     made = about(data)
     assert made["document"] == json.loads(model().to_json()) and made["seed"] == 3 and made["dt"] == 0.5
@@ -64,7 +64,7 @@ def test_it_says_what_made_it() -> None:
     assert {"deodar", "jax", "jaxlib", "numpy", "python", "device", "machine"} <= set(made["made_by"])
 
 
-def test_arrays_of_the_document_travel_with_it() -> None:
+def test_a_record_contains_the_arrays_of_its_document() -> None:
     from deodar.recording.provenance import document
 
     made = dd.Model("arrays")

@@ -24,7 +24,9 @@ from tests.recording.models import record, x
 @pytest.mark.parametrize(
     "settings", [{}, {"trials": [2, 5], "sweep": {"u.tau": [8.0, 12.0]}, "precision": "float64"}]
 )
-def test_the_same_bits_on_the_same_machine(settings: dict[str, object], tmp_path: Path) -> None:
+def test_a_repetition_on_the_same_machine_has_the_same_bits(
+    settings: dict[str, object], tmp_path: Path
+) -> None:
     data = record(**settings)
     done = repeat(files.load_record(files.save_record(data, tmp_path / "record.zarr")), simulate)
     assert (
@@ -45,7 +47,7 @@ def test_the_path_of_a_field_alone_means_what_it_meant_when_the_record_was_made(
     assert repeat(data.assign_attrs({KEY: json.dumps(made)}), simulate).same_bits
 
 
-def test_what_differs_is_listed() -> None:
+def test_differences_of_versions_and_machine_are_listed() -> None:
     data = record()
     made = about(data)
     made["made_by"]["jaxlib"] = "0.0.1"
@@ -58,7 +60,7 @@ def test_what_differs_is_listed() -> None:
     assert {d.what for d in done.differences} == {"jaxlib", "machine"} and "0.0.1 then" in str(done)
 
 
-def test_a_difference_without_a_reason_is_not_faithful() -> None:
+def test_a_difference_without_an_explanation_is_not_faithful() -> None:
     data = record()
     data["u.activation"] = data["u.activation"] + 1
     done = repeat(data, simulate)
@@ -82,7 +84,7 @@ def test_a_world_is_opened_again_and_must_be_the_same(tmp_path: Path) -> None:
         repeat(data, simulate)
 
 
-def test_functions_wait_for_trust() -> None:
+def test_repeating_a_record_with_functions_requires_trust() -> None:
     made = dd.Model("function")
     made.add(Function("f", [x]))
     data = dd.simulate(made, 3, record=["f.output"])
@@ -91,13 +93,13 @@ def test_functions_wait_for_trust() -> None:
     assert repeat(data, simulate, trust=True).same_bits
 
 
-def test_a_record_that_does_not_say_what_made_it() -> None:
+def test_a_record_without_its_document_cannot_be_repeated() -> None:
     data = record().assign_attrs({KEY: "{}"})
     with pytest.raises(dd.errors.RecordError):
         repeat(data, simulate)
 
 
-def test_a_value_that_is_no_number_must_be_none_both_times() -> None:
+def test_nan_in_only_one_of_two_records_is_a_difference() -> None:
     data = record()
     diverged = data.copy(deep=True)
     diverged["u.activation"].values[-1, 0] = np.nan
@@ -108,7 +110,7 @@ def test_a_value_that_is_no_number_must_be_none_both_times() -> None:
         assert not done.same_bits and done.largest["u.activation"] == float("inf")
 
 
-def test_bits_of_no_number_that_differ_are_no_difference_of_a_value() -> None:
+def test_different_bits_of_nan_are_not_a_difference_of_values() -> None:
     old, new = record(), record()
     old["u.activation"].values[-1, 0], new["u.activation"].values[-1, 0] = np.nan, -np.float32(np.nan)
     new["u.activation"].values[-1, 1] += 0.5

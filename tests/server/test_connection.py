@@ -26,7 +26,7 @@ class Silent(PageConnection):
 
 
 @pytest.mark.parametrize("between", range(5))
-def test_the_sending_ends_when_its_page_goes_at_the_moment_of_news(between: int) -> None:
+def test_the_sending_task_ends_if_its_page_disconnects_during_an_update(between: int) -> None:
     """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone
     would never end.
     """

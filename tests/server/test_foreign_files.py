@@ -19,7 +19,7 @@ def parts(**changes: Any) -> list[dict[str, Any]]:
     ]
 
 
-def test_a_file_of_another_tool_opens_runs_and_takes_a_preset(tmp_path: Path) -> None:
+def test_a_file_of_another_tool_opens_runs_and_accepts_a_preset(tmp_path: Path) -> None:
     written(tmp_path, parts(), name="simulator.json")
     written(
         tmp_path, [*parts(h=-3)[:1], element("new", "BoostStimulus", {"amplitude": 1})], name="preset.json"

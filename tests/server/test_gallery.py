@@ -40,7 +40,7 @@ def test_an_example_has_a_title_a_sentence_and_a_picture(example) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "nothing", "../README", "make", "order", "/etc/passwd"])
-def test_other_names_are_refused(name: str) -> None:
+def test_names_outside_of_the_examples_are_refused(name: str) -> None:
     assert picture_file(name) is None
     with pytest.raises(UnknownName):
         example_file(name)
@@ -51,13 +51,13 @@ def test_an_unknown_example_suggests_the_nearest() -> None:
         example_file("selektion")
 
 
-def test_the_sentence_is_the_first_of_the_notes() -> None:
+def test_the_sentence_of_an_example_is_the_first_of_its_notes() -> None:
     assert sentence("Switch. On and off. And more.", "switch") == "On and off."
     assert sentence("On at 0.5 ms, in u. More.", "switch") == "On at 0.5 ms, in u."
     assert sentence("", "switch") == ""
 
 
-def test_a_long_sentence_is_cut_where_it_pauses() -> None:
+def test_a_long_sentence_is_cut_at_a_comma() -> None:
     long = "A peak that stays here for a while, " + "and stays " * 20 + "still."
     assert sentence(long, "x") == "A peak that stays here for a while."
     assert len(sentence("and " * 100, "x")) <= LONGEST and sentence("and " * 100, "x").endswith("…")

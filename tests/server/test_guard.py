@@ -54,7 +54,7 @@ def socket_status(address: str, path: str = "/ws", token: bool = True, **headers
         return error.response.status_code
 
 
-def test_local_hosts() -> None:
+def test_addresses_of_this_machine_are_local() -> None:
     assert all(is_local(h) for h in ("localhost", "127.0.0.1", "127.8.0.1", "::1"))
     assert not any(
         is_local(h) for h in ("0.0.0.0", "192.168.0.2", "example.org", "localhost.example.org", "")
@@ -113,7 +113,7 @@ def test_every_request_needs_the_token(root: Path, host: str) -> None:
         assert get(local, Host="evil.example", Cookie=mine)[0] == 403
 
 
-def test_a_browser_that_comes_from_another_site_gets_a_page_and_no_redirect(root: Path) -> None:
+def test_a_browser_from_another_site_gets_a_page_without_a_redirect(root: Path) -> None:
     """It would not send the strict cookie along a redirect."""
     with studio(root) as address:
         path = f"/?{urlsplit(address).query}"
@@ -122,7 +122,7 @@ def test_a_browser_that_comes_from_another_site_gets_a_page_and_no_redirect(root
         assert get(address, path, token=False, Sec_Fetch_Site="none")[0] == 303
 
 
-def test_a_person_without_the_token_is_asked_for_it(root: Path) -> None:
+def test_a_user_without_the_token_is_asked_for_it(root: Path) -> None:
     with studio(root) as address:
         status, body, headers = get(address, token=False, Accept="text/html,*/*")
         assert (
@@ -134,14 +134,14 @@ def test_a_person_without_the_token_is_asked_for_it(root: Path) -> None:
         assert token not in body
 
 
-def test_without_a_token_everybody_may_connect(root: Path) -> None:
+def test_no_token_accepts_every_connection(root: Path) -> None:
     with studio(root, token=False) as address:
         assert not urlsplit(address).query
         assert get(address, "/examples/selection.png")[0] == 200 and socket_status(address) == 101
         assert get(address, "/examples/selection.png", Host="evil.example")[0] == 403
 
 
-def test_two_studios_do_not_overwrite_each_other_s_cookie(root: Path) -> None:
+def test_studios_at_different_ports_have_different_cookies(root: Path) -> None:
     with studio(root) as one, studio(root) as other:
         both = f"{cookie(one)}; {cookie(other)}"
         for address in (one, other):
@@ -161,7 +161,7 @@ def test_a_restart_at_the_same_port_keeps_the_token_on_this_machine_only(root: P
 
 
 @pytest.mark.parametrize("spoilt", ["readable", "link", "pipe", "short", "folder"])
-def test_a_token_file_that_others_could_know_is_not_used(tmp_path: Path, spoilt: str) -> None:
+def test_a_token_file_that_others_can_read_is_not_used(tmp_path: Path, spoilt: str) -> None:
     first = token.kept(tmp_path, 8430)
     assert token.kept(tmp_path, 8430) == first != token.kept(tmp_path, 8431)
     file = tmp_path / "tokens" / "8430"
@@ -205,18 +205,18 @@ def test_answers_forbid_frames_and_foreign_scripts(root: Path) -> None:
     "path",
     ["/../pyproject.toml", "/..%2f..%2fapp.py", "/assets/../../app.py", "/examples/..%2fmake.py", "/app.py"],
 )
-def test_only_the_page_is_served(root: Path, path: str) -> None:
+def test_only_files_of_the_page_are_served(root: Path, path: str) -> None:
     with studio(root) as address:
         assert get(address, path)[0] == 404
 
 
-def test_a_broken_host_header_is_refused() -> None:
+def test_an_invalid_host_header_is_refused() -> None:
     guard = Guard(None, "127.0.0.1", 80, "")  # type: ignore[arg-type]
     for host in ("", "[", "a:b:c", "127.0.0.1:notaport"):
         assert guard._wrong({"host": host})[0] == 403  # pyright: ignore[reportPrivateUsage]
 
 
-def test_a_path_of_nothing_is_not_found(root: Path) -> None:
+def test_an_unknown_path_is_status_404_without_a_redirect(root: Path) -> None:
     """It is never an error of the server, nor a redirect to another host."""
     with studio(root) as address:
         for folder in ("/", "/assets/", "/examples/", "//"):
@@ -226,7 +226,7 @@ def test_a_path_of_nothing_is_not_found(root: Path) -> None:
                 assert get(address, f"{folder}{name}?{urlsplit(address).query}", token=False)[0] == 404
 
 
-def test_a_broken_origin_is_refused(root: Path) -> None:
+def test_an_invalid_origin_is_refused(root: Path) -> None:
     with studio(root) as address:
         for origin in (
             "http://[",
@@ -242,7 +242,7 @@ def test_a_broken_origin_is_refused(root: Path) -> None:
             assert get(address, Origin=origin)[0] in (400, 403), origin
 
 
-def test_small_packets_do_not_wait_for_each_other() -> None:
+def test_small_packets_are_sent_without_delay() -> None:
     """The event loop switches Nagle's algorithm off only for sockets that say they are TCP; with it every
     frame takes 40 ms.
     """

@@ -13,15 +13,15 @@ from deodar.server import frames, protocol, to_page, to_server
 SAY = "write them again: python -m deodar.server.protocol"
 
 
-def test_the_schema_is_fresh() -> None:
+def test_the_schema_is_up_to_date() -> None:
     assert protocol.SCHEMA.read_text(encoding="utf-8") == protocol.schema_text(), SAY
 
 
-def test_the_typescript_is_fresh() -> None:
+def test_the_typescript_is_up_to_date() -> None:
     assert protocol.TYPESCRIPT.read_text(encoding="utf-8") == protocol.typescript(), SAY
 
 
-def test_the_schema_is_a_schema_and_refuses_strangers() -> None:
+def test_the_schema_is_valid_and_refuses_unknown_messages() -> None:
     schema = protocol.schema()
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema | {"$ref": "#/$defs/ToServer"})
@@ -35,7 +35,7 @@ def test_the_schema_is_a_schema_and_refuses_strangers() -> None:
             validator.validate(bad)
 
 
-def test_tags_are_unique_and_typescript_names_them_all() -> None:
+def test_tags_of_messages_are_unique_and_all_are_in_the_typescript() -> None:
     text = protocol.typescript()
     families = (to_server.MESSAGES, to_page.MESSAGES)
     tags = [cls.__struct_config__.tag for family in families for cls in family.values()]
@@ -44,7 +44,7 @@ def test_tags_are_unique_and_typescript_names_them_all() -> None:
         assert f"  type: {json.dumps(tag)};" in text
 
 
-def test_a_frame_comes_back_as_it_went() -> None:
+def test_an_encoded_frame_is_decoded_unchanged() -> None:
     values = np.arange(12, dtype=np.float32).reshape(3, 4)
     data = frames.pack(7, 2**32 + 5, 123.5, values)
     stream, frame, time, back = frames.unpack(data)

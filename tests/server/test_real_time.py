@@ -26,7 +26,7 @@ def test_the_clock_states_the_lag_of_the_run(root: Path) -> None:
         play(address, scene)
 
 
-def test_a_step_that_may_grow_grows_and_is_as_planned_after_a_pause(root: Path) -> None:
+def test_a_step_that_may_grow_grows_and_returns_to_dt_after_a_pause(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.open("open_file", path="selection.json")
         refused = await p.ask("lengthen", longest=100.0)
@@ -70,7 +70,7 @@ def test_costs_are_measured_during_the_run(root: Path) -> None:
         play(address, scene)
 
 
-def test_without_a_document_there_is_nothing_to_measure(root: Path) -> None:
+def test_measuring_costs_without_a_document_is_an_error(root: Path) -> None:
     async def scene(p: Page) -> None:
         for request in ({"type": "measure_costs"}, {"type": "lengthen", "longest": 2.0}):
             answer = await p.ask(**request)

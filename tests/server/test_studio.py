@@ -24,7 +24,7 @@ from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 
 
-def test_a_newcomers_path_from_file_to_peak_to_decay_and_back(root: Path) -> None:
+def test_a_user_opens_a_file_creates_a_peak_removes_it_and_undoes_the_change(root: Path) -> None:
     """Open, run, see a peak, turn the resting level until it is gone, take it back, save, and open what was
     saved.
     """
@@ -61,7 +61,7 @@ def test_a_newcomers_path_from_file_to_peak_to_decay_and_back(root: Path) -> Non
     assert dd.load(root / "mine.json").get("u.resting_level") == -12
 
 
-def test_what_it_runs_is_what_a_script_runs(root: Path) -> None:
+def test_the_studio_gives_the_values_of_a_script(root: Path) -> None:
     """The same steps with the same seed give the same activation as a session of a script."""
     seen: list[np.ndarray] = []
 
@@ -98,7 +98,7 @@ def test_a_dragged_slider_is_one_step_of_undo(root: Path) -> None:
         play(address, scene)
 
 
-def test_a_warning_appears_and_goes_as_a_slider_is_dragged(root: Path) -> None:
+def test_a_warning_appears_and_disappears_while_a_slider_is_dragged(root: Path) -> None:
     """Single changes do not send the document again, and its warnings depend on the values."""
 
     async def scene(p: Page) -> None:
@@ -155,7 +155,7 @@ def test_a_structural_change_compiles_beside_the_run_and_keeps_the_state(root: P
         play(address, scene)
 
 
-def test_refused_values_change_nothing_and_say_where(root: Path) -> None:
+def test_a_refused_value_does_not_change_the_document_and_names_its_path(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         u = p.element("u")
@@ -175,7 +175,7 @@ def test_refused_values_change_nothing_and_say_where(root: Path) -> None:
         play(address, scene)
 
 
-def test_dt_belongs_to_the_document(root: Path) -> None:
+def test_dt_is_stored_in_the_document(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("describe", dt=0.5)
@@ -206,7 +206,7 @@ def test_one_document_parameter_drives_several(root: Path) -> None:
         play(address, scene)
 
 
-def test_the_layout_is_kept_with_the_document(root: Path) -> None:
+def test_the_layout_is_stored_in_the_document(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("arrange", layout={"panels": {"a": 1}}, undoable=False)
@@ -224,7 +224,7 @@ def test_the_layout_is_kept_with_the_document(root: Path) -> None:
     assert layout == {"panels": {"a": 1}, "pins": [{"element": "e", "parameter": "tau"}]}
 
 
-def test_a_hand_makes_a_peak_while_it_is_held(root: Path) -> None:
+def test_an_injected_input_creates_a_peak_until_it_ends(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         u = p.element("u")
@@ -243,7 +243,7 @@ def test_a_hand_makes_a_peak_while_it_is_held(root: Path) -> None:
         play(address, scene)
 
 
-def test_two_pages_are_in_step_and_the_run_outlives_both(root: Path) -> None:
+def test_two_pages_show_the_same_run_which_continues_after_both_are_closed(root: Path) -> None:
     async def main(address: str) -> None:
         async with page(address) as a, page(address) as b:
             await a.runs()
@@ -281,7 +281,7 @@ def test_a_stalled_page_gets_no_more_frames_and_delays_no_other_page(root: Path)
         asyncio.run(main(address))
 
 
-def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
+def test_an_element_that_fails_is_named_and_the_document_is_kept(root: Path) -> None:
     model = dd.Model("runaway")
     model.add(dd.Field("u", [], tau=10, resting_level=0.5))
     grow = model.add(dd.Field("grow", [], tau=1, resting_level=1, sigmoid=Linear()))
@@ -316,7 +316,9 @@ def test_an_element_that_fails_is_named_and_the_rest_stays(root: Path) -> None:
         play(address, scene)
 
 
-def test_a_late_program_is_shown_when_it_is_compiled(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_change_that_recompiles_is_shown_when_it_is_compiled(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     made = engine.port_reader
 
     def slowly(*what: Any) -> Any:
@@ -375,7 +377,7 @@ def test_an_oversized_message_ends_only_that_connection(root: Path) -> None:
         asyncio.run(main(address))
 
 
-def test_trouble_lists_every_problem_and_a_good_file_ends_it(root: Path) -> None:
+def test_a_file_with_problems_lists_all_of_them_until_a_valid_file_is_opened(root: Path) -> None:
     data = json.loads((root / "selection.json").read_text())
     data["elements"]["u"]["tau"] = -1
     data["elements"]["left"]["kind"] = "GausStimulus"
@@ -399,7 +401,7 @@ def test_trouble_lists_every_problem_and_a_good_file_ends_it(root: Path) -> None
         play(address, scene)
 
 
-def test_leaving_unsaved_edits_asks(root: Path) -> None:
+def test_leaving_with_unsaved_edits_requires_confirmation(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("set", element=p.element("u"), parameter="tau", value=30)
@@ -416,7 +418,7 @@ def test_leaving_unsaved_edits_asks(root: Path) -> None:
         play(address, scene)
 
 
-def test_saving_over_what_changed_on_disk_asks(root: Path) -> None:
+def test_saving_over_a_file_changed_on_disk_requires_confirmation(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("set", element=p.element("u"), parameter="tau", value=30)
@@ -468,7 +470,7 @@ def test_nothing_outside_the_root_is_read_or_written(
     assert sorted(p.name for p in outside.iterdir()) == ["secret.json"]
 
 
-def test_a_dropped_document_is_content_and_saved_only_under_a_name(root: Path) -> None:
+def test_a_dropped_document_is_saved_only_under_a_new_name(root: Path) -> None:
     text = (root / "selection.json").read_text()
 
     async def scene(p: Page) -> None:
@@ -561,7 +563,7 @@ def test_sensors_read_an_example_until_a_picture_is_dropped(root: Path) -> None:
         play(address, scene)
 
 
-def test_unsaved_edits_survive_a_crash(root: Path, own_state: Path) -> None:
+def test_unsaved_edits_are_restored_after_a_crash(root: Path, own_state: Path) -> None:
     async def first(p: Page) -> None:
         await p.runs()
         await p.do("set", element=p.element("u"), parameter="tau", value=44)
@@ -590,7 +592,9 @@ def test_unsaved_edits_survive_a_crash(root: Path, own_state: Path) -> None:
     assert list((own_state / "unsaved").iterdir()) == []
 
 
-def test_the_state_folder_is_used_beside_the_event_loop(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_state_folder_is_accessed_outside_of_the_event_loop(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A folder in a network that does not answer must not stop every page."""
     used: set[str] = set()
 
@@ -622,7 +626,7 @@ def test_the_state_folder_is_used_beside_the_event_loop(root: Path, monkeypatch:
     assert used == set(names)
 
 
-def test_streams_of_nothing_say_so(root: Path) -> None:
+def test_a_stream_of_an_unknown_element_or_port_is_an_error(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("watch", stream=1, element="feedbeef", port="activation")

@@ -36,7 +36,7 @@ def shown(made: dd.Model) -> Any:
     return view.document(made.document, "m.json", False, 0, 0)
 
 
-def test_elements_with_their_values_ports_and_axes() -> None:
+def test_the_view_contains_elements_with_values_ports_and_axes() -> None:
     seen = {e.path: e for e in shown(model()).elements}
     u, s = seen["g.u"], seen["s"]
     assert (u.name, u.group, u.kind, u.inputs, u.outputs) == (
@@ -53,7 +53,7 @@ def test_elements_with_their_values_ports_and_axes() -> None:
     assert {a.key: a.unit for a in shown(model()).axes} == {"x": "deg", "y": ""}
 
 
-def test_document_parameters_and_connections_by_id() -> None:
+def test_the_view_contains_document_parameters_and_connections_by_id() -> None:
     made = model()
     seen = shown(made)
     assert [(k.name, k.value, [(x.element, x.parameter) for x in k.links]) for k in seen.parameters] == [
@@ -64,7 +64,7 @@ def test_document_parameters_and_connections_by_id() -> None:
     }
 
 
-def test_problems_belong_to_elements() -> None:
+def test_problems_are_listed_with_their_elements() -> None:
     doc = model().document
     by_path = {e.path: e.id for e in doc.entries}
     wrong = [Problem("g.u.tau", "one"), Problem("s (script.py:3)", "two"), Problem("nowhere", "three")]
@@ -74,14 +74,14 @@ def test_problems_belong_to_elements() -> None:
     assert [p.element for p in found] == [by_path["g.u"], by_path["v"]]
 
 
-def test_a_document_with_problems_is_shown_with_them() -> None:
+def test_the_view_of_a_document_with_problems_lists_them() -> None:
     made = model()
     made.connect("g.u", "v")
     seen = shown(made)
     assert seen.problems and len(seen.elements) == 5
 
 
-def test_a_warning_is_shown_as_one() -> None:
+def test_a_warning_has_the_severity_warning() -> None:
     made = dd.Model("m")
     made.add(dd.GaussianStimulus("s", [X], center=5, amplitude=6, windows=[(100, 100)])) >> made.add(
         dd.Field("u", [X])
@@ -103,7 +103,7 @@ def test_a_warning_is_shown_as_one() -> None:
         ("kernel.1", {"kind": "Gaussian", "amplitude": 2, "sigma": 3}),
     ],
 )
-def test_values_come_back_as_they_were_said(parameter: str, value: Any) -> None:
+def test_a_value_that_is_set_is_shown_unchanged(parameter: str, value: Any) -> None:
     made = model()
     made.unlink("g.u.tau")
     doc, entry = made.document, made.document.by_id()[made["g.u"].id]
@@ -136,7 +136,7 @@ def test_a_list_of_kernels_keeps_its_arrays() -> None:
         ("resting_level.x", 1, "the value before 'x' has no parts"),
     ],
 )
-def test_wrong_values_say_what_is_wrong(parameter: str, value: Any, says: str) -> None:
+def test_an_invalid_value_is_an_error_that_states_the_rule(parameter: str, value: Any, says: str) -> None:
     made = model()
     doc, entry = made.document, made.document.by_id()[made["g.u"].id]
     with pytest.raises(dd.errors.DeodarError, match=says):

@@ -22,7 +22,7 @@ from tests.server.models import weighted
 @pytest.mark.parametrize(
     "path", ["..", "../x.json", "/etc/passwd", "a/../../x.json", "link/x.json", "a\0b", "folder/../../../x"]
 )
-def test_paths_outside_are_refused(tmp_path: Path, path: str) -> None:
+def test_paths_outside_of_the_workspace_are_refused(tmp_path: Path, path: str) -> None:
     root = tmp_path / "root"
     root.mkdir()
     (root / "link").symlink_to(tmp_path)
@@ -30,7 +30,7 @@ def test_paths_outside_are_refused(tmp_path: Path, path: str) -> None:
         Workspace(root).inside(path)
 
 
-def test_paths_inside_are_taken(tmp_path: Path) -> None:
+def test_paths_inside_of_the_workspace_are_accepted(tmp_path: Path) -> None:
     space = Workspace(tmp_path)
     (tmp_path / "sub").mkdir()
     (tmp_path / "here").symlink_to(tmp_path / "sub")
@@ -57,7 +57,7 @@ def test_a_folder_lists_what_can_be_opened(tmp_path: Path) -> None:
         Workspace(tmp_path).listed(7, "gone")
 
 
-def test_targets_end_in_json_and_stand_in_a_folder(tmp_path: Path) -> None:
+def test_targets_end_in_json_and_are_in_an_existing_folder(tmp_path: Path) -> None:
     space = Workspace(tmp_path)
     assert space.target("new").name == "new.json"
     (tmp_path / "folder.json").mkdir()
@@ -66,7 +66,7 @@ def test_targets_end_in_json_and_stand_in_a_folder(tmp_path: Path) -> None:
             space.target(path)
 
 
-def test_a_digest_is_of_the_content(tmp_path: Path) -> None:
+def test_a_digest_depends_on_the_content_alone(tmp_path: Path) -> None:
     space, path = Workspace(tmp_path), tmp_path / "a"
     assert space.digest(path) == ""
     path.write_text("one")
@@ -87,7 +87,7 @@ def test_a_file_that_cannot_be_compared_does_not_count_as_missing(tmp_path: Path
 
 
 @pytest.mark.parametrize("what", ["pipe", "link", "device"])
-def test_what_would_stop_its_reader_is_refused(tmp_path: Path, what: str) -> None:
+def test_pipes_devices_and_huge_files_are_refused(tmp_path: Path, what: str) -> None:
     place = tmp_path / "x.json"
     match what:
         case "pipe":
@@ -101,7 +101,7 @@ def test_what_would_stop_its_reader_is_refused(tmp_path: Path, what: str) -> Non
         Workspace(tmp_path).require_file(place)
 
 
-def test_a_folder_with_links_that_lead_nowhere_is_listed(tmp_path: Path) -> None:
+def test_a_folder_with_broken_links_is_listed(tmp_path: Path) -> None:
     (tmp_path / "good.json").touch()
     (tmp_path / "loop.json").symlink_to(tmp_path / "loop.json")
     (tmp_path / "a").symlink_to(tmp_path / "b")
@@ -187,7 +187,7 @@ def test_a_package_that_was_dropped_is_read_from_its_content(tmp_path: Path) -> 
             content.read_package(wrong, "m.deodar")
 
 
-def test_a_document_is_saved_with_its_arrays_and_the_old_ones_go(tmp_path: Path) -> None:
+def test_a_document_is_saved_with_its_arrays_and_previous_ones_are_removed(tmp_path: Path) -> None:
     space = Workspace(tmp_path)
     for seed in (1, 2):
         model = weighted(seed)
@@ -196,7 +196,7 @@ def test_a_document_is_saved_with_its_arrays_and_the_old_ones_go(tmp_path: Path)
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_unsaved_edits_are_kept_until_forgotten(tmp_path: Path) -> None:
+def test_unsaved_edits_are_kept_until_they_are_discarded(tmp_path: Path) -> None:
     keeper = Keeper(tmp_path)
     model = dd.Model("mine")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)], kernel=[dd.Gaussian(1, 2)]))
@@ -213,13 +213,13 @@ def test_unsaved_edits_are_kept_until_forgotten(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "..", "../../etc", "0123456789abcde", "0123456789abcdeg", "*"])
-def test_names_of_edits_are_no_paths(tmp_path: Path, name: str) -> None:
+def test_names_of_unsaved_edits_are_not_paths(tmp_path: Path, name: str) -> None:
     for what in (Keeper(tmp_path).forget, Keeper(tmp_path).read):
         with pytest.raises(DeodarError, match="no unsaved edits"):
             what(name)
 
 
-def test_recent_files_are_the_last_ones_that_are_still_there(tmp_path: Path) -> None:
+def test_recent_files_are_the_last_ones_that_exist(tmp_path: Path) -> None:
     keeper = Keeper(tmp_path / "state")
     for k in range(20):
         (tmp_path / f"{k}.json").touch()
@@ -230,7 +230,7 @@ def test_recent_files_are_the_last_ones_that_are_still_there(tmp_path: Path) -> 
     assert names[:3] == ["12", "18", "17"] and len(names) == 11
 
 
-def test_a_state_folder_that_cannot_be_used_fails_nothing(tmp_path: Path) -> None:
+def test_an_unusable_state_folder_is_ignored(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     keeper = Keeper(tmp_path / "file")
     keeper.keep(keeper.new_name(), dd.Model("m").document, "")
@@ -240,7 +240,7 @@ def test_a_state_folder_that_cannot_be_used_fails_nothing(tmp_path: Path) -> Non
     assert Keeper(tmp_path).recent() == []
 
 
-def test_the_state_folder_may_be_named(own_state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_state_folder_is_set_by_the_environment(own_state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert state_folder() == own_state
     monkeypatch.delenv("DEODAR_STATE")
     assert "deodar" in str(state_folder())

@@ -54,7 +54,7 @@ async def shown(one: Page) -> None:
     await one.until(lambda: one.said.get("scene", {}).get("scene"))
 
 
-def test_a_page_is_shown_the_world_and_where_the_robot_went(file: Path) -> None:
+def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> None:
     async def story(one: Page) -> None:
         await shown(one)
         assert scene(one)["unit"] == "m" and scene(one)["border"] == [0, 0, 3, 2]
@@ -99,7 +99,7 @@ def page_of(one: Page) -> Any:
     return page(page_of.address)  # type: ignore[attr-defined]
 
 
-def test_a_thing_that_is_moved_while_it_runs_stops_the_robot(file: Path) -> None:
+def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
     arena = Arena(LAYOUT)
 
     async def story(one: Page) -> None:
@@ -128,7 +128,7 @@ def test_a_thing_that_is_moved_while_it_runs_stops_the_robot(file: Path) -> None
     assert [t.name for t in arena.furniture.standing()] == ["block"]
 
 
-def test_what_does_not_fit_is_refused_by_name_and_nothing_moves(file: Path) -> None:
+def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(file: Path) -> None:
     async def story(one: Page) -> None:
         await shown(one)
         for request, said in [

@@ -63,7 +63,7 @@ class Wall:
             return run_live(self.session, duration, speed, longest, None, self.pace, self.sleep)
 
 
-def test_with_time_enough_nothing_is_late_and_nothing_adds_up() -> None:
+def test_with_enough_time_no_step_is_late_and_no_delay_accumulates() -> None:
     wall = Wall(session(), cost=0.0002, drowsy=0.0003)
     meter = wall.live(3000)
     assert wall.session.time == 3000 and meter.steps == 3000 and meter.time == 3000
@@ -83,7 +83,7 @@ def test_slow_motion_fast_motion_and_other_units(speed: float, unit: str, dt: fl
     assert meter.overruns == 0 and meter.lost == 0
 
 
-def test_as_fast_as_possible_never_waits_and_is_never_late() -> None:
+def test_a_run_without_a_speed_never_waits_and_is_never_late() -> None:
     wall = Wall(session(), cost=0.0005)
     meter = wall.live(1000, None)
     assert (
@@ -93,7 +93,7 @@ def test_as_fast_as_possible_never_waits_and_is_never_late() -> None:
     )
 
 
-def test_a_hiccup_is_one_overrun_and_is_caught_up_with_steps_as_they_are() -> None:
+def test_a_delay_is_one_overrun_and_is_caught_up_with_steps_of_dt() -> None:
     wall = Wall(session(), cost=0.0002, hiccups={500: 0.1})
     meter = wall.live(1000)
     assert meter.overruns == 1 and 95 < meter.worst < 101 and meter.lost == 0 and 100 < meter.longest < 160
@@ -101,7 +101,7 @@ def test_a_hiccup_is_one_overrun_and_is_caught_up_with_steps_as_they_are() -> No
     assert max(wall.bursts) <= EXCHANGE / wall.cost + 1
 
 
-def test_a_long_pause_is_given_up_and_not_run_after() -> None:
+def test_a_long_pause_is_skipped() -> None:
     wall = Wall(session(), cost=0.0002, hiccups={500: 3600.0})
     meter = wall.live(1000)
     assert meter.lost == pytest.approx(3.6e6 - 1e3 * MOST_LAG, rel=1e-3) and meter.overruns == 1
@@ -111,7 +111,7 @@ def test_a_long_pause_is_given_up_and_not_run_after() -> None:
     )
 
 
-def test_too_slow_a_machine_falls_behind_and_says_so() -> None:
+def test_the_meter_reports_the_lag_of_a_machine_that_is_too_slow() -> None:
     wall = Wall(session(), cost=0.002)
     meter = wall.live(2000)
     assert meter.factor == pytest.approx(0.5, rel=0.01) and meter.drift == pytest.approx(2000, rel=0.02)
@@ -143,7 +143,7 @@ def test_a_step_that_may_grow_keeps_up_and_the_journal_repeats_the_run(every: in
     np.testing.assert_array_equal(again.read("slow.activation"), one.read("slow.activation"))
 
 
-def test_beyond_its_bound_a_step_does_not_grow_and_the_run_is_late() -> None:
+def test_a_step_at_its_bound_does_not_grow_and_the_run_is_late() -> None:
     wall = Wall(session(), cost=0.008)
     meter = wall.live(2000, longest=4)
     assert meter.step == 4 and meter.factor == pytest.approx(0.5, rel=0.05) and meter.lost > 500
@@ -186,7 +186,7 @@ def test_a_world_is_read_at_its_period_for_every_step() -> None:
     assert gaps.min() >= 12 and gaps.max() < 12 + 4 and np.median(gaps) == 12
 
 
-def test_what_is_set_between_exchanges_counts_and_may_end_the_run() -> None:
+def test_the_function_between_may_set_values_and_end_the_run() -> None:
     one = session()
     seen: list[float] = []
 
@@ -212,14 +212,14 @@ def test_what_is_set_between_exchanges_counts_and_may_end_the_run() -> None:
         ({"duration": -1}, "0 or above"),
     ],
 )
-def test_what_makes_no_sense_is_refused_before_it_begins(how: dict[str, float], says: str) -> None:
+def test_invalid_arguments_of_run_live_are_refused_before_the_run(how: dict[str, float], says: str) -> None:
     one = session()
     with pytest.raises(TimeError, match=says):
         one.run_live(**({"duration": 10} | how))
     assert one.tick == 0 and not one.journal
 
 
-def test_real_time_is_kept_by_the_clock_on_the_wall() -> None:
+def test_a_live_run_follows_the_wall_clock() -> None:
     """Half a second on a machine that may be busy: the sharp figures are those of benchmarks/clock.py."""
     one = session()
     meter = one.run_live(500)

@@ -89,7 +89,7 @@ def test_a_plane_costs_more_than_a_node_and_constant_parts_cost_nothing(work: Wo
     assert by["still"].once and by["still"].us == 0 and not by["plane"].once
 
 
-def test_a_part_that_runs_seldom_costs_less_on_the_mean(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_part_with_a_longer_step_costs_less_per_step(monkeypatch: pytest.MonkeyPatch) -> None:
     """The clock counts how often a part is computed."""
     model = dd.Model("m")
     for name, every in (("often", 1), ("rarely", 10)):
@@ -101,7 +101,7 @@ def test_a_part_that_runs_seldom_costs_less_on_the_mean(monkeypatch: pytest.Monk
     assert by["often"] == pytest.approx(100) and by["rarely"] == pytest.approx(10)
 
 
-def test_the_parts_add_up_to_the_whole(work: Work) -> None:
+def test_the_sum_of_the_parts_is_near_the_time_of_the_step(work: Work) -> None:
     """The figures that are shown are those of `deodar run FILE --cost`; here only what is computed counts."""
     model = dd.Model("m")
     fields = [
@@ -122,7 +122,7 @@ def test_a_coupling_without_readers_is_not_computed_and_costs_nothing(work: Work
     assert by["loose"] == 0 < by["u"]
 
 
-def test_the_run_is_not_touched() -> None:
+def test_measuring_costs_does_not_change_the_run() -> None:
     one, other = (dd.Session(mixed(), seed=5, precision="float64") for _ in range(2))
     one.step(20)
     other.step(20)
@@ -143,7 +143,7 @@ def test_costs_have_the_present_names_of_elements() -> None:
     assert [c.path for c in session.costs(QUICK).elements] == ["after"]
 
 
-def test_the_table_and_its_numbers() -> None:
+def test_the_table_of_costs_prints_its_numbers() -> None:
     found = StepCost(
         (
             ElementCost("1", "u", "Field", 3.0, 1, False),
@@ -165,7 +165,7 @@ def test_the_table_and_its_numbers() -> None:
 
 
 @pytest.mark.parametrize("seconds", [0, -1, "long", float("inf")])
-def test_a_time_that_makes_no_sense_is_refused(seconds: float) -> None:
+def test_an_invalid_measuring_time_is_refused(seconds: float) -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", []))
     with pytest.raises(TimeError, match="seconds above 0"):

@@ -23,7 +23,7 @@ def two(**parameters: object) -> dd.Model:
     return model
 
 
-def test_a_snapshot_goes_back_over_changes_of_noise_and_structure() -> None:
+def test_a_snapshot_is_restored_after_changes_of_noise_and_structure() -> None:
     model = two()
     reference = dd.Session(model, seed=2, precision="float64")
     reference.step(20)
@@ -44,7 +44,7 @@ def test_a_snapshot_goes_back_over_changes_of_noise_and_structure() -> None:
     assert np.abs(s.read("u.activation") - reference.read("u.activation")).max() < 1e-10
 
 
-def test_a_snapshot_taken_with_noise_in_the_program_that_is_off_again() -> None:
+def test_a_snapshot_of_a_program_with_noise_set_to_zero_is_restored() -> None:
     s = dd.Session(two(noise=0.1))
     s.step(3)
     s.set("u.noise", 0.0)
@@ -56,7 +56,7 @@ def test_a_snapshot_taken_with_noise_in_the_program_that_is_off_again() -> None:
 
 
 @pytest.mark.parametrize("wrong", [None, 3, {}])
-def test_what_is_no_snapshot(wrong: object) -> None:
+def test_a_value_that_is_not_a_snapshot_is_refused(wrong: object) -> None:
     s = dd.Session(two())
     with pytest.raises(dd.errors.ParameterError, match="expected a snapshot"):
         s.restore(wrong)  # type: ignore[arg-type]
@@ -73,7 +73,7 @@ def test_snapshots_of_another_model_or_precision_are_refused() -> None:
     s.step(2)
 
 
-def test_a_value_that_means_off_is_another_program_not_a_limit() -> None:
+def test_setting_a_value_to_off_recompiles() -> None:
     s = dd.Session(two(noise=0.2))
     assert s.set("u.noise_length", 3.0) == "recompile" and s.set("u.noise_length", 4.0) == "rebuild"
     assert s.set("u.noise_length", 0.0) == "recompile"
@@ -132,7 +132,7 @@ def test_a_refused_edit_changes_nothing() -> None:
     assert s.tick == 5 and "eye" not in [e.path for e in s.document.entries]
 
 
-def test_a_duration_counts_time_also_while_a_new_dt_waits() -> None:
+def test_a_duration_is_in_time_also_before_a_new_dt_takes_effect() -> None:
     model = two()
     model.set_ticks("v", 10)
     s = dd.Session(model, dt=0.5)
@@ -149,7 +149,7 @@ def test_a_duration_counts_time_also_while_a_new_dt_waits() -> None:
         s.set("u.tau", 0.6)
 
 
-def test_the_step_of_a_snapshot_is_the_one_its_time_constants_are_held_against() -> None:
+def test_time_constants_of_a_restored_snapshot_are_compared_with_its_step() -> None:
     model = dd.Model("fast")
     model.add(dd.Field("u", [x], tau=20))
     s = dd.Session(model, dt=0.1)
@@ -192,7 +192,7 @@ def test_an_interval_longer_than_any_run_records_the_start() -> None:
     assert data["time"].values.tolist() == [0.0]
 
 
-def test_handles_stand_for_paths() -> None:
+def test_handles_are_accepted_as_paths() -> None:
     model = two()
     s = dd.Session(model)
     assert s.read(model["u"]["activation"]).shape == (21,) and s.read(model["u"]).shape == (21,)
@@ -204,7 +204,7 @@ def test_handles_stand_for_paths() -> None:
 
 
 @pytest.mark.parametrize("order", [1, -1])
-def test_a_chain_of_any_length_in_any_order(order: int) -> None:
+def test_a_chain_of_1500_couplings_runs_in_any_order_of_declaration(order: int) -> None:
     model = dd.Model("chain")
     gains = {k: model.add(dd.Gain(1.0, name=f"g{k}")) for k in list(range(1500))[::order]}
     model.add(Boost("b", [x], amplitude=2.0)) >> gains[0]

@@ -72,7 +72,7 @@ def closed(outside: bool, **options: Any) -> dd.Model:
 
 
 @pytest.mark.parametrize("every", [1, 3])
-def test_a_world_is_a_part_with_a_step_of_its_own(every: int) -> None:
+def test_a_world_gives_the_run_of_an_element_with_the_same_period(every: int) -> None:
     """Law: read at multiples of k, visible k ticks later.
 
     The same plant as a world and as an element gives the same run.
@@ -86,7 +86,7 @@ def test_a_world_is_a_part_with_a_step_of_its_own(every: int) -> None:
     assert world.acted == [4.0 * k for k in range(30)]
 
 
-def test_the_cut_of_a_run_changes_nothing_and_a_snapshot_brings_the_world_back() -> None:
+def test_a_run_in_a_world_is_independent_of_chunks_and_snapshots_restore_the_world() -> None:
     whole = dd.simulate(closed(True), 60, record=["u.activation"], world=Tank())["u.activation"].values
     s = dd.Session(closed(True), world=Tank())
     for n in (1, 2, 4, 3, 7, 1, 2):
@@ -100,7 +100,7 @@ def test_the_cut_of_a_run_changes_nothing_and_a_snapshot_brings_the_world_back()
         s.step()
 
 
-def test_an_edit_inside_a_period_leaves_the_world_where_it_is() -> None:
+def test_an_edit_inside_a_period_does_not_change_the_world() -> None:
     plain, edited = (dd.Session(closed(True), world=Tank()) for _ in range(2))
     for s in (plain, edited):
         s.step(10)
@@ -122,7 +122,7 @@ def test_periods_are_milliseconds_for_every_unit_of_the_document() -> None:
         dd.Session(closed(True, time_unit="1 = 2 ms"), dt=3, world=Tank()).step()
 
 
-def test_a_motor_without_a_world_moves_nothing() -> None:
+def test_a_motor_without_a_world_runs_without_effect() -> None:
     model = dd.Model("loose")
     model.add(dd.GaussianStimulus("s", [x], center=2, sigma=1)) >> model.add(Motor("pump", [x], "flow"))
     data = dd.simulate(model, 5, record=["pump.output", "s.output"])
@@ -142,6 +142,6 @@ class Each(Tank):
     sensors: Mapping[str, Signal] = {"level": Signal("level", (5,), each=True)}
 
 
-def test_a_batch_in_a_world_with_a_plant_for_each_copy_is_refused() -> None:
+def test_a_batch_of_a_world_with_readings_of_each_copy_is_refused() -> None:
     with pytest.raises(WorldError, match="level differ from copy to copy"):
         dd.simulate(closed(True), 8, trials=2, record="u.activation", world=Each())

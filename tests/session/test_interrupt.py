@@ -33,7 +33,7 @@ def test_an_interrupt_acts_between_chunks_and_the_handler_is_restored(
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_a_second_one_stops_at_once() -> None:
+def test_a_second_interrupt_stops_at_once() -> None:
     before = signal.getsignal(signal.SIGINT)  # a shell that starts the tests behind it ignores the signal
     with pytest.raises(KeyboardInterrupt), stoppable():
         os.kill(os.getpid(), signal.SIGINT)
@@ -42,7 +42,7 @@ def test_a_second_one_stops_at_once() -> None:
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_other_threads_leave_signals_alone() -> None:
+def test_other_threads_do_not_change_signal_handlers() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", []))
     done: list[int] = []

@@ -24,7 +24,7 @@ def agree(data: object, reference: dict[str, np.ndarray], prefix: str = "") -> N
         assert np.abs(other - reference[path]).max() <= 1e-10 * max(1.0, np.abs(reference[path]).max()), path
 
 
-def test_the_model_does_something(reference: dict[str, np.ndarray]) -> None:
+def test_the_model_of_these_tests_is_active(reference: dict[str, np.ndarray]) -> None:
     assert (
         reference["u.activation"].max() > 1
         and reference["v.output"].std() > 0
@@ -32,15 +32,15 @@ def test_the_model_does_something(reference: dict[str, np.ndarray]) -> None:
     )
 
 
-def test_declaration_order(reference: dict[str, np.ndarray]) -> None:
+def test_a_run_does_not_depend_on_the_order_of_declaration(reference: dict[str, np.ndarray]) -> None:
     agree(dd.simulate(mixed(order=-1), STEPS, seed=3, record=RECORD, precision="float64"), reference)
 
 
-def test_neighbours(reference: dict[str, np.ndarray]) -> None:
+def test_a_run_does_not_depend_on_other_elements(reference: dict[str, np.ndarray]) -> None:
     agree(dd.simulate(mixed(extra=12), STEPS, seed=3, record=RECORD, precision="float64"), reference)
 
 
-def test_rename_move_and_grouping(reference: dict[str, np.ndarray]) -> None:
+def test_a_run_does_not_depend_on_names_and_groups(reference: dict[str, np.ndarray]) -> None:
     model = mixed()
     for handle in list(model):
         model.move(handle, "inner.group")
@@ -62,7 +62,9 @@ def test_noise_has_the_same_bits_under_another_name_order_and_batch() -> None:
 
 
 @pytest.mark.parametrize("every", [1, 7, 40])
-def test_other_records_and_intervals(reference: dict[str, np.ndarray], every: int) -> None:
+def test_a_run_does_not_depend_on_the_record_and_its_interval(
+    reference: dict[str, np.ndarray], every: int
+) -> None:
     record = ["slow.activation", "u.activation"]
     data = dd.simulate(mixed(), STEPS, seed=3, record=record, every=every, precision="float64")
     for path in record:
@@ -70,7 +72,7 @@ def test_other_records_and_intervals(reference: dict[str, np.ndarray], every: in
         assert np.abs(data[path].values - reference[path][::every]).max() <= 1e-10 * 20
 
 
-def test_cuts_of_a_session(reference: dict[str, np.ndarray]) -> None:
+def test_a_session_does_not_depend_on_its_division_into_calls(reference: dict[str, np.ndarray]) -> None:
     model = mixed()
     paths = ["u.activation", "slow.activation", "n.activation", "v.output", "u.input"]
 
@@ -117,7 +119,7 @@ def test_chunks_are_bit_equal_in_float32() -> None:
         assert np.array_equal(a.read(path), b.read(path)), path
 
 
-def test_trials_alone_in_batches_and_split() -> None:
+def test_a_trial_is_equal_alone_in_a_batch_and_in_pieces() -> None:
     """Away from a decision: one stimulus, one peak, 1,000 steps."""
     model = dd.Model("trials")
     axis = dd.Axis("x", 0, 60, samples=31)
@@ -177,7 +179,7 @@ def test_sweeps_equal_single_runs() -> None:
         assert np.abs(point - alone[path].values[0]).max() <= 1e-10
 
 
-def test_both_precisions_live_side_by_side_and_no_flag_changes() -> None:
+def test_both_precisions_run_in_one_process_without_a_change_of_flags() -> None:
     before = {
         name: getattr(jax.config, name)
         for name in ("jax_enable_x64", "jax_compilation_cache_dir", "jax_default_matmul_precision")

@@ -49,7 +49,7 @@ def same(a, b):
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_snapshots_hold_weights(precision):
+def test_snapshots_contain_learned_weights(precision):
     s = dd.Session(model(), precision=precision)
     s.step(100)
     kept, before = s.snapshot(), seen(s)
@@ -63,7 +63,7 @@ def test_snapshots_hold_weights(precision):
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_a_document_stores_them_and_a_run_continues_from_its_file(precision, tmp_path):
+def test_kept_weights_are_saved_and_a_run_continues_from_the_file(precision, tmp_path):
     m = model()
     s = dd.Session(m, precision=precision)
     s.step(100)
@@ -90,7 +90,7 @@ def test_keep_is_one_step_of_the_history_and_does_not_change_the_session():
     assert m.undo() and m.document == before
 
 
-def test_what_is_no_longer_in_the_model_is_named():
+def test_keep_after_an_element_was_removed_is_an_error_that_names_it():
     m = model()
     s = dd.Session(m)
     s.step(5)

@@ -48,7 +48,7 @@ def both(model: Model, path: str, duration: float = 12.0, **others: object) -> t
 
 
 @pytest.mark.parametrize("t0", [2.0**24, 3 * DAY, 30 * DAY - 20, 30 * DAY + 0.25, 400 * DAY])
-def test_a_window_of_two_steps_is_two_steps_long(t0: float) -> None:
+def test_a_window_of_two_steps_lasts_two_steps_at_late_times(t0: float) -> None:
     model = begun(t0)
     model.add(Boost("s", amplitude=2.0, windows=[(t0 + 3, t0 + 5), (t0 + 8, t0 + 9)]))
     single, double = both(model, "s.output")
@@ -76,7 +76,7 @@ def test_a_window_that_is_changed_swept_or_linked_keeps_its_digits() -> None:
 
 
 @pytest.mark.parametrize("velocity", [0.1, -1 / 3])
-def test_a_moving_stimulus_continues_to_move(velocity: float) -> None:
+def test_a_stimulus_moves_in_every_step_at_late_times(velocity: float) -> None:
     t0 = 30 * DAY
     model = begun(t0)
     model.add(
@@ -94,7 +94,7 @@ def test_a_moving_stimulus_continues_to_move(velocity: float) -> None:
 
 @pytest.mark.parametrize("interpolation", ["linear", "hold"])
 @pytest.mark.parametrize("period", [0.0, 7.1, DAY])
-def test_a_time_series_stays_in_time(interpolation: str, period: float) -> None:
+def test_a_time_series_is_exact_at_late_times(interpolation: str, period: float) -> None:
     t0 = 30 * DAY
     times = (t0 if period == 0.0 else 0.0) + np.array([1.0, 3.0, 3.5, 6.0])
     model = begun(t0, dt=0.5)
@@ -104,7 +104,7 @@ def test_a_time_series_stays_in_time(interpolation: str, period: float) -> None:
     assert double.std() > 1
 
 
-def test_a_history_keeps_its_interval() -> None:
+def test_a_history_keeps_its_interval_at_late_times() -> None:
     model = begun(30 * DAY)
     source = model.add(TimeSeries("s", [], 30 * DAY + np.arange(40.0), np.arange(40.0)))
     source >> model.add(History("h", [], dd.Axis("slot", 0, 9, 10), interval=3.0))
@@ -113,7 +113,7 @@ def test_a_history_keeps_its_interval() -> None:
     assert (np.diff(double[-1]) == -3).all()
 
 
-def test_a_step_that_is_no_binary_fraction_counts_right() -> None:
+def test_a_step_that_is_not_a_binary_fraction_is_counted_exactly() -> None:
     """A tenth of a millisecond: 2^26 steps after the start the window opens in its own step."""
     t0 = 2.0**26 * 0.1
     model = begun(t0, dt=0.1)
@@ -241,7 +241,7 @@ def reads_time(kind: str) -> bool:
     return bool(Watched.read)
 
 
-def test_every_kind_that_reads_time_is_among_those_that_are_tested() -> None:
+def test_every_kind_that_reads_time_is_tested() -> None:
     found = {kind for kind in KINDS if reads_time(kind)}
     lasting = {kind for kind, cls in KINDS.items() if any(p.role == "duration" for p in parameters(cls))}
     assert found | lasting == {*WINDOWED, *SCENES}, "a kind that reads time needs an entry in SCENES"
@@ -249,7 +249,7 @@ def test_every_kind_that_reads_time_is_among_those_that_are_tested() -> None:
 
 
 @pytest.mark.parametrize("kind", sorted({*WINDOWED, *SCENES}))
-def test_what_a_kind_does_does_not_depend_on_how_late_it_is(kind: str) -> None:
+def test_the_output_of_a_kind_does_not_depend_on_the_start_time(kind: str) -> None:
     scene = SCENES.get(kind, lambda t0: windowed(kind, t0))
     seen, late = (
         dd.simulate(scene(t0), 12, dt=1, record=["example.output"])["example.output"].values
@@ -261,7 +261,7 @@ def test_what_a_kind_does_does_not_depend_on_how_late_it_is(kind: str) -> None:
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", LASTING)
-def test_a_duration_of_a_month_ends_in_its_step(kind: str, precision: str) -> None:
+def test_a_run_of_a_month_ends_at_the_exact_step(kind: str, precision: str) -> None:
     session = dd.Session(LASTING[kind](), precision=precision)
     session.step(5)
     then = session.snapshot()
@@ -274,7 +274,7 @@ def test_a_duration_of_a_month_ends_in_its_step(kind: str, precision: str) -> No
     assert len(set(seen[:7])) == 1 and seen[7] != seen[6]
 
 
-def test_every_moment_and_every_duration_is_exact() -> None:
+def test_every_parameter_that_is_a_time_or_duration_is_declared_exact() -> None:
     for name, cls in {**KINDS, **PARTS}.items():
         found = {p.name: p for p in parameters(cls)}
         found |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}

@@ -26,6 +26,6 @@ assert 100 < large and dense < 60 + 2 * large, dense
 """
 
 
-def test_a_long_run_that_records_little_keeps_little() -> None:
+def test_memory_of_a_long_run_grows_only_with_the_record() -> None:
     done = subprocess.run([sys.executable, "-c", CODE], capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stdout + done.stderr

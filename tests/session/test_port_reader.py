@@ -38,7 +38,7 @@ def test_a_reader_of_many_ports_agrees_with_single_readings() -> None:
                 np.testing.assert_array_equal(seen[h.id, port], session.read(h[port]))
 
 
-def test_elements_of_one_structure_are_one_array_of_the_reader() -> None:
+def test_elements_of_equal_structure_are_one_array_of_the_reader() -> None:
     model = ring(6)
     session = dd.Session(model)
     few = port_reader(session.program, [(model["u1"].id, "activation")])
@@ -46,7 +46,7 @@ def test_elements_of_one_structure_are_one_array_of_the_reader() -> None:
     assert few.fits([(model["u1"].id, "activation")]) and not few.fits([(model["u2"].id, "output")])
 
 
-def test_missing_places_are_omitted() -> None:
+def test_unknown_ports_are_omitted() -> None:
     model = ring(2)
     session = dd.Session(model)
     places = [("feedbeef", "activation"), (model["u0"].id, "nonsense")]
@@ -55,7 +55,7 @@ def test_missing_places_are_omitted() -> None:
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.5])
-def test_a_push_is_an_input(noise: float) -> None:
+def test_inject_gives_the_trajectory_of_a_connected_input(noise: float) -> None:
     """Pushing gives the trajectory of the same input through a connection, noise included."""
     model = dd.Model("pushed")
     u = model.add(dd.Field("u", [X], noise=noise, kernel=[dd.Gaussian(1, 5)]))
@@ -70,7 +70,7 @@ def test_a_push_is_an_input(noise: float) -> None:
     assert free.journal[-1].what == "push u"
 
 
-def test_what_takes_no_input_cannot_be_pushed() -> None:
+def test_inject_into_an_element_without_input_is_refused() -> None:
     model = dd.Model("m")
     model.add(dd.GaussianStimulus("s", [X]))
     model.add(dd.Field("slow", [X]), ticks=2)
@@ -80,7 +80,7 @@ def test_what_takes_no_input_cannot_be_pushed() -> None:
             session.inject(path, 1.0)
 
 
-def test_another_seed_comes_with_a_reset() -> None:
+def test_reset_with_a_seed_changes_the_seed() -> None:
     model = ring(1)
     model.set("u0.noise", 1.0)
     session, other = dd.Session(model, seed=1), dd.Session(model, seed=2)

@@ -86,7 +86,7 @@ def test_a_refused_change_has_no_effect_and_is_not_recorded() -> None:
     assert session.scene() == before and session.journal == []
 
 
-def test_without_a_world_from_above_there_is_nothing_to_move() -> None:
+def test_a_world_without_a_scene_has_no_objects_to_move() -> None:
     model = dd.Model("blind")
     model.add(dd.Field("u", []))
     session = dd.Session(model)
@@ -95,7 +95,7 @@ def test_without_a_world_from_above_there_is_nothing_to_move() -> None:
         session.move("crate", (1, 1))
 
 
-def test_a_track_follows_the_bodies_and_begins_anew_with_the_run() -> None:
+def test_a_track_follows_the_bodies_and_is_cleared_by_a_reset() -> None:
     session, track = dd.Session(driving(), world=Arena(OPEN)), Track()
     for _ in range(30):
         track.follow(session)
@@ -118,7 +118,7 @@ def test_a_track_follows_the_bodies_and_begins_anew_with_the_run() -> None:
     assert track.scene is None and track.way.places == []
 
 
-def test_a_long_way_is_thinned() -> None:
+def test_a_long_track_drops_every_second_point() -> None:
     session, track = dd.Session(driving(100), world=Arena(OPEN)), Track()
     track.follow(session)
     track.way.fine, whole = 1e-9, track.way

@@ -73,7 +73,7 @@ def place(model: dd.Model, dimensions: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("dimensions", [1, 2])
-def test_places_and_thresholds(dimensions: int) -> None:
+def test_positions_and_thresholds_converge_on_finer_grids(dimensions: int) -> None:
     detection, forgetting, places = [], [], []
     for finer in FINER:
         detection.append(lowest_with_a_peak(localised(dimensions, finer, former=0), 3.5, 6.0))

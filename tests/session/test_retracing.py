@@ -31,13 +31,13 @@ def counter() -> Iterator[Counter]:
     counter.on = False
 
 
-def test_the_counter_counts(counter: Counter) -> None:
+def test_the_counter_counts_compilations(counter: Counter) -> None:
     counter.on = True
     jax.jit(lambda x: x * 3 + 1)(2.0)
     assert counter.events
 
 
-def test_simulate(counter: Counter) -> None:
+def test_a_second_simulate_compiles_nothing(counter: Counter) -> None:
     model = mixed()
     dd.simulate(model, 30, seed=1, record=["u.activation"], every=3)
     counter.on = True
@@ -50,7 +50,7 @@ def test_simulate(counter: Counter) -> None:
     assert counter.events == []
 
 
-def test_session(counter: Counter) -> None:
+def test_a_second_session_compiles_nothing(counter: Counter) -> None:
     model = mixed()
     first = dd.Session(model)
     first.step(3)
@@ -92,7 +92,7 @@ def test_leaving_a_neutral_value_recompiles_once_and_keeps_the_state(counter: Co
     assert counter.events == []
 
 
-def test_trials_and_sweeps(counter: Counter) -> None:
+def test_a_second_batch_compiles_nothing(counter: Counter) -> None:
     model = mixed()
     dd.simulate(model, 5, trials=3, sweep={"s.amplitude": [1, 2]})
     counter.on = True

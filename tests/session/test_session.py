@@ -27,7 +27,7 @@ def relaxing(every: int = 1, **parameters: float) -> dd.Model:
     return model
 
 
-def test_a_change_acts_from_the_next_step_and_is_journalled() -> None:
+def test_a_change_acts_from_the_next_step_and_is_recorded_in_the_journal() -> None:
     s = dd.Session(relaxing(), precision="float64")
     s.step(3)
     assert s.set("u.resting_level", 2) == "live"
@@ -84,7 +84,7 @@ def test_time_keeps_its_digits_over_a_day_in_float32() -> None:
     assert data["time"].values[data.values[:, 0] > 0.5].tolist() == [86_400_000.0 + k for k in range(8)]
 
 
-def test_windows_are_half_open_at_any_cut_and_step() -> None:
+def test_windows_are_half_open_for_any_step_and_division_of_the_run() -> None:
     model = relaxing(tau=10.0)
     model.set("s.amplitude", 1.0)
     model.set("s.windows", [(0.3, 0.9), (1.2, 1.5)])
@@ -127,7 +127,7 @@ def test_documents_are_not_changed_by_a_session() -> None:
     assert model.document is document
 
 
-def test_not_finite_names_element_step_and_remedy() -> None:
+def test_a_value_that_is_not_finite_names_element_step_and_fix() -> None:
     model = dd.Model("explosive")
     u = model.add(dd.Field("fine", [x]))
     v = model.add(
@@ -149,7 +149,7 @@ def test_not_finite_names_element_step_and_remedy() -> None:
         dd.simulate(model, 500, record=["v.activation"], trials=2)
 
 
-def test_ctrl_c_returns_the_record_until_then(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_returns_the_record_so_far(monkeypatch: pytest.MonkeyPatch) -> None:
     from deodar.session.run import Run
 
     model, chunk, calls = relaxing(), Run._chunk, []
@@ -220,7 +220,7 @@ def test_worlds_that_do_not_fit_are_refused() -> None:
         dd.Session(model, world=Ramp(), dt=3).step(1)
 
 
-def test_a_picture_keeps_its_shape_and_its_colours() -> None:
+def test_a_picture_is_sampled_with_its_proportions_and_colours() -> None:
     wide = np.zeros((10, 20, 3), np.uint8)
     wide[:, :10, 0], wide[:, 10:, 2] = 255, 255
     axes = (dd.Axis("x", 0, 19, 20), dd.Axis("y", 0, 19, 20), dd.Axis("channel", 0, 2, 3))

@@ -16,7 +16,7 @@ import busy
 import suite
 
 
-def test_the_calls_of_the_suite_are_those_of_make() -> None:
+def test_the_suite_has_the_calls_of_the_makefile() -> None:
     recipe = (ROOT / "Makefile").read_text(encoding="utf-8")
     assert f"SPREAD := {' '.join(suite.SPREAD)}\n" in recipe
     called = [
@@ -40,7 +40,7 @@ def test_the_numbers_of_a_run_are_read_from_its_last_line(report: str, numbers: 
     assert busy.counted(report) == numbers
 
 
-def test_rows_of_several_runs_have_one_header(tmp_path: Path) -> None:
+def test_a_file_of_several_runs_has_one_header(tmp_path: Path) -> None:
     for passed in (3, 4):
         busy.keep({"date": "2026-11-23", "commit": "abc", "passed": passed}, tmp_path / "busy.csv")
     with (tmp_path / "busy.csv").open(newline="") as file:

@@ -22,7 +22,7 @@ def package(folder: Path, **files: str) -> Path:
     return root
 
 
-def test_a_name_of_two_classes_or_aliases_is_seen_with_its_places(tmp_path: Path) -> None:
+def test_a_name_of_two_classes_or_aliases_is_found_with_its_modules(tmp_path: Path) -> None:
     root = package(
         tmp_path,
         a="class Box: ...\nTree = dict[str, int]\nLIMIT = 3",
@@ -58,7 +58,7 @@ def test_parameters_of_every_kind_count_and_self_does_not(tmp_path: Path) -> Non
     assert measure.crowded(measure.trees(root)) == ["a.py:3 g (9)"]
 
 
-def test_a_cycle_through_a_function_is_seen(tmp_path: Path) -> None:
+def test_a_cycle_through_an_import_in_a_function_is_found(tmp_path: Path) -> None:
     root = package(tmp_path, a="def f():\n    from toy import b", b="from toy.c import x", c="import toy.a")
     assert set(measure.cycle(measure.graph(root, measure.trees(root)))) == {"toy.a", "toy.b", "toy.c"}
     (root / "c.py").write_text("x = 1")
@@ -112,5 +112,5 @@ def test_no_class_or_alias_of_the_package_shares_its_name() -> None:
     assert measure.doubled(measure.trees(measure.SRC)) == []
 
 
-def test_every_import_in_a_function_says_why() -> None:
+def test_every_import_in_a_function_states_its_reason() -> None:
     assert measure.inner_imports(measure.SRC, measure.trees(measure.SRC)) == []

@@ -31,7 +31,7 @@ import mutate
         ("x = f(a, b, c)", "swapped argument", "x = (f(b, a, c))"),
     ],
 )
-def test_a_place_is_changed_and_nothing_else(text: str, kind: str, changed: str) -> None:
+def test_a_mutant_changes_one_expression(text: str, kind: str, changed: str) -> None:
     found = [m.applied(text) for m in mutate.mutants("a.py", text) if m.kind == kind]
     assert changed in found
 
@@ -47,11 +47,11 @@ def test_a_place_is_changed_and_nothing_else(text: str, kind: str, changed: str)
         "def f():\n    return None",
     ],
 )
-def test_what_no_run_reads_is_not_changed(text: str) -> None:
+def test_annotations_protocols_and_f_strings_are_not_mutated(text: str) -> None:
     assert not list(mutate.mutants("a.py", text))
 
 
-def test_the_same_commit_draws_the_same_places(tmp_path: Path) -> None:
+def test_the_same_commit_draws_the_same_mutants(tmp_path: Path) -> None:
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / "a.py").write_text("\n".join(f"x{i} = {i}" for i in range(50)))
     drawn = mutate.draw(tmp_path, "abc", 10)

@@ -55,7 +55,7 @@ def test_a_second_world_of_the_same_structure_compiles_nothing() -> None:
     assert compiled() == before
 
 
-def test_worlds_of_another_structure_and_other_axes_do_not_share() -> None:
+def test_worlds_of_other_structure_or_axes_have_programs_of_their_own() -> None:
     assert (counted(Counter(2.0)), counted(Counter(3.0))) == ([2.0], [3.0])
     before = compiled()
     assert counted(Counter(3.0), LINE) == [[3.0, 3.0, 3.0]]

@@ -52,7 +52,7 @@ def run() -> Any:
     return recorded()
 
 
-def test_the_same_model_does_what_it_did(run: Any) -> None:
+def test_a_model_in_a_replayed_world_repeats_its_run(run: Any) -> None:
     again = dd.simulate(
         driving(), 640, record=["eyes.output", "u.activation", "left.output"], seed=4, world=Recording(run)
     )
@@ -61,7 +61,7 @@ def test_the_same_model_does_what_it_did(run: Any) -> None:
         np.testing.assert_allclose(run[name].values, again[name].values, rtol=1e-5)
 
 
-def test_in_double_precision_it_does_so_to_the_tenth_digit() -> None:
+def test_a_replay_in_double_precision_agrees_to_1e_10() -> None:
     run = recorded(precision="float64")
     again = dd.simulate(
         driving(), 640, record=["u.activation"], seed=4, world=Recording(run), precision="float64"
@@ -69,20 +69,20 @@ def test_in_double_precision_it_does_so_to_the_tenth_digit() -> None:
     np.testing.assert_allclose(run["u.activation"].values, again["u.activation"].values, atol=1e-10)
 
 
-def test_what_was_recorded_at_the_world_s_rate_is_enough(run: Any) -> None:
+def test_a_record_at_the_period_of_the_world_is_sufficient_for_a_replay(run: Any) -> None:
     sparse = run[["eyes.output"]].isel(time=slice(None, None, 4))
     sparse.attrs = run.attrs
     again = dd.simulate(driving(), 640, record=["u.activation"], seed=4, world=Recording(sparse))
     np.testing.assert_allclose(run["u.activation"].values, again["u.activation"].values, rtol=1e-5)
 
 
-def test_another_seed_sees_the_same(run: Any) -> None:
+def test_a_replay_with_another_seed_has_the_same_sensor_readings(run: Any) -> None:
     again = dd.simulate(driving(), 640, record=["eyes.output", "u.activation"], seed=5, world=Recording(run))
     np.testing.assert_array_equal(run["eyes.output"].values, again["eyes.output"].values)
     assert np.abs(run["u.activation"].values - again["u.activation"].values).max() > 0.01
 
 
-def test_from_a_file_and_again_from_its_own_record(run: Any, tmp_path: Path) -> None:
+def test_a_replay_from_a_file_can_be_repeated_from_its_record(run: Any, tmp_path: Path) -> None:
     files.save_record(run, tmp_path / "run.zarr")
     world = opened(Recording, str(tmp_path / "run.zarr"))
     again = dd.simulate(driving(), 320, record=["u.activation"], seed=4, world=world)
@@ -96,7 +96,7 @@ def test_a_run_in_an_arena_is_repeated_from_its_record(run: Any) -> None:
     assert repeated.same_bits and not repeated.differences
 
 
-def test_trials_read_their_own() -> None:
+def test_each_trial_replays_its_own_record() -> None:
     example = Recording.example()
     x = Recording.example_axes("light")
     example.reset(0, [5, 0, 5])
@@ -105,7 +105,7 @@ def test_trials_read_their_own() -> None:
         example.reset(0, [3])
 
 
-def test_what_cannot_be_replayed(run: Any) -> None:
+def test_records_that_cannot_be_replayed_are_refused(run: Any) -> None:
     with pytest.raises(WorldError, match="ends at 640 ms, and the run continues to 704 ms"):
         dd.simulate(
             driving(), 1280, record=["u.activation"], world=Recording(run.isel(time=slice(None, None, 4)))

@@ -31,7 +31,7 @@ LAYOUT: dict[str, Any] = {
 }
 
 
-def test_places_that_fit_are_taken() -> None:
+def test_positions_that_fit_are_accepted() -> None:
     for name, center, size in [
         ("crate", (0.31, 0.3), (0.2, 0.2)),
         ("new", (1.5, 0.2), (0.1, 0.1)),
@@ -53,7 +53,9 @@ def test_places_that_fit_are_taken() -> None:
         ("crate", (0.5, 0.5), (0.1,), "crate.size: .* two finite numbers"),
     ],
 )
-def test_places_that_do_not_fit_are_refused_by_name(name: str, center: Any, size: Any, said: str) -> None:
+def test_positions_that_do_not_fit_are_refused_with_the_reason(
+    name: str, center: Any, size: Any, said: str
+) -> None:
     with pytest.raises(WorldError, match=said):
         SCENE.require_room(name, center, size)
 
@@ -66,7 +68,7 @@ def test_a_missing_or_fixed_object_cannot_be_moved() -> None:
         SCENE.thing("wall")
 
 
-def test_an_arena_shows_its_things_its_goal_and_its_vehicle_in_its_unit() -> None:
+def test_the_scene_of_an_arena_has_its_objects_goal_and_vehicle_in_its_unit() -> None:
     arena = Arena(LAYOUT, unit="cm")
     assert arena.scene().bodies == (), "it has not begun"
     arena.reset(0)

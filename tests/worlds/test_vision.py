@@ -34,7 +34,7 @@ def film() -> Path:
     return _capture.example()
 
 
-def test_the_film_runs_with_the_time_of_the_model(film: Path) -> None:
+def test_a_video_follows_the_time_of_the_model(film: Path) -> None:
     world = Video(film)
     assert world.size == (64, 48)
     for moment in (0.0, 39.0, 40.0, 400.0, 120.0, 960.0):  # also back in time
@@ -46,7 +46,7 @@ def test_the_film_runs_with_the_time_of_the_model(film: Path) -> None:
     assert all((abs(a - b) < 0.1) == (k % 8 != 7) for k, (a, b) in enumerate(itertools.pairwise(seen)))
 
 
-def test_after_its_end_a_video_keeps_its_last_picture_or_begins_again(film: Path) -> None:
+def test_a_video_keeps_its_last_picture_or_repeats(film: Path) -> None:
     last = Video(film).sense("picture", FINE, 960.0)
     np.testing.assert_array_equal(Video(film).sense("picture", FINE, 5000.0), last)
     again = Video(film, loop=True)
@@ -54,19 +54,19 @@ def test_after_its_end_a_video_keeps_its_last_picture_or_begins_again(film: Path
         assert abs(middle(again.sense("picture", FINE, moment)) - (2 * (place // 40) + 7.5)) < 1.0
 
 
-def test_a_film_travels_to_another_process(film: Path) -> None:
+def test_a_video_can_be_pickled(film: Path) -> None:
     world = pickle.loads(pickle.dumps(Video(film)))
     np.testing.assert_array_equal(
         world.sense("picture", AXES, 200.0), Video(film).sense("picture", AXES, 200.0)
     )
 
 
-def test_a_record_names_the_film(film: Path) -> None:
+def test_a_record_names_the_video(film: Path) -> None:
     said = Video(film).describe()
     assert Video.again(said).describe() == said and len(said["sha256"]) == 64
 
 
-def test_files_that_are_no_film(tmp_path: Path) -> None:
+def test_files_that_are_not_a_video_are_refused(tmp_path: Path) -> None:
     text = tmp_path / "film.mp4"
     text.write_text("not a video")
     with pytest.raises(WorldError, match=r"film.mp4: cannot be read as a video"):
@@ -77,7 +77,7 @@ def test_files_that_are_no_film(tmp_path: Path) -> None:
         Video(text, period=0)
 
 
-def test_a_camera_gives_its_newest_picture_and_never_waits(film: Path) -> None:
+def test_a_camera_gives_its_latest_picture_without_waiting(film: Path) -> None:
     camera = Camera(str(film), patience=60.0)
     camera.reset(0)
     # a video as a camera is read at full speed, to its last picture
@@ -98,7 +98,7 @@ def test_a_camera_that_stops_is_an_error(film: Path) -> None:
     camera.close()
 
 
-def test_a_camera_that_is_not_there_is_an_error(tmp_path: Path) -> None:
+def test_a_missing_camera_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(WorldError, match="there is no camera, or another program uses it"):
         Camera(str(tmp_path / "nothing")).reset(0)
     for number in (-1, 1.5, True, "", None):

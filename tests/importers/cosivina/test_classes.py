@@ -388,7 +388,7 @@ def everything(seed):
 
 
 @pytest.mark.parametrize(("seed", "dt", "t0"), [("", 1, 0), ("reversed", 1, 0), ("mixed", 0.5, 2)])
-def test_every_class_in_every_place(seed, dt, t0, tmp_path):
+def test_every_class_agrees_with_the_oracle_in_any_order(seed, dt, t0, tmp_path):
     parts = everything(seed)
     done = read(written(tmp_path, [element(a, k, p, i) for a, k, p, i in parts], dt, t0))
     assert problems(done.model.document) == [] and not done.report.losses
@@ -431,7 +431,7 @@ def _plain(times):
     )
 
 
-def test_the_cases_cover_what_is_translated():
+def test_the_cases_cover_every_translated_class():
     there = {kind for kind, *_ in CASES.values()} | {"NormalNoise"}
     further = {
         "GaussKernel3D",
@@ -470,7 +470,7 @@ def test_noise_has_the_strength_of_cosivina(tmp_path):
 @pytest.mark.parametrize(
     "kind", ["CameraGrabber", "AttractorDynamics", "MobileRobotArena", "Interpolation1D", "GausKernel1D"]
 )
-def test_what_is_missing_keeps_its_place(kind, tmp_path):
+def test_a_class_that_is_not_translated_becomes_a_placeholder(kind, tmp_path):
     parts = [
         element("u", "NeuralField", {**FIELD, "size": ROW}, [("it", "output")]),
         element("it", kind, {"size": ROW, "learningRate": 0.1}, [U]),
@@ -496,7 +496,7 @@ TimedCustomStimulus TimedGaussStimulus1D TimedGaussStimulus2D TimedSwitch Transp
 ALL = NAMES.split()
 
 
-def test_every_class_of_cosivina_is_translated_or_says_what_is_missing(tmp_path):
+def test_every_class_of_cosivina_is_translated_or_names_what_is_missing(tmp_path):
     """All in one file, with no more than a size: what is not there has cosivina's own defaults."""
     assert len(ALL) == 58 and set(ALL) == set(CLASSES) | set(MISSING)
     parts = [element(f"a {kind}", kind, {"size": [1, 1]}, [("u", "output")]) for kind in ALL]

@@ -49,7 +49,7 @@ def told(report, label):
 
 
 @pytest.mark.parametrize("kind", ["SumAllDimensions", "LateralInteractions2D"])
-def test_sums_that_no_element_reads_are_read_where_the_report_says(kind, tmp_path):
+def test_sums_without_readers_are_read_at_the_path_in_the_report(kind, tmp_path):
     parts = [
         ("bell", "GaussStimulus2D", BELL, []),
         (

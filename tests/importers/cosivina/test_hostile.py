@@ -59,12 +59,12 @@ def fuzz(path: Path, count: int, seed: int = 0) -> tuple[int, int]:
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
-def test_mutations_of_every_sample(path):
+def test_mutations_of_every_sample_open_or_are_refused(path):
     good, _ = fuzz(path, 100 if path.stat().st_size < 20_000 else 25)
     assert good > 0
 
 
-def test_mutations_that_are_good_run():
+def test_mutations_without_problems_run():
     rng = random.Random(7)
     data = json.loads(next(p for p in SAMPLES if "OneLayer" in p.stem).read_text())
     ran = 0
@@ -93,7 +93,7 @@ def test_mutations_that_are_good_run():
         (text([element("feld \u00fc", "NeuralField", FIELD)]).encode().replace(b"\\u00fc", b"\xfc"), ""),
     ],
 )
-def test_what_is_no_file_of_cosivina_is_one_error(content, says, tmp_path):
+def test_a_file_that_is_not_of_cosivina_is_an_error(content, says, tmp_path):
     path = tmp_path / "x.json"
     path.write_bytes(content)
     if says:
@@ -115,7 +115,7 @@ def test_a_file_of_100_megabytes_is_refused_before_it_is_read(tmp_path):
         dd.load(path)
 
 
-def test_sizes_that_cannot_be_meant_become_placeholders(tmp_path):
+def test_elements_of_implausible_size_become_placeholders(tmp_path):
     done = read(
         written(
             tmp_path,
@@ -131,7 +131,7 @@ def test_sizes_that_cannot_be_meant_become_placeholders(tmp_path):
     ]
 
 
-def test_names_are_only_names(tmp_path):
+def test_labels_with_special_characters_are_names(tmp_path):
     names = [
         "../../up",
         "/etc/passwd",
@@ -208,7 +208,7 @@ def test_a_loop_through_a_sum_runs(tmp_path):
         "v",
     ],
 )
-def test_shapes_of_one_input(shape, tmp_path):
+def test_every_form_of_one_input_is_read(shape, tmp_path):
     parts = [element("v", "NeuralField", FIELD), {**element("u", "NeuralField", FIELD), "input": shape}]
     model = read(written(tmp_path, parts)).model
     assert [(c.source_port, c.reads) for c in model.document.connections] == [("output", "current")]
@@ -226,13 +226,13 @@ def test_shapes_of_one_input(shape, tmp_path):
         [{"label": {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}, "component": None}],
     ],
 )
-def test_shapes_of_no_input(shape, tmp_path):
+def test_every_form_of_no_input_is_read(shape, tmp_path):
     done = read(written(tmp_path, [{**element("u", "NeuralField", FIELD), "input": shape}]))
     assert done.report.faithful and not done.model.document.connections
 
 
 @pytest.mark.parametrize("elements", ["missing", None, [], {}, 27, "field u", True, {"label": "u"}])
-def test_a_file_whose_elements_are_lost_is_refused(elements, tmp_path):
+def test_a_file_without_elements_is_refused(elements, tmp_path):
     body = json.loads(text([element("u", "NeuralField", FIELD)]))["simulator"] | {
         "nElements": 27,
         "elements": elements,
@@ -247,7 +247,7 @@ def test_a_file_whose_elements_are_lost_is_refused(elements, tmp_path):
 @pytest.mark.parametrize(
     "elements", [None, [], {"_ArrayType_": "double", "_ArraySize_": [0, 0], "_ArrayData_": None}]
 )
-def test_a_simulator_that_says_it_is_empty_is_an_empty_model(elements, tmp_path):
+def test_a_simulator_with_zero_elements_is_an_empty_model(elements, tmp_path):
     (tmp_path / "empty.json").write_text(
         json.dumps({"simulator": {"deltaT": 1, "nElements": 0, "elements": elements}})
     )
@@ -255,7 +255,7 @@ def test_a_simulator_that_says_it_is_empty_is_an_empty_model(elements, tmp_path)
     assert done.report.faithful and not done.model.document.entries
 
 
-def test_elements_that_are_counted_or_named_and_not_there_are_reported(tmp_path):
+def test_elements_that_are_counted_or_named_but_missing_are_reported(tmp_path):
     body = json.loads(text([element("u", "NeuralField", FIELD), element("v", "NeuralField", FIELD)]))
     del body["simulator"]["elements"][1]
     (tmp_path / "cut.json").write_text(json.dumps(body))
@@ -283,7 +283,7 @@ def test_keys_that_occur_twice_are_reported_with_the_value_in_use(tmp_path):
     assert done.model["u"].element.tau == 20 and done.model.document.dt == 1
 
 
-def test_one_element_may_stand_without_a_list(tmp_path):
+def test_a_single_element_may_be_given_without_a_list(tmp_path):
     data = json.loads(text([element("u", "NeuralField", FIELD)]))
     data["simulator"]["elements"] = data["simulator"]["elements"][0]
     (tmp_path / "one.json").write_text(json.dumps(data))

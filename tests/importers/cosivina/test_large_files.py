@@ -116,7 +116,7 @@ def test_work_grows_with_the_number_of_connections_that_a_script_makes():
     assert many <= MOST * few, (few, many)
 
 
-def test_the_same_source_many_times_is_one_gain():
+def test_a_source_that_occurs_many_times_becomes_one_gain():
     done = tools()["cosivina"].read(text(from_one(20_000)).encode(), "large.json", False)
     assert done.report.faithful and len(done.model.document.entries) == 3
     once = tools()["cosivina"].read(text(from_one(1)).encode(), "large.json", False)

@@ -46,7 +46,7 @@ def solid(pattern, sigmas, amplitude, flags, cutoff=2):
 
 
 @pytest.mark.parametrize("bugs", [False, True])
-def test_a_solid_kernel_and_its_known_error(bugs, tmp_path):
+def test_a_kernel_over_three_axes_and_its_known_error_agree_with_the_oracle(bugs, tmp_path):
     found, report = shown(
         tmp_path,
         "GaussKernel3D",
@@ -58,7 +58,7 @@ def test_a_solid_kernel_and_its_known_error(bugs, tmp_path):
     assert len(report.bugs) == 1 and report.bugs[0].endswith("reproduced" if bugs else "corrected")
 
 
-def test_solid_differences_of_gaussians(tmp_path):
+def test_differences_of_gaussians_over_three_axes_agree_with_the_oracle(tmp_path):
     widths = {
         f"sigma{a}{c}": v
         for a, values in (("Exc", (1, 1.5, 0.8)), ("Inh", (2, 1, 1.2)))
@@ -73,7 +73,7 @@ def test_solid_differences_of_gaussians(tmp_path):
     assert np.allclose(found, wanted - 0.25, rtol=0, atol=1e-12)
 
 
-def test_a_shifted_interaction(tmp_path):
+def test_a_shifted_interaction_agrees_with_the_oracle(tmp_path):
     param = {
         "size": [1, 9],
         "sigmaExc": 1,
@@ -89,7 +89,7 @@ def test_a_shifted_interaction(tmp_path):
     assert np.allclose(found, wanted, rtol=0, atol=1e-12)
 
 
-def test_a_discrete_interaction(tmp_path):
+def test_a_discrete_interaction_agrees_with_the_oracle(tmp_path):
     found = shown(
         tmp_path,
         "LateralInteractionsDiscrete",
@@ -100,7 +100,7 @@ def test_a_discrete_interaction(tmp_path):
 
 
 @pytest.mark.parametrize("bugs", [False, True])
-def test_a_split_transform(bugs, tmp_path):
+def test_a_split_transform_agrees_with_the_oracle(bugs, tmp_path):
     kernel = {
         "size": [1, 9],
         "sigmaExc": 1,
@@ -129,7 +129,7 @@ def test_a_split_transform(bugs, tmp_path):
         )
 
 
-def test_a_solid_stimulus(tmp_path):
+def test_a_stimulus_over_three_axes_agrees_with_the_oracle(tmp_path):
     param = {"size": SOLID, "amplitude": 2, "normalized": 0}
     for c, sigma, position, circular in (("Y", 1, 2, 1), ("X", 1.5, 6, 1), ("Z", 2, 1, 0)):
         param |= {f"sigma{c}": sigma, f"position{c}": position, f"circular{c}": circular}
@@ -143,7 +143,7 @@ def test_a_solid_stimulus(tmp_path):
     assert np.allclose(found, 2 * np.einsum("i,j,k->ijk", y, x, z), rtol=0, atol=1e-12)
 
 
-def test_a_general_expansion(tmp_path):
+def test_a_general_expansion_agrees_with_the_oracle(tmp_path):
     plane = np.arange(12.0).reshape(3, 4)
     param = {"inputSize": [3, 4], "outputSize": [4, 2, 3], "dimensionMapping": [3, 1]}
     found = shown(tmp_path, "ExpandDimension", param, plane)[0]
@@ -151,7 +151,7 @@ def test_a_general_expansion(tmp_path):
 
 
 @pytest.mark.parametrize("bugs", [False, True])
-def test_amplitudes_that_cosivina_does_not_apply(bugs, tmp_path):
+def test_amplitudes_that_cosivina_ignores_are_applied_unless_bugs_are_reproduced(bugs, tmp_path):
     wide = np.arange(9.0)[None]
     found, report = shown(tmp_path, "DiagonalExpansion", {"inputSize": [1, 9], "amplitude": 3}, wide, bugs)
     assert (
@@ -163,7 +163,7 @@ def test_amplitudes_that_cosivina_does_not_apply(bugs, tmp_path):
 
 
 @pytest.mark.parametrize("bugs", [False, True])
-def test_normalised_timed_stimuli(bugs, tmp_path):
+def test_normalised_timed_stimuli_agree_with_the_oracle(bugs, tmp_path):
     param = {
         "size": [1, 9],
         "sigma": 1,
@@ -183,7 +183,7 @@ def test_normalised_timed_stimuli(bugs, tmp_path):
 
 
 @pytest.mark.parametrize("bugs", [False, True])
-def test_learning_from_another_component(bugs, tmp_path):
+def test_learning_from_another_component_agrees_with_the_oracle(bugs, tmp_path):
     field = {"size": [1, 3], "tau": 5, "h": 1, "beta": 4}
     parts = [
         element("u", "NeuralField", field),

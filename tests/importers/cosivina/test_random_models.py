@@ -109,7 +109,7 @@ def _given(kind: str, size: list[int], more: dict[str, list[int]]) -> dict[str, 
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_a_random_model(seed, tmp_path):
+def test_a_random_model_agrees_with_the_oracle(seed, tmp_path):
     parts = model(seed, 50)
     done = read(written(tmp_path, [element(*part) for part in parts]))
     assert problems(done.model.document) == [] and not done.report.losses

@@ -14,14 +14,14 @@ REFERENCES = [p for p in SAMPLES if p.with_suffix(".npz").exists()]
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
-def test_everything_is_carried(path):
+def test_every_part_of_a_sample_is_carried(path):
     done = read(path)
     assert done.report.faithful and done.report.lines, done.report.losses
     assert problems(done.model.document) == []
 
 
 @pytest.mark.parametrize("path", [p for p in SAMPLES if p not in REFERENCES], ids=lambda p: p.stem)
-def test_the_others_run(path):
+def test_samples_without_stored_steps_run(path):
     data = dd.simulate(dd.load(path), 3, every=3)
     assert all(np.isfinite(values).all() for values in data.values())
 
@@ -41,7 +41,7 @@ def test_every_listed_step_agrees(path):
             assert abs(found.reshape(wanted.shape) - wanted).max() < near, (precision, label, step)
 
 
-def test_axes_names_step_and_notes_are_those_of_the_file():
+def test_axes_names_step_and_notes_are_taken_from_the_file():
     model = dd.load(next(p for p in SAMPLES if "Coupling" in p.stem))
     assert model.document.dt == 1 and model.document.t0 == 0
     assert [a.name for a in model['"field v"'].element.axes] == ["y", "x"]

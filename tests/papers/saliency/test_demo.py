@@ -19,7 +19,7 @@ from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
 
 
-def test_the_command_makes_good_every_claim(tmp_path: Path) -> None:
+def test_every_claim_of_the_command_holds(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "deodar", "demo", "saliency"],
         cwd=tmp_path,
@@ -41,7 +41,7 @@ def test_the_command_makes_good_every_claim(tmp_path: Path) -> None:
     assert "5 of 5" in done.stdout.splitlines()[-1]
 
 
-def test_another_seed_and_a_wrong_mark_shows() -> None:
+def test_claims_hold_for_another_seed_and_fail_for_a_wrong_mark() -> None:
     """The claim is computed: with the box elsewhere it is false."""
     chelsea = next(s for s in photographs() if s.name == "chelsea")
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
@@ -51,7 +51,7 @@ def test_another_seed_and_a_wrong_mark_shows() -> None:
     assert "1 of 2 cued colours" in sentence([result])
 
 
-def test_a_picture_of_ones_own(tmp_path: Path) -> None:
+def test_a_photograph_of_the_user_is_searched(tmp_path: Path) -> None:
     scene = np.full((60, 90, 3), 120, np.uint8)
     scene[20:40, 60:80] = [20, 30, 230]
     Image.fromarray(scene).save(tmp_path / "mine.png")
@@ -63,7 +63,7 @@ def test_a_picture_of_ones_own(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("way", ["film", "camera"])
-def test_a_film_and_a_camera(way: str) -> None:
+def test_a_video_and_a_camera_are_searched(way: str) -> None:
     """A red square crosses the video in its first second and stays where it is then, at columns 48 to 63."""
     film = _capture.example()
     scene = (
@@ -76,7 +76,7 @@ def test_a_film_and_a_camera(way: str) -> None:
     assert not blue.places and abs(red.motor[0] - red.places[0][0]) < 4
 
 
-def test_a_missing_video_or_camera(tmp_path: Path) -> None:
+def test_a_missing_video_or_camera_is_an_error(tmp_path: Path) -> None:
     for options, says in (
         (["--video", "none.mp4"], "there is no such video"),
         (["--camera", "77"], "there is no camera"),
@@ -94,7 +94,7 @@ def test_a_missing_video_or_camera(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_bad_input(tmp_path: Path) -> None:
+def test_invalid_pictures_cues_and_folders_are_refused(tmp_path: Path) -> None:
     with pytest.raises(dd.errors.WorldError, match="no such picture"):
         own(tmp_path / "nothing.jpg", [])
     with pytest.raises(dd.errors.DocumentError, match="0 to 360"):

@@ -57,7 +57,7 @@ def test_a_photograph_without_all_of_its_rows_is_undecided(rows: dict[str, Row])
     assert {c.holds for c in report.claims if not c.name.startswith(name)} == {True}
 
 
-def test_what_is_required_of_the_untuned_photographs_is_undecided_until_all_were_run(
+def test_required_claims_of_the_untuned_photographs_are_undecided_until_all_have_run(
     monkeypatch: pytest.MonkeyPatch, rows: dict[str, Row]
 ) -> None:
     monkeypatch.setattr(trials, "look", ideal)

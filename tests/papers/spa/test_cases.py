@@ -37,7 +37,7 @@ def test_case_3_has_240_runs_for_each_obstacle_and_noise():
     assert not np.array_equal(cases.windows("full"), cases.windows("partial"))
 
 
-def test_quick_is_the_beginning_of_the_whole():
+def test_quick_takes_the_first_trials_of_each_condition():
     long, short = cases.conditions(False), cases.conditions(True)
     assert list(long) == list(short)
     for name, c in short.items():
@@ -88,7 +88,7 @@ def test_every_condition_has_a_world_for_all_its_trials():
 @pytest.mark.parametrize(
     ("what", "rows", "columns"), [("full", (5, 25), (35, 45)), ("partial", (15, 30), (25, 55))]
 )
-def test_obstacles_stand_where_the_paper_has_them(what, rows, columns):
+def test_obstacles_are_at_the_positions_of_the_paper(what, rows, columns):
     c = cases.conditions(True)[f"{what}/planner/low"]
     arena = cases.world(c)
     thing, times = next(
@@ -102,7 +102,7 @@ def test_obstacles_stand_where_the_paper_has_them(what, rows, columns):
     assert tuple(times[7]) == (onset, onset + duration)
 
 
-def test_the_design_grows_by_the_planner_under_other_terms():
+def test_the_design_contains_the_planner_with_other_settings():
     found = {name: c for name, c in cases.conditions(False).items() if c.terms and c.method == "planner"}
     kinds = [
         "sticking-planner/low",
@@ -120,7 +120,7 @@ def test_the_design_grows_by_the_planner_under_other_terms():
     assert found["z/factor-1.0-planner/high"].terms == {"factor": 1.0}
 
 
-def test_the_terms_reach_the_world_and_the_model():
+def test_settings_of_a_condition_change_the_world_and_the_model():
     found = cases.conditions(False)
     assert cases.world(found["large/reflection-0.8-planner/low"]).reflection == 0.8
     assert cases.world(found["z/planner/low"]).reflection == 0.6

@@ -73,7 +73,7 @@ def test_claims_follow_from_the_record() -> None:
 @pytest.mark.parametrize(
     ("published", "second"), [(True, "another plan: never"), (False, "at the goal: never")]
 )
-def test_the_figure_names_its_moments_and_says_which_never_came(published: bool, second: str) -> None:
+def test_the_figure_names_its_times_and_those_that_did_not_occur(published: bool, second: str) -> None:
     start = (-45.0, 55.0)
     pose = np.concatenate([way(start, start, each=110), way(start, (-48.0, 60.0), each=100)])
     intention = (np.arange(len(pose)) >= 105).astype(float)
@@ -114,7 +114,7 @@ def test_the_command_writes_the_printed_files(
     assert (out / "spa.zarr").is_dir()
 
 
-def test_options_of_another_demo(capsys: pytest.CaptureFixture[str]) -> None:
+def test_options_of_another_demo_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["demo", "spa", "--cue", "30"]) != 0
     assert "--cue belongs to the demo saliency" in capsys.readouterr().err
 
@@ -128,7 +128,7 @@ MAZE = {
 }
 
 
-def test_a_maze_of_ones_own_is_planned_and_driven_too(
+def test_a_maze_of_the_user_is_planned_and_driven(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(narrative, "LONGEST", 500)

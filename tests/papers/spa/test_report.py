@@ -40,7 +40,7 @@ def test_all_required_claims_hold_for_rows_as_in_the_paper():
     assert all(c.n >= 20 and c.source for c in found.values())
 
 
-def test_what_was_inferred_from_a_run_is_marked_and_not_required():
+def test_claims_with_inferred_settings_are_marked_and_not_required():
     inferred = {name: c for name, c in said(lambda c, k: {}).items() if c.inferred}
     assert all(c.kind == "reported" and c.assumes for c in inferred.values())
     for words in (
@@ -55,7 +55,7 @@ def test_what_was_inferred_from_a_run_is_marked_and_not_required():
     assert all(c.assumes for name, c in said(lambda c, k: {}).items() if name.startswith("case 3"))
 
 
-def test_every_claim_says_where_its_target_comes_from():
+def test_every_claim_states_the_origin_of_its_target():
     for c in said(lambda c, k: {}).values():
         # the figures of the paper were not at hand to be read
         assert c.origin in ("printed", "ours", "none"), c.name
@@ -225,14 +225,14 @@ FAILS = [
 @pytest.mark.parametrize(
     ("change", "name"), [case[1:] for case in FAILS], ids=[f"{what}: {name[:40]}" for what, _, name in FAILS]
 )
-def test_each_sentence_fails_where_the_opposite_was_found(change, name):
+def test_each_sentence_fails_for_rows_that_contradict_it(change, name):
     found = [c for c in said(change).values() if c.name.startswith(name)]
     assert found and any(c.holds is False for c in found), [
         (c.name, c.value, c.interval, c.holds) for c in found
     ]
 
 
-def test_every_sentence_with_a_target_has_its_opposite_above():
+def test_every_sentence_with_a_target_has_a_contradicting_case():
     names = tuple(name for _, _, name in FAILS)
     rest = [
         c.name
@@ -247,7 +247,7 @@ def test_every_sentence_with_a_target_has_its_opposite_above():
     ] == []
 
 
-def test_no_difference_is_not_shown_by_a_large_p():
+def test_a_large_p_leaves_equality_undecided():
     rows = said(lambda c, k: {})
     for c in rows.values():
         if "ANOVA, p)" in c.name:
@@ -290,7 +290,7 @@ def test_no_difference_is_not_shown_by_a_large_p():
         ),
     ],
 )
-def test_what_goes_wrong_is_said(change, words):
+def test_a_required_claim_fails_for_rows_that_contradict_it(change, words):
     found = required(change)
     for claim in only(found, words):
         assert claim.holds is False
@@ -307,7 +307,7 @@ def test_few_runs_leave_claims_undecided():
     ]
 
 
-def test_runs_whose_obstacle_came_down_on_the_robot_are_left_out_and_counted():
+def test_runs_with_an_obstacle_on_the_robot_are_left_out_and_counted():
     runs = Runs(all_rows(False), False)
     assert len(runs.kept("full", "low")) == 239 and runs.left_out("full", "low") == 1
     assert "| full/planner/low | 239 | 1 |" in spa.report(all_rows(False), False).tables["conditions"]

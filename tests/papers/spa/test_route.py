@@ -34,7 +34,7 @@ def test_a_route_follows_from_its_rows(cells, way):
     assert route(through(*cells)) == way
 
 
-def test_an_obstacle_that_comes_down_on_the_robot_is_seen():
+def test_an_obstacle_that_appears_on_the_robot_is_detected():
     path = through((15, 60), (15, 20))
     assert covered(path, "full") and covered(path, "partial") and covered(path, "narrative")
     assert not covered(path[:20], "full")
@@ -45,7 +45,7 @@ def test_an_obstacle_that_comes_down_on_the_robot_is_seen():
     assert not covered(path[:0], "full")
 
 
-def test_standing_still_is_measured_in_steps():
+def test_time_without_motion_is_counted_in_steps():
     path = through((50, 60), (15, 60))
     waits = np.concatenate([path[:60], np.repeat(path[60:61], 80, axis=0), path[60:]])
     assert stillness(path) == 0 and abs(stillness(waits) - 80) <= 6

@@ -20,7 +20,7 @@ def four(monkeypatch):
     monkeypatch.setattr(cases, "conditions", lambda quick: short)
 
 
-def test_the_carrot_drives_to_its_goals(four):
+def test_following_the_carrot_reaches_the_goals(four):
     rows = trials.carrot("z/carrot/low", True)
     assert [r["key"] for r in rows] == [
         "z/carrot/low/000",
@@ -47,7 +47,7 @@ def test_a_run_of_the_planner_gives_a_row(monkeypatch):
     assert trials.planner("full/planner/low", True, 2) == [row]
 
 
-def test_behaviours_are_listed_as_their_intentions_rise():
+def test_behaviours_are_listed_in_the_order_of_their_intentions():
     there = np.zeros((300, 4))
     there[10:100, 0] = there[80:200, 2] = there[200:210, 3] = there[220:260, 1] = there[270:300, 0] = 1.0
     assert trials._order(there) == ["north", "west", "south", "north"]

@@ -59,7 +59,7 @@ def avoiding() -> dd.Model:
     return model
 
 
-def test_it_drives_as_fast_as_the_robot_and_turns_about_itself() -> None:
+def test_the_vehicle_drives_at_the_speed_of_the_robot_and_turns_on_the_spot() -> None:
     poses = drive(begun(EMPTY, start=(0.5, 1.5, 0.0), unit="m"), 50)
     speed = 400 / 1000 * 2 * np.pi * 0.0205
     np.testing.assert_allclose(poses[0, -1], [0.5 + 50 * 0.064 * speed, 1.5, 0], atol=1e-5)
@@ -68,7 +68,7 @@ def test_it_drives_as_fast_as_the_robot_and_turns_about_itself() -> None:
     np.testing.assert_allclose(poses[0, -1], [150, 150, turned], atol=1e-4)
 
 
-def test_encoders_count_what_the_wheels_roll_and_begin_again_as_16_bits_do() -> None:
+def test_encoders_count_wheel_steps_and_overflow_at_16_bits() -> None:
     world = begun(EMPTY, period=10_000.0, contact="stick")
     counted = []
     for _ in range(8):
@@ -78,7 +78,7 @@ def test_encoders_count_what_the_wheels_roll_and_begin_again_as_16_bits_do() -> 
     np.testing.assert_allclose(counted, (true + 2**15) % 2**16 - 2**15)
 
 
-def test_it_never_leaves_the_maze_and_slides_or_sticks_at_its_walls() -> None:
+def test_the_vehicle_stays_in_the_maze_and_slides_or_sticks_at_walls() -> None:
     for contact, moving in (("slide", True), ("stick", False)):
         world = begun("z", start=(-0.8, 0.4, 0.4), contact=contact)
         poses = drive(world, 400, 900, 880)
@@ -112,7 +112,7 @@ def test_a_closed_loop_keeps_clear_of_walls() -> None:
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-def test_a_copy_alone_is_the_copy_in_a_batch(precision: str) -> None:
+def test_a_trial_alone_equals_the_trial_in_a_batch(precision: str) -> None:
     options: dict[str, Any] = dict(place_noise=0.01, slip=0.05, encoder_noise=0.1)
     many = begun("blocks", trials=[0, 3, 7, 3], seed=5, precision=precision, **options)
     alone = begun("blocks", trials=[3], seed=5, precision=precision, **options)
@@ -127,7 +127,7 @@ def test_a_copy_alone_is_the_copy_in_a_batch(precision: str) -> None:
         )
 
 
-def test_noise_has_the_size_that_was_given() -> None:
+def test_noise_has_the_stated_standard_deviation() -> None:
     world = begun(
         EMPTY, trials=range(400), unit="cm", start=(150, 150, 0), place_noise=2.0, slip=0.1, encoder_noise=0.2
     )
@@ -146,7 +146,7 @@ def test_noise_has_the_size_that_was_given() -> None:
     np.testing.assert_allclose(rolled.mean(), 6.4, rtol=0.02)
 
 
-def test_a_reading_of_the_place_is_held() -> None:
+def test_place_every_holds_a_reading_for_several_periods() -> None:
     world = begun(EMPTY, place_noise=0.1, place_every=3)
     seen = []
     for _ in range(9):
@@ -155,7 +155,7 @@ def test_a_reading_of_the_place_is_held() -> None:
     assert all((a == b) == (k % 3 != 2) for k, (a, b) in enumerate(itertools.pairwise(seen)))
 
 
-def test_infrared_noise_can_be_silenced() -> None:
+def test_infrared_noise_can_be_switched_off() -> None:
     near = {**EMPTY, "start": [0.039, 1.5], "heading": np.pi}
     quiet = [begun(near, infrared_noise=0.0, trials=[k]).sense("infrared", (EIGHT,), 0.0) for k in (0, 1)]
     np.testing.assert_array_equal(quiet[0], quiet[1])
@@ -164,7 +164,7 @@ def test_infrared_noise_can_be_silenced() -> None:
     assert quiet[0].max() > 1000 and np.abs(loud - quiet[0]).max() > 10
 
 
-def test_obstacles_from_above_are_the_map_of_the_published_maze() -> None:
+def test_the_sensor_obstacles_gives_the_map_of_the_published_maze() -> None:
     """On cells of 1 cm; a cell counts as wall if an object covers a part of it, and so do all cells
     outside.
     """
@@ -188,7 +188,7 @@ def test_obstacles_from_above_are_the_map_of_the_published_maze() -> None:
     np.testing.assert_array_equal(turned, seen.T)
 
 
-def test_blocks_from_above_have_their_colours() -> None:
+def test_the_sensor_above_shows_blocks_in_their_colours() -> None:
     axes = *Arena.example_axes("obstacles"), dd.Axis("channel", 0, 2, 3)
     fine = dd.Axis("x", 0, 1.2, 121), dd.Axis("y", 0, 0.8, 81), axes[2]
     seen = begun("blocks").sense("above", fine, 0.0)[0]
@@ -199,7 +199,7 @@ def test_blocks_from_above_have_their_colours() -> None:
 # -------------------------------------------------------------------------------------- changes while it runs
 
 
-def test_things_come_move_and_go_without_a_new_program() -> None:
+def test_objects_are_placed_moved_and_removed_without_recompiling() -> None:
     world = begun(EMPTY, start=(1.5, 1.5, 0.0), goal=(2.5, 2.5))
     drive(world, 1)
     for sensor, axes in (
@@ -222,7 +222,7 @@ def test_things_come_move_and_go_without_a_new_program() -> None:
     assert {key: world._compiled[key]._cache_size() for key in compiled} == compiled
 
 
-def test_an_object_with_windows_is_present_in_them_for_each_trial() -> None:
+def test_an_object_with_windows_is_present_during_them_in_each_trial() -> None:
     world = Arena(EMPTY, start=(1.3, 1.5, 0.0))
     world.place(
         "gate", (1.5, 1.5), (0.1, 2.9), windows=[(0, 64 * 200), (64 * 100, 64 * 200), (64 * 200, 64 * 300)]
@@ -236,7 +236,7 @@ def test_an_object_with_windows_is_present_in_them_for_each_trial() -> None:
         world.reset(0, [3])
 
 
-def test_a_thing_put_on_the_vehicle_pushes_it_aside() -> None:
+def test_an_object_placed_on_the_vehicle_displaces_it() -> None:
     world = begun(EMPTY, start=(1.5, 1.5, 0.0))
     world.place("crate", (1.52, 1.5), (0.1, 0.3))
     pose = drive(world, 1, 0, 0)[0, -1]
@@ -273,7 +273,7 @@ def test_a_thing_put_on_the_vehicle_pushes_it_aside() -> None:
         ),
     ],
 )
-def test_changes_that_cannot_be(change: Any, error: type[Exception], says: str) -> None:
+def test_invalid_changes_of_an_arena_are_refused(change: Any, error: type[Exception], says: str) -> None:
     world = Arena("blocks")
     before = world.describe()
     with pytest.raises(error, match=says):
@@ -324,12 +324,12 @@ GAP = {
         (dict(slip=float("inf")), "slip is inf"),
     ],
 )
-def test_arenas_that_cannot_be(options: dict[str, Any], says: str) -> None:
+def test_invalid_arenas_are_refused(options: dict[str, Any], says: str) -> None:
     with pytest.raises(WorldError, match=says):
         Arena(**{"layout": "blocks", **options})
 
 
-def test_walls_may_overlap_and_stand_outside_and_a_way_may_lead_round() -> None:
+def test_walls_may_overlap_and_lie_outside_and_goals_behind_them_are_reachable() -> None:
     over = [
         {"center": [1.5, 1.5], "size": [0.05, 2.0]},
         {"center": [1.5, 1.4], "size": [0.5, 0.05]},
@@ -346,7 +346,7 @@ def test_a_trial_without_a_start_is_named() -> None:
         world.reset(0, [5])
 
 
-def test_what_a_record_keeps_makes_it_again() -> None:
+def test_an_arena_is_created_again_from_its_description() -> None:
     world = Arena("z", start=(-45, 55, 0.3), unit="cm", reflection=0.8, contact="stick", place_noise=0.5)
     world.place("obstacle", (-65, 90), (10, 20), windows=(100, 300))
     world.remove("Maze_Wall3")
@@ -376,7 +376,7 @@ class Broken(Arena):
         return {**new, "position": jnp.where(new["tick"] > 7, jnp.nan, new["position"])}
 
 
-def test_a_world_inside_the_step_that_is_lost_is_named():
+def test_a_world_that_becomes_infinite_inside_the_step_is_named():
     model = dd.Model("watching", dt=64)
     model.add(Sensor("heading", sensor="heading"))
     with pytest.raises(

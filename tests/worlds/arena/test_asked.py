@@ -10,11 +10,11 @@ from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.asked import asked
 
 
-def test_a_layout_alone():
+def test_an_argument_may_name_only_the_layout():
     assert asked("z") == ("z", {})
 
 
-def test_settings_are_those_of_the_arena():
+def test_settings_of_the_argument_are_passed_to_the_arena():
     arena = Arena.open(
         "z, unit=cm, start=-45 55 1.5, goal=-65 65, place_noise=0.5, place_every=2, contact=stick"
     )
@@ -24,7 +24,7 @@ def test_settings_are_those_of_the_arena():
     np.testing.assert_array_equal(arena.goals, again.goals)
 
 
-def test_a_start_without_a_heading_looks_along_x():
+def test_a_start_without_a_heading_faces_along_x():
     assert Arena.open("z, unit=cm, start=-45 55").starts[0, 2] == 0
 
 
@@ -40,6 +40,6 @@ def test_a_start_without_a_heading_looks_along_x():
         ("z, unit=mile", "unit is 'mile'"),
     ],
 )
-def test_what_cannot_be_is_named(argument, said):
+def test_invalid_arguments_are_reported(argument, said):
     with pytest.raises(WorldError, match=said):
         Arena.open(argument)

@@ -65,7 +65,7 @@ def gap(positions: np.ndarray, boxes: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("sticks", [False, True])
 @pytest.mark.parametrize("longest", [0.005, 0.2, 30.0])
-def test_no_step_leads_into_a_wall_or_out_of_a_closed_room(longest: float, sticks: bool) -> None:
+def test_no_step_ends_inside_a_wall_or_outside_of_a_closed_room(longest: float, sticks: bool) -> None:
     for seed in range(6):
         rng = np.random.default_rng(seed)
         boxes = chamber(rng)
@@ -78,7 +78,7 @@ def test_no_step_leads_into_a_wall_or_out_of_a_closed_room(longest: float, stick
         assert (ends > 0).all() and (ends < 1).all()
 
 
-def test_it_stays_on_its_side_of_a_wall_thinner_than_the_step() -> None:
+def test_a_disc_does_not_pass_a_wall_thinner_than_its_step() -> None:
     rng = np.random.default_rng(1)
     boxes = np.asarray([(0.5, -1, 0.5005, 2)], np.float32)
     start = np.stack([rng.uniform(0.1, 0.45, 200), rng.uniform(0, 1, 200)], -1).astype(np.float32)
@@ -89,7 +89,7 @@ def test_it_stays_on_its_side_of_a_wall_thinner_than_the_step() -> None:
     assert np.asarray(ends)[..., 0].max() < 0.5 - RADIUS + TOLERANCE and np.asarray(touched).any(axis=1).all()
 
 
-def test_it_slides_along_a_wall_and_sticks_where_it_shall() -> None:
+def test_a_disc_slides_along_a_wall_or_sticks_to_it() -> None:
     wall = np.asarray([(0, -10, 1, 10)], np.float32)
     start, steps = np.asarray([[-0.5, 0.0]], np.float32), np.asarray([[[1.0, 1.0]]], np.float32)
     slid, touched = mover(False)(start, steps, wall, np.ones(1, bool))
@@ -102,7 +102,7 @@ def test_it_slides_along_a_wall_and_sticks_where_it_shall() -> None:
     assert not touched[0, 0]
 
 
-def test_it_rounds_a_corner_and_stops_in_one() -> None:
+def test_a_disc_slides_around_an_outer_corner_and_stops_in_an_inner_one() -> None:
     box = np.asarray([(0, 0, 1, 1)], np.float32)
     # a grazing path that meets the round corner slides off it
     end, touched = mover(False)(
@@ -128,7 +128,7 @@ def test_an_absent_wall_has_no_contact_and_a_new_one_moves_the_body_out() -> Non
     np.testing.assert_allclose(end[0, 0], [-0.05 - RADIUS, 0], atol=1e-5)
 
 
-def test_rays_end_at_the_nearest_box_that_is_there() -> None:
+def test_rays_end_at_the_nearest_present_box() -> None:
     boxes = jnp.asarray([(1.0, -1, 2, 1), (0.5, -1, 0.6, 1), (-3, -1, -2, 1)])
     origins, looks = jnp.zeros((3, 2)), jnp.asarray([[1.0, 0], [-1.0, 0], [0.0, 1.0]])
     np.testing.assert_allclose(

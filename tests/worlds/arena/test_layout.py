@@ -18,7 +18,7 @@ ROOM: dict[str, Any] = {
 }
 
 
-def test_the_published_mazes_are_read_as_they_are() -> None:
+def test_the_published_mazes_are_read_unchanged() -> None:
     """Cells of the publication: 100 (x + 0.95) + 10 on the first axis, 100 (0.95 - z) + 10 on the second;
     north is less, east more.
     """
@@ -38,7 +38,7 @@ def test_the_published_mazes_are_read_as_they_are() -> None:
     assert load("z").goal == (-0.6489, 0.6502)
 
 
-def test_files_units_and_names(tmp_path: Path) -> None:
+def test_layouts_are_read_from_files_in_any_unit_and_by_name(tmp_path: Path) -> None:
     one, many = tmp_path / "one.json", tmp_path / "many.json"
     centimetres = {
         "unit": "cm",
@@ -68,7 +68,7 @@ def test_files_units_and_names(tmp_path: Path) -> None:
             load(wrong)
 
 
-def test_its_description_is_read_as_the_same_world() -> None:
+def test_the_description_of_a_layout_is_read_as_the_same_layout() -> None:
     for name in builtin():
         again = load(load(name).to_data())
         assert (
@@ -113,12 +113,12 @@ def test_its_description_is_read_as_the_same_world() -> None:
         ({"wals": []}, "has the unknown key 'wals'. Did you mean 'walls'?"),
     ],
 )
-def test_what_cannot_be_is_named(changed: dict[str, Any], says: str) -> None:
+def test_invalid_layouts_are_reported(changed: dict[str, Any], says: str) -> None:
     with pytest.raises(WorldError, match=says):
         load({**ROOM, **changed})
 
 
-def test_all_that_is_wrong_is_said_at_once() -> None:
+def test_all_problems_of_a_layout_are_listed() -> None:
     with pytest.raises(WorldError) as caught:
         load(
             {
@@ -140,7 +140,7 @@ def test_all_that_is_wrong_is_said_at_once() -> None:
         ('{"a": 3}', "is 3; an arena is an object"),
     ],
 )
-def test_files_that_are_no_arena(tmp_path: Path, text: str, says: str) -> None:
+def test_files_without_an_arena_are_refused(tmp_path: Path, text: str, says: str) -> None:
     file = tmp_path / "arena.json"
     file.write_text(text)
     with pytest.raises(WorldError, match=says):
@@ -152,5 +152,5 @@ def test_files_that_are_no_arena(tmp_path: Path, text: str, says: str) -> None:
         load("lrge")
 
 
-def test_a_layout_is_data() -> None:
+def test_a_layout_may_be_given_as_data() -> None:
     assert isinstance(load("z"), ArenaLayout) and load("z") == load("z")

@@ -13,14 +13,14 @@ from deodar.worlds.arena.vehicle import ahead, drive, limited, wrapped
 NOTHING = jnp.zeros((1, 4)), jnp.zeros(1, bool)
 
 
-def test_a_full_turn_of_both_wheels_rolls_their_circumference() -> None:
+def test_a_full_turn_of_both_wheels_covers_their_circumference() -> None:
     way, turn = drive(EPUCK, jnp.asarray(0.0), jnp.asarray([1000.0, 1000.0]))
     np.testing.assert_allclose(way, [2 * np.pi * 0.0205, 0], rtol=1e-6, atol=1e-9)
     assert turn == 0
 
 
 @pytest.mark.parametrize("steps", [(100.0, 300.0), (-500.0, 500.0), (0.0, 4000.0), (300.0, 299.0)])
-def test_the_axle_runs_on_a_circle(steps: tuple[float, float]) -> None:
+def test_constant_wheel_speeds_give_a_circle(steps: tuple[float, float]) -> None:
     """Against the circle in double precision: radius axle/2 (r + l) / (r - l), from any heading."""
     heading = 0.7
     left, right = (s * EPUCK.step_length for s in steps)
@@ -33,7 +33,7 @@ def test_the_axle_runs_on_a_circle(steps: tuple[float, float]) -> None:
     np.testing.assert_allclose(turn, angle, rtol=1e-5)
 
 
-def test_many_short_periods_lead_where_one_long_one_does() -> None:
+def test_many_short_periods_end_at_the_pose_of_one_long_period() -> None:
     place, heading = np.zeros(2), 0.3
     for _ in range(50):
         way, turn = drive(EPUCK, jnp.asarray(heading), jnp.asarray([4.0, 6.0]))
@@ -43,19 +43,19 @@ def test_many_short_periods_lead_where_one_long_one_does() -> None:
     np.testing.assert_allclose(heading, 0.3 + float(turn), rtol=1e-6)
 
 
-def test_wheels_have_a_limit_each() -> None:
+def test_the_speed_of_each_wheel_is_limited() -> None:
     assert limited(EPUCK, jnp.asarray(5000.0), jnp.asarray(-1e9)).tolist() == [1000, -1000]
     assert limited(EPUCK, jnp.asarray(-3.0), jnp.asarray(250.0)).tolist() == [-3, 250]
 
 
-def test_headings_stay_small_however_often_it_turns() -> None:
+def test_headings_are_wrapped_after_any_number_of_turns() -> None:
     angles = np.asarray([0.1, np.pi + 0.1, -7.0, 100.0])
     small = np.asarray(wrapped(jnp.asarray(angles, jnp.float32)))
     assert (np.abs(small) <= np.pi + 1e-6).all()
     np.testing.assert_allclose(np.exp(1j * small), np.exp(1j * angles), atol=1e-5)
 
 
-def test_the_sensors_look_away_from_the_middle_the_first_one_to_the_right_of_the_front() -> None:
+def test_sensors_point_outwards_and_the_first_one_to_the_right_of_the_front() -> None:
     s = EPUCK.infrared
     looks = np.asarray(ahead(jnp.asarray(s.angles))).T
     stands = np.stack([s.forward, s.left], -1)
@@ -67,7 +67,7 @@ def test_the_sensors_look_away_from_the_middle_the_first_one_to_the_right_of_the
     )
 
 
-def test_a_wall_in_front_is_seen_by_the_front_at_its_distance_over_the_reflection() -> None:
+def test_front_sensors_measure_the_distance_of_a_wall_divided_by_reflection() -> None:
     wall = jnp.asarray([(0.10, -1.0, 0.2, 1.0)]), jnp.ones(1, bool)
     seen = np.asarray(distances(EPUCK.infrared, jnp.zeros(2), jnp.asarray(0.0), *wall, jnp.asarray(0.5)))
     by_hand = (0.10 - 0.030) / np.cos(EPUCK.infrared.angles[0]) / 0.5
@@ -91,6 +91,6 @@ def test_readings_follow_the_table_with_noise_that_grows_with_distance() -> None
     assert (np.asarray(readings(s, at, jnp.full(len(at), -9.0))) >= 0).all()
 
 
-def test_without_anything_around_every_sensor_reads_the_end_of_the_table() -> None:
+def test_without_obstacles_every_sensor_reads_the_last_entry_of_the_table() -> None:
     seen = distances(EPUCK.infrared, jnp.zeros(2), jnp.asarray(0.4), *NOTHING, jnp.asarray(0.6))
     np.testing.assert_allclose(readings(EPUCK.infrared, seen, jnp.zeros(8)), 34, rtol=1e-6)
