@@ -54,7 +54,7 @@ def test_the_scene_lies_inside_its_border(kind):
         assert left <= body.center[0] <= right and low <= body.center[1] <= high and body.radius > 0
     json.dumps([[*box.center, *box.size, *box.color] for box in scene.boxes])
     for name in [box.name for box in scene.boxes]:
-        assert scene.thing(name).name == name
+        assert scene.entry(name).name == name
 
 
 @pytest.mark.parametrize("kind", WORLDS)

@@ -207,7 +207,7 @@ class Fixed(Shelf):
             Fixed(),
             Remove(3, "cup"),
             (
-                "the action Remove needs World.arrangement, to put things back after a trial, which the world"
+                "the action Remove needs World.arrangement, to restore objects after a trial, which the world"
                 " Fixed does not have"
             ),
         ),

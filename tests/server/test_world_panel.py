@@ -125,7 +125,7 @@ def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
 
     with studio(file.parent, file, world=arena) as address:
         play(address, story)
-    assert [t.name for t in arena.furniture.standing()] == ["block"]
+    assert [t.name for t in arena.objects.permanent()] == ["block"]
 
 
 def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(file: Path) -> None:

@@ -61,11 +61,11 @@ def test_positions_that_do_not_fit_are_refused_with_the_reason(
 
 
 def test_a_missing_or_fixed_object_cannot_be_moved() -> None:
-    assert SCENE.thing("goal") == SCENE.marks[0] and SCENE.thing("crate") == SCENE.boxes[1]
+    assert SCENE.entry("goal") == SCENE.marks[0] and SCENE.entry("crate") == SCENE.boxes[1]
     with pytest.raises(UnknownName, match=r"'crat'\. Did you mean 'crate'"):
-        SCENE.thing("crat")
+        SCENE.entry("crat")
     with pytest.raises(WorldError, match="wall: cannot be moved by hand"):
-        SCENE.thing("wall")
+        SCENE.entry("wall")
 
 
 def test_the_scene_of_an_arena_has_its_objects_goal_and_vehicle_in_its_unit() -> None:

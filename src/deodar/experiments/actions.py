@@ -64,11 +64,11 @@ def _plane(action: Action, *names: str) -> Iterator[tuple[str, str]]:
 @ACTIONS.register
 @dataclass(frozen=True)
 class Place(Action):
-    """Put a thing into the world, or replace the thing of that name.
+    """Put an object into the world, or replace the object of that name.
 
     Attributes:
         at: document time from which on the world contains it; with `when` the time after that event.
-        thing: name of the thing.
+        thing: name of the object.
         center: x and y of its centre, in the unit of the world.
         size: along x and y.
         color: red, green and blue, 0 to 1.
@@ -99,11 +99,11 @@ class Place(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Move(Action):
-    """Move a thing of the world.
+    """Move an object of the world.
 
     Attributes:
         at: document time of the action; with `when` the time after that event.
-        thing: name of the thing.
+        thing: name of the object.
         center: x and y of its new centre, in the unit of the world.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
@@ -126,11 +126,11 @@ class Move(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Remove(Action):
-    """Remove a thing from the world.
+    """Remove an object from the world.
 
     Attributes:
         at: document time of the action; with `when` the time after that event.
-        thing: name of the thing.
+        thing: name of the object.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
@@ -360,7 +360,7 @@ def changed(action: Action, world: World | None) -> World:
         )
     needs = {
         action.world_method: "calls World.{}",
-        **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to put things back after a trial"),
+        **dict.fromkeys(("arrangement", "arrange"), "needs World.{}, to restore objects after a trial"),
     }
     for method, what in needs.items():
         if getattr(type(world), method) is getattr(World, method):

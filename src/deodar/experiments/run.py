@@ -53,7 +53,7 @@ def run_trial(
 
     The first sample is at the start. At the time of an action the trial is sampled before the action: its
     effect shows one step (for a world, one period) later. The same arguments give the same result,
-    independent of earlier trials; things that actions moved in the world are put back.
+    independent of earlier trials; objects that actions moved in the world are restored.
 
     Args:
         model: the model in its present state.

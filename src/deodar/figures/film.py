@@ -62,7 +62,7 @@ def _frame(r: DrawnRun, k: int) -> Image.Image:
     def at(px: float, py: float) -> tuple[float, float]:
         return (px - x[0] + 0.5) * SCALE, (y[-1] + 0.5 - py) * SCALE
 
-    _things(pen, r, k, at)
+    _objects(pen, r, k, at)
     pose = r.record["pose.output"].values
     pen.line([at(*p) for p in pose[: k + 1, :2]] if k else [at(*pose[0, :2])] * 2, fill=ROBOT, width=2)
     px, py, heading = (float(v) for v in pose[k])
@@ -88,15 +88,15 @@ def _frame(r: DrawnRun, k: int) -> Image.Image:
     return image.quantize(TONES, dither=Image.Dither.NONE)
 
 
-def _things(pen: Any, r: DrawnRun, k: int, at: Any) -> None:
+def _objects(pen: Any, r: DrawnRun, k: int, at: Any) -> None:
     border = [100 * v for v in r.arena.layout.border]
     (width, height), (x0, y0), (x1, y1) = pen.im.size, at(border[0], border[3]), at(border[2], border[1])
     for side in ((0, 0, x0, height), (x1, 0, width, height), (0, 0, width, y0), (0, y1, width, height)):
         pen.rectangle(side, fill=WALL)
-    for thing in r.arena.furniture.things:
-        comes = r.obstacle_at is not None and thing is not None and thing.name == "obstacle"
-        if thing is not None and (not comes or k * r.every > (r.obstacle_at or 0)):
-            left, low, right, high = (100 * v for v in thing.box)
+    for item in r.arena.objects.slots:
+        comes = r.obstacle_at is not None and item is not None and item.name == "obstacle"
+        if item is not None and (not comes or k * r.every > (r.obstacle_at or 0)):
+            left, low, right, high = (100 * v for v in item.box)
             pen.rectangle([*at(left, high), *at(right, low)], fill=OBSTACLE if comes else WALL)
 
 

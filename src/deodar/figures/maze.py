@@ -13,7 +13,7 @@ from deodar.worlds.arena.arena import Arena
 
 
 class Wall(Protocol):
-    """A thing of an arena: left, low, right and high in m."""
+    """An object of an arena: left, low, right and high in m."""
 
     @property
     def box(self) -> Any: ...
@@ -25,16 +25,16 @@ def borders(arena: Arena) -> tuple[float, float, float, float]:
     return left, low, right, high
 
 
-def box(arena: Arena, thing: Wall, **look: Any) -> Rectangle:
-    """The rectangle of a thing, in the unit of the arena."""
-    x0, y0, x1, y1 = (v / arena.scale for v in thing.box)
+def box(arena: Arena, item: Wall, **look: Any) -> Rectangle:
+    """The rectangle of an object, in the unit of the arena."""
+    x0, y0, x1, y1 = (v / arena.scale for v in item.box)
     return Rectangle((x0, y0), x1 - x0, y1 - y0, **look)
 
 
-def walls(ax: Axes, arena: Arena, things: Iterable[Wall]) -> None:
-    """Draw things as walls, and set the axes to the arena's borders, to scale."""
-    for thing in things:
-        ax.add_patch(box(arena, thing, facecolor=_style.COLOR.wall, linewidth=0))
+def walls(ax: Axes, arena: Arena, objects: Iterable[Wall]) -> None:
+    """Draw objects as walls, and set the axes to the arena's borders, to scale."""
+    for item in objects:
+        ax.add_patch(box(arena, item, facecolor=_style.COLOR.wall, linewidth=0))
     frame(ax, arena)
 
 

@@ -111,9 +111,9 @@ def animate_path(
 
     ground = Image.new("RGB", (width * FINER, height * FINER), _rgb(FLOOR))
     pen = ImageDraw.Draw(ground)
-    for thing in here.furniture.standing():
-        x0, y0, x1, y1 = (v / here.scale for v in thing.box)
-        pen.rectangle([*at(x0, y1), *at(x1, y0)], fill=_rgb(thing.color))
+    for item in here.objects.permanent():
+        x0, y0, x1, y1 = (v / here.scale for v in item.box)
+        pen.rectangle([*at(x0, y1), *at(x1, y0)], fill=_rgb(item.color))
     radius = here.vehicle.radius / here.scale
     frames: list[Image.Image] = []
     for k in range(0, len(looked.times), stride):
@@ -181,8 +181,8 @@ def _paint(ax: Axes, view: View, arena: World | None) -> None:
 
 def _ground(ax: Axes, arena: Arena) -> None:
     ax.set_facecolor(FLOOR)
-    for thing in arena.furniture.standing():
-        ax.add_patch(maze.box(arena, thing, facecolor=thing.color, linewidth=0))
+    for item in arena.objects.permanent():
+        ax.add_patch(maze.box(arena, item, facecolor=item.color, linewidth=0))
     if arena.goals is not None:
         for x, y in arena.goals / arena.scale:
             ax.plot(x, y, "+", color=_style.COLOR.goal, markersize=_style.CROSS, markeredgewidth=1.5)

@@ -84,11 +84,11 @@ def plan_figure(result: DrawnRun) -> Figure:
 
 
 def _path(axes: Axes, r: DrawnRun) -> None:
-    maze.walls(axes, r.arena, (t for t in r.arena.layout.things))
-    for thing in r.arena.furniture.things:
-        if r.obstacle_at is not None and thing is not None and thing.name == "obstacle":
+    maze.walls(axes, r.arena, (t for t in r.arena.layout.objects))
+    for item in r.arena.objects.slots:
+        if r.obstacle_at is not None and item is not None and item.name == "obstacle":
             look = {"facecolor": COLOR.obstacle, "edgecolor": COLOR.obstacle_edge, "linewidth": 0.6}
-            place = maze.box(r.arena, thing, **look)
+            place = maze.box(r.arena, item, **look)
             axes.add_patch(place)
             x, y = place.get_center()
             axes.text(x, y, f"from\n{r.obstacle_at}", ha="center", va="center", fontsize=SMALL)

@@ -139,7 +139,7 @@ def choice_figure(
 
 
 def _paint(ax: Axes, arena: Arena, paths: Sequence[StyledPath], width: float, alpha: float) -> None:
-    maze.walls(ax, arena, arena.furniture.standing())
+    maze.walls(ax, arena, arena.objects.permanent())
     maze.labels(ax, arena)
     for c in paths:
         ax.plot(*c.path[:, :2].T, LINES[c.dashed], color=c.colour, linewidth=width, alpha=alpha)

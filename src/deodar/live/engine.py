@@ -215,7 +215,7 @@ class Engine:
         self.failure, self._stale = ((), ()), True
 
     def rearrange(self, how: Callable[[Session], None]) -> None:
-        """Change things in the world: `how` calls `Session.move`, `place` or `remove`."""
+        """Change objects in the world: `how` calls `Session.move`, `place` or `remove`."""
         how(self._require())
         self._stale = True
 

@@ -1,4 +1,4 @@
-"""Move, place and remove things in the world of a session; each function returns an entry for the journal."""
+"""Move, place and remove objects in the world of a session; each function returns a journal entry."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from deodar.worlds._scene import Scene, SceneBox
 
 
 def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tuple[str, tuple[float, ...]]:
-    """Move a thing or a mark; return the entry for the journal.
+    """Move an object or a mark; return the entry for the journal.
 
     Raises:
-        UnknownName: the scene has no thing or mark of that name.
+        UnknownName: the scene has no object or mark of that name.
         WorldError: it does not fit at the position, or cannot be moved.
     """
-    thing = scene.thing(name)
-    scene.require_room(name, center, thing.size if isinstance(thing, SceneBox) else None)
+    item = scene.entry(name)
+    scene.require_room(name, center, item.size if isinstance(item, SceneBox) else None)
     world.move(name, center)
     return f"world.move {name}", tuple(center)
 
@@ -25,7 +25,7 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
 def place(
     world: World, scene: Scene, name: str, center: Sequence[float], size: Sequence[float]
 ) -> tuple[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-    """Add a thing, or replace the one of the same name; return the entry for the journal.
+    """Add an object, or replace the one of the same name; return the entry for the journal.
 
     Raises:
         WorldError: it does not fit at the position, or a mark has that name.
@@ -38,13 +38,13 @@ def place(
 
 
 def remove(world: World, scene: Scene, name: str) -> tuple[str, None]:
-    """Remove a thing; return the entry for the journal.
+    """Remove an object; return the entry for the journal.
 
     Raises:
-        UnknownName: the scene has no thing of that name.
+        UnknownName: the scene has no object of that name.
         WorldError: it is a mark, or cannot be moved.
     """
-    if not isinstance(scene.thing(name), SceneBox):
+    if not isinstance(scene.entry(name), SceneBox):
         raise WorldError("is a mark; it can be moved, not removed", where=name)
     world.remove(name)
     return f"world.remove {name}", None

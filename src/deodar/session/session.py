@@ -321,7 +321,7 @@ class Session:
         """
         return keep(self.snapshot(), self._model)
 
-    # ------------------------------------------------------------------------------------ things in the world
+    # ----------------------------------------------------------------------------------- objects in the world
 
     def scene(self) -> Scene | None:
         """Return the present view of the world from above; None without a world or such a view."""
@@ -331,16 +331,16 @@ class Session:
         return self.world.scene()
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Move a thing of the world, or its goal; `center` is the new x and y of its middle.
+        """Move an object of the world, or its goal; `center` is the new x and y of its middle.
 
         Raises:
-            UnknownName: the world has no thing or mark of that name.
+            UnknownName: the world has no object or mark of that name.
             WorldError: it does not fit at the position, or cannot be moved.
         """
         self._note(*rearrange.move(*self._seen(), name, center))
 
     def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
-        """Add a thing to the world, or replace the one of the same name.
+        """Add an object to the world, or replace the one of the same name.
 
         Raises:
             WorldError: it does not fit at the position.
@@ -348,7 +348,7 @@ class Session:
         self._note(*rearrange.place(*self._seen(), name, center, size))
 
     def remove(self, name: str) -> None:
-        """Remove a thing from the world."""
+        """Remove an object from the world."""
         self._note(*rearrange.remove(*self._seen(), name))
 
     def _seen(self) -> tuple[World, Scene]:

@@ -107,7 +107,7 @@ class World:
         return None
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Move a thing or a mark of the scene; `center` is the new x and y of its middle."""
+        """Move an object or a mark of the scene; `center` is the new x and y of its middle."""
         raise WorldError(f"nothing in the world {type(self).__name__} can be moved", where=name)
 
     def place(
@@ -117,10 +117,10 @@ class World:
         size: Sequence[float],
         color: Sequence[float] = (0.72, 0.53, 0.3),
     ) -> None:
-        """Add a thing to the scene, or replace the one of the same name.
+        """Add an object to the scene, or replace the one of the same name.
 
         Args:
-            name: name of the thing.
+            name: name of the object.
             center: x and y of its middle.
             size: size along x and y.
             color: red, green and blue, 0 to 1.
@@ -128,7 +128,7 @@ class World:
         raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
 
     def remove(self, name: str) -> None:
-        """Remove a thing from the scene."""
+        """Remove an object from the scene."""
         raise WorldError(f"nothing can be removed from the world {type(self).__name__}", where=name)
 
     def arrangement(self) -> Any:
@@ -139,7 +139,7 @@ class World:
         raise WorldError(f"the world {type(self).__name__} does not list its objects")
 
     def arrange(self, kept: Any) -> None:
-        """Restore the things as they were when `arrangement` returned `kept`."""
+        """Restore the objects as they were when `arrangement` returned `kept`."""
         raise WorldError(f"the world {type(self).__name__} cannot restore its objects")
 
     def describe(self) -> dict[str, Json]:

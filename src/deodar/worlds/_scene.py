@@ -1,4 +1,4 @@
-"""The view of a world from above: the data to draw it, and the test whether a thing fits at a position."""
+"""The view of a world from above: the data to draw it, and the test whether an object fits at a position."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class Scene:
     Attributes:
         unit: unit of all lengths.
         border: lower x, lower y, upper x, upper y.
-        boxes, marks, bodies: solid things, named positions, and bodies that move by themselves.
+        boxes, marks, bodies: solid objects, named positions, and bodies that move by themselves.
     """
 
     unit: str
@@ -81,25 +81,25 @@ class Scene:
     marks: tuple[Mark, ...] = ()
     bodies: tuple[SceneBody, ...] = ()
 
-    def thing(self, name: str) -> SceneBox | Mark:
+    def entry(self, name: str) -> SceneBox | Mark:
         """Return the box or mark of a name, if the user may move it.
 
         Raises:
             UnknownName: the scene has no box or mark of that name.
             WorldError: it is fixed.
         """
-        things = {thing.name: thing for thing in (*self.marks, *self.boxes)}
-        if name not in things:
-            raise UnknownName(f"nothing here is called {name!r}", fix=did_you_mean(name, things))
-        if things[name].fixed:
+        objects = {item.name: item for item in (*self.marks, *self.boxes)}
+        if name not in objects:
+            raise UnknownName(f"nothing here is called {name!r}", fix=did_you_mean(name, objects))
+        if objects[name].fixed:
             raise WorldError("cannot be moved by hand", where=name)
-        return things[name]
+        return objects[name]
 
     def require_room(self, name: str, center: Sequence[float], size: Sequence[float] | None = None) -> None:
-        """Raise WorldError if a thing does not fit at a position.
+        """Raise WorldError if an object does not fit at a position.
 
-        Its middle must lie within the border and outside all other boxes; a thing with a size must not cover
-        a body or a mark.
+        Its middle must lie within the border and outside all other boxes; an object with a size must not
+        cover a body or a mark.
         """
         x, y = pair(f"{name}.center", center)
         left, low, right, high = self.border

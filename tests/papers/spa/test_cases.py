@@ -61,7 +61,7 @@ def test_pairs_keep_their_distance_and_can_be_reached(maze):
         )
     if maze == "large":
         arena = cases.world(cases.conditions(True)["large/carrot/none"])
-        boxes = np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale
+        boxes = np.asarray([t.box for t in arena.objects.permanent()]) / arena.scale
         border = [v / arena.scale for v in arena.layout.border]
         assert clearance(np.concatenate([starts[:, :2], goals]), boxes, border).min() >= 4 - 1e-5
 
@@ -91,13 +91,13 @@ def test_every_condition_has_a_world_for_all_its_trials():
 def test_obstacles_are_at_the_positions_of_the_paper(what, rows, columns):
     c = cases.conditions(True)[f"{what}/planner/low"]
     arena = cases.world(c)
-    thing, times = next(
+    item, times = next(
         (t, w)
-        for t, w in zip(arena.furniture.things, arena.furniture.windows, strict=True)
+        for t, w in zip(arena.objects.slots, arena.objects.windows, strict=True)
         if t and t.name == cases.OBSTACLES[what][0]
     )
     low, high = place(rows[1], columns[0]), place(rows[0], columns[1])
-    np.testing.assert_allclose(np.asarray(thing.box) * 100, [*low, *high])
+    np.testing.assert_allclose(np.asarray(item.box) * 100, [*low, *high])
     onset, duration = cases.windows(what)[7]
     assert tuple(times[7]) == (onset, onset + duration)
 

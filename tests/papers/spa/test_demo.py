@@ -82,7 +82,7 @@ def test_the_figure_names_its_times_and_those_that_did_not_occur(published: bool
     titles = [place.get_suptitle() for half in drawn.subfigs for place in half.subfigs]
     assert [title for title in titles if title] == ["plan complete, step 210", second]
     grey = [patch for patch in drawn.subfigs[0].subfigs[0].axes[0].patches if patch.get_width() > 0]
-    assert len(grey) == len(found.arena.layout.things), "the walls are drawn"
+    assert len(grey) == len(found.arena.layout.objects), "the walls are drawn"
 
 
 def test_the_command_writes_the_printed_files(

@@ -91,7 +91,7 @@ def test_the_vehicle_stays_in_the_maze_and_slides_or_sticks_at_walls() -> None:
             and y.min() > low + 0.0369
             and y.max() < high - 0.0369
         )
-        boxes = np.asarray([t.box for t in load("z").things])
+        boxes = np.asarray([t.box for t in load("z").objects])
         away = np.hypot(
             np.maximum(np.maximum(boxes[:, 0] - x[:, None], x[:, None] - boxes[:, 2]), 0),
             np.maximum(np.maximum(boxes[:, 1] - y[:, None], y[:, None] - boxes[:, 3]), 0),
@@ -173,7 +173,7 @@ def test_the_sensor_obstacles_gives_the_map_of_the_published_maze() -> None:
     seen = world.sense("obstacles", (y, x), 0.0)[0]
     assert seen.shape == (100, 100) and seen.min() == 0 and seen.max() == 1
     assert (seen[-4:] > 0.99).all() and (seen[:, -4:] > 0.99).all()
-    walls = [t for t in world.layout.things if t.center[1] < 1 and t.center[0] < 0]
+    walls = [t for t in world.layout.objects if t.center[1] < 1 and t.center[0] < 0]
     inside = sum(t.size[0] * t.size[1] for t in walls if t.name in ("Maze_Wall4", "Maze_Wall5", "Maze_Wall2"))
     free = seen[10:90, 10:90]
     overlap = 0.0  # of the three walls, which touch at the corners of the Z

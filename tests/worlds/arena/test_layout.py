@@ -26,15 +26,15 @@ def test_the_published_mazes_are_read_unchanged() -> None:
     for name, count, start in (("z", 5, (0.1, 1.0)), ("large", 17, (-1.0, 1.0))):
         layout = load(name)
         assert (
-            len(layout.things) == count == len(raw[name]["walls"])
+            len(layout.objects) == count == len(raw[name]["walls"])
             and layout.border[0] == -start[1]
             and layout.border[2] == -start[0]
         )
-        for thing, wall in zip(layout.things, raw[name]["walls"], strict=True):
+        for item, wall in zip(layout.objects, raw[name]["walls"], strict=True):
             first, second = 100 * (wall["center"][0] + 0.95) + 10, 100 * (0.95 - wall["center"][1]) + 10
-            x, y = thing.center
+            x, y = item.center
             np.testing.assert_allclose([105 - 100 * y, 105 + 100 * x], [first, second], rtol=1e-9)
-            assert thing.size == (wall["size"][1], wall["size"][0]) and thing.name == wall["name"]
+            assert item.size == (wall["size"][1], wall["size"][0]) and item.name == wall["name"]
     assert load("z").goal == (-0.6489, 0.6502)
 
 
@@ -76,7 +76,7 @@ def test_the_description_of_a_layout_is_read_as_the_same_layout() -> None:
             and again.goal == load(name).goal
             and again.start == load(name).start
         )
-        assert [t.box for t in again.things] == [t.box for t in load(name).things]
+        assert [t.box for t in again.objects] == [t.box for t in load(name).objects]
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_the_description_of_a_layout_is_read_as_the_same_layout() -> None:
         ({"walls": [{"center": "ab", "size": [1, 1]}]}, "walls.0.center: is 'ab'"),
         ({"walls": ["w"]}, "walls.0: is 'w'; expected an object"),
         ({"walls": {"w": 1}}, "walls: .*expected a list"),
-        ({"boxes": ROOM["walls"]}, "w: is the name of two things"),
+        ({"boxes": ROOM["walls"]}, "w: is the name of two objects"),
         (
             {"blocks": [{"center": [1, 1], "size": [1, 1], "color": [2, 0, 0]}]},
             "blocks.0.color: .*each from 0 to 1",

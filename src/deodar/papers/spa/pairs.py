@@ -31,7 +31,7 @@ def reference(name: str) -> Grid:
     obstacles.
     """
     arena = maze(name, "none")
-    boxes = np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale
+    boxes = np.asarray([t.box for t in arena.objects.permanent()]) / arena.scale
     return arena_grid(boxes, [v / arena.scale for v in arena.layout.border], 1.0, LEAST_CLEARANCE)
 
 

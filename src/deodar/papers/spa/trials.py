@@ -188,7 +188,7 @@ def _row(
 
 
 def _walls(arena: Arena) -> tuple[np.ndarray, list[float]]:
-    return np.asarray([t.box for t in arena.furniture.standing()]) / arena.scale, [
+    return np.asarray([t.box for t in arena.objects.permanent()]) / arena.scale, [
         v / arena.scale for v in arena.layout.border
     ]
 

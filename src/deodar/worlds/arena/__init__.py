@@ -1,4 +1,4 @@
-"""An arena with a vehicle in it: layout, furniture, contact, sensors and view. The world is `dd.Arena`."""
+"""An arena with a vehicle in it: layout, objects, contact, sensors and view. The world is `dd.Arena`."""
 
 from __future__ import annotations
 

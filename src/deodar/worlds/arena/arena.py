@@ -26,12 +26,12 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
-from deodar.worlds.arena.asked import asked
+from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
-from deodar.worlds.arena.furniture import Furniture
 from deodar.worlds.arena.infrared import distances, readings
 from deodar.worlds.arena.layout import UNITS, load, make
+from deodar.worlds.arena.objects import ArenaObjects
 from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
@@ -104,8 +104,8 @@ class Arena(PureWorld):
         vehicle: the vehicle; by default an e-puck.
         period: ms between two exchanges with the model.
         contact: `slide` along what is touched, or `stick` to it.
-        reflection: infrared reflectance of things: a thing is read as if its distance were divided by it. 0.6
-            is a fit: with 1 the published planner stops at the gaps of 10 cm of its large maze, which it
+        reflection: infrared reflectance of objects: an object is read as if its distance were divided by it.
+            0.6 is a fit: with 1 the published planner stops at the gaps of 10 cm of its large maze, which it
             passed.
         place_noise: standard deviation of the place sensor, in `unit`.
         place_every: number of periods for which a reading of the place is kept.
@@ -167,7 +167,7 @@ class Arena(PureWorld):
         }
         self.noise = {name: _number(name, value) for name, value in given.items()}
         self.source = "" if isinstance(layout, Mapping) else str(layout)
-        self.furniture = Furniture(self.layout, self.period)
+        self.objects = ArenaObjects(self.layout, self.period)
         self.places = Places(self.layout.border, unit, self.scale, self.source)
         first, where = self.layout.start, self.layout.goal
         self.goals = (
@@ -187,7 +187,7 @@ class Arena(PureWorld):
         self.starts = self._settled(wanted)
         self.sensors = signals(vehicle, unit, self.goals is not None)
 
-    # -------------------------------------------------------------------------- things, also changed in a run
+    # ------------------------------------------------------------------------- objects, also changed in a run
 
     def place(
         self,
@@ -197,68 +197,68 @@ class Arena(PureWorld):
         color: Sequence[float] = (0.72, 0.53, 0.3),
         windows: Sequence[float] | np.ndarray | None = None,
     ) -> None:
-        """Add a thing to the arena from the next period on, or replace the one of the same name.
+        """Add an object to the arena from the next period on, or replace the one of the same name.
 
         Args:
-            name: name of the thing.
+            name: name of the object.
             center: x and y of its middle.
             size: size along x and y.
             color: red, green and blue, 0 to 1.
-            windows: (start, stop) in ms of the run's time between which the thing is present, or a row for
+            windows: (start, stop) in ms of the run's time between which the object is present, or a row for
                 each trial; None: from now on.
         """
-        self.furniture.place(make(name, center, size, color, self.scale), windows)
+        self.objects.place(make(name, center, size, color, self.scale), windows)
 
     def move(self, name: str, center: Sequence[float]) -> None:
-        """Move a thing; `center` is the new x and y of its middle.
+        """Move an object; `center` is the new x and y of its middle.
 
-        The name `goal` moves the goal, unless a thing has that name.
+        The name `goal` moves the goal, unless an object has that name.
         """
         if (
             name == GOAL
             and self.goals is not None
-            and name not in [t.name for t in self.furniture.things if t is not None]
+            and name not in [t.name for t in self.objects.slots if t is not None]
         ):
             self.aim(center)
         else:
-            self.furniture.move(name, center, self.scale)
+            self.objects.move(name, center, self.scale)
 
     def remove(self, name: str) -> None:
-        """Remove a thing."""
-        self.furniture.remove(name)
+        """Remove an object."""
+        self.objects.remove(name)
 
     def aim(self, goal: Sequence[float]) -> None:
         """Move the goal of all copies to x and y.
 
         Raises:
-            WorldError: the position is inside a thing or outside the arena, or the arena has no goal.
+            WorldError: the position is inside an object or outside the arena, or the arena has no goal.
         """
         if self.goals is None:
             raise WorldError("the arena has no goal to move", fix="Give it one: Arena(..., goal=(x, y))")
         goals = rows_of("goal", goal, [self.scale] * 2)
-        problems = self.places.misplaced(goals, "goal", 0.0, self.furniture.standing())
+        problems = self.places.misplaced(goals, "goal", 0.0, self.objects.permanent())
         if problems:
             raise WorldError(problems)
         self.goals = goals
 
     def arrangement(self) -> Any:
-        """Return the present things and goals, which may change during a run, for `arrange`."""
-        return copy.deepcopy((self.furniture, self.goals))
+        """Return the present objects and goals, which may change during a run, for `arrange`."""
+        return copy.deepcopy((self.objects, self.goals))
 
     def arrange(self, kept: Any) -> None:
-        """Restore things and goals that `arrangement` returned."""
-        self.furniture, self.goals = kept
+        """Restore objects and goals that `arrangement` returned."""
+        self.objects, self.goals = kept
 
     def scene(self) -> Scene:
         """Return the arena from above, in its unit.
 
-        The scene has the things that are present for the first copy, the goals and, after `reset`, the
+        The scene has the objects that are present for the first copy, the goals and, after `reset`, the
         vehicle of each copy.
         """
         state, trials = (self._now(), self._trials) if hasattr(self, "_state") else (None, (0,))
         now = 0 if state is None else int(np.asarray(state["tick"])[0])
         scale, k = self.scale, trials[0]
-        standing = self.furniture.there(now, k)
+        present = self.objects.present(now, k)
         boxes = tuple(
             SceneBox(
                 t.name,
@@ -266,7 +266,7 @@ class Arena(PureWorld):
                 (t.size[0] / scale, t.size[1] / scale),
                 t.color,
             )
-            for t in standing
+            for t in present
         )
         goals = () if self.goals is None else tuple((float(x), float(y)) for x, y in self.goals / scale)
         marks = tuple(
@@ -305,14 +305,14 @@ class Arena(PureWorld):
         numbers = {
             name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()
         }
-        return {"boxes": self.furniture.boxes(), "colours": self.furniture.colours(), **numbers}
+        return {"boxes": self.objects.boxes(), "colours": self.objects.colours(), **numbers}
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         goals = np.zeros((1, 2)) if self.goals is None else self.goals
         return {
             "start": of(trials, self.starts, "start"),
             "goal": of(trials, goals, "goal"),
-            "windows": self.furniture.times(trials),
+            "windows": self.objects.times(trials),
         }
 
     def structure(self) -> Hashable:
@@ -322,7 +322,7 @@ class Arena(PureWorld):
             self.contact,
             self.place_every,
             self.scale,
-            len(self.furniture.things),
+            len(self.objects.slots),
             self.goals is not None,
         )
 
@@ -409,11 +409,11 @@ class Arena(PureWorld):
         """Check starts and goals, and return the starts; if none was given, choose one.
 
         Raises:
-            WorldError: a start or goal lies outside the arena or inside a thing, a goal cannot be reached
+            WorldError: a start or goal lies outside the arena or inside an object, a goal cannot be reached
                 from its start, or the vehicle fits nowhere.
         """
-        standing, radius = self.furniture.standing(), self.vehicle.radius
-        room = Room(self.layout, radius, np.asarray([t.box for t in standing]))
+        permanent, radius = self.objects.permanent(), self.vehicle.radius
+        room = Room(self.layout, radius, np.asarray([t.box for t in permanent]))
         if starts is None:
             found = room.near_middle()
             if found is None:
@@ -423,9 +423,9 @@ class Arena(PureWorld):
                     where=self.source,
                 )
             starts = np.asarray([(*found, 0.0)])
-        problems = self.places.misplaced(starts, "start", radius, standing)
+        problems = self.places.misplaced(starts, "start", radius, permanent)
         if self.goals is not None:
-            problems += self.places.misplaced(self.goals, "goal", 0.0, standing)
+            problems += self.places.misplaced(self.goals, "goal", 0.0, permanent)
             for k in range(0 if problems else max(len(starts), len(self.goals))):
                 start, goal = starts[k % len(starts)], self.goals[k % len(self.goals)]
                 if not room.joined(start[:2], goal):
@@ -454,14 +454,14 @@ class Arena(PureWorld):
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
             "layout": self.layout.to_data(),
-            "things": self.furniture.to_data(),
+            "things": self.objects.to_data(),
         }
         digest = hashlib.sha256(codec.line(said, ascii=True, sort=True).encode()).hexdigest()
         return {"world": "Arena", "file": self.source, **said, "sha256": digest}
 
     @classmethod
     def open(cls, argument: str) -> Arena:
-        layout, settings = asked(argument)
+        layout, settings = parse_argument(argument)
         return cls(layout, **settings)
 
     @classmethod
@@ -470,7 +470,7 @@ class Arena(PureWorld):
         if settings.pop("vehicle") != EPUCK.name:
             raise WorldError("was run with a custom vehicle, which a record does not contain", where="arena")
         found = cls(described["layout"], described["start"], described["goal"], **settings)
-        found.furniture.take(described["things"])
+        found.objects.restore(described["things"])
         found.source = str(described.get("file", ""))
         return found
 

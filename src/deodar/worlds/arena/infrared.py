@@ -23,7 +23,7 @@ def distances(
     side = jnp.stack([-front[1], front[0]])
     origins = position + forward[:, None] * front + left[:, None] * side
     looks = ahead(heading + jnp.asarray(sensors.angles, dtype)).T
-    # a thing that reflects twice as well as the table's surface is detected up to twice the range
+    # an object that reflects twice as well as the table's surface is detected up to twice the range
     longest = 10 * sensors.distances[-1]
     return jnp.minimum(rays(origins, looks, boxes, present, longest), longest) / reflection
 

@@ -6,8 +6,8 @@
      "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "color": [1, 0, 0]}],
      "start": [0.2, 0.2], "heading": 0.0, "goal": [0.8, 0.8]}
 
-A file may contain several arenas by name. All things are parallel to the two axes; sensors and contact ignore
-their height.
+A file may contain several arenas by name. All objects are parallel to the two axes; sensors and contact
+ignore their height.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 """Units of length, in metres."""
 
 COLOURS = {"walls": (0.45, 0.45, 0.45), "boxes": (0.72, 0.53, 0.3), "blocks": (0.8, 0.2, 0.2)}
-"""Lists of things, and the colour of a thing that states none."""
+"""Lists of objects, and the colour of an object that states none."""
 
 KNOWN = ("unit", "plane", "arena", *COLOURS, "start", "heading", "goal", "goal_area")
 LARGEST_FILE = 2**24
 
 
 @dataclass(frozen=True)
-class Thing:
+class ArenaObject:
     """A box in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to 1."""
 
     name: str
@@ -52,17 +52,17 @@ class Thing:
 
 @dataclass(frozen=True)
 class ArenaLayout:
-    """An arena: its border, its things, the start of the vehicle and the goal.
+    """An arena: its border, its objects, the start of the vehicle and the goal.
 
     Attributes:
         border: lower x, lower y, upper x, upper y, m.
-        things: boxes in it; they may overlap, and may lie outside the border (parked).
+        objects: boxes in it; they may overlap, and may lie outside the border (parked).
         start: x, y in m and heading in rad, or None.
         goal: x, y in m, or None.
     """
 
     border: tuple[float, float, float, float]
-    things: tuple[Thing, ...] = ()
+    objects: tuple[ArenaObject, ...] = ()
     start: tuple[float, float, float] | None = None
     goal: tuple[float, float] | None = None
 
@@ -72,7 +72,7 @@ class ArenaLayout:
         data: JsonObject = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
         data["blocks"] = [
             {"name": t.name, "center": list(t.center), "size": list(t.size), "color": list(t.color)}
-            for t in self.things
+            for t in self.objects
         ]
         if self.start is not None:
             data |= {"start": list(self.start[:2]), "heading": self.start[2]}
@@ -175,7 +175,7 @@ def _layout(data: Json, where: str) -> ArenaLayout:
     # as in Webots: y is up, and heading 0 points along -z; so x is the file's -z, and y its -x
     turned = names == "x,z"
     border = _border(data, names.split(","), turned, scale, faults)
-    things = tuple(_things(data, turned, scale, faults))
+    objects = tuple(_objects(data, turned, scale, faults))
     start = _place(data, "start", turned, scale, faults)
     heading = real(data.get("heading", 0.0))
     if heading is None or not math.isfinite(heading):
@@ -190,7 +190,7 @@ def _layout(data: Json, where: str) -> ArenaLayout:
     )
     if faults or border is None:
         raise WorldError(faults)
-    return ArenaLayout(border, things, None if start is None else (*start, float(heading or 0)), goal)
+    return ArenaLayout(border, objects, None if start is None else (*start, float(heading or 0)), goal)
 
 
 def _border(
@@ -230,7 +230,7 @@ def _place(
     return None if found is None else _turn(found, turned, scale)
 
 
-def _things(data: Mapping[str, Json], turned: bool, scale: float, faults: _Faults) -> Iterator[Thing]:
+def _objects(data: Mapping[str, Json], turned: bool, scale: float, faults: _Faults) -> Iterator[ArenaObject]:
     taken: set[str] = set()
     for kind, colour in COLOURS.items():
         listed = data.get(kind, [])
@@ -243,31 +243,31 @@ def _things(data: Mapping[str, Json], turned: bool, scale: float, faults: _Fault
                 faults.say(name, f"is {show(entry)}; expected an object with center and size")
                 continue
             if name in taken:
-                faults.say(name, "is the name of two things")
+                faults.say(name, "is the name of two objects")
             taken.add(name)
-            thing = _thing(name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults)
-            if thing is not None:
-                (w, h), center = thing.size, _turn(thing.center, turned, scale)
-                yield Thing(
-                    name, center, (h * scale, w * scale) if turned else (w * scale, h * scale), thing.color
+            item = _object(name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults)
+            if item is not None:
+                (w, h), center = item.size, _turn(item.center, turned, scale)
+                yield ArenaObject(
+                    name, center, (h * scale, w * scale) if turned else (w * scale, h * scale), item.color
                 )
 
 
-def make(name: str, center: Json, size: Json, color: Json, scale: float = 1.0) -> Thing:
-    """Make a thing from unchecked values; lengths are in units of `scale` metres.
+def make(name: str, center: Json, size: Json, color: Json, scale: float = 1.0) -> ArenaObject:
+    """Make an object from unchecked values; lengths are in units of `scale` metres.
 
     Raises:
-        WorldError: a number is missing or not finite, the thing has no area, or its colour is invalid.
+        WorldError: a number is missing or not finite, the object has no area, or its colour is invalid.
     """
     faults = _Faults("")
-    thing = _thing(name, center, size, color, faults)
-    if thing is None:
+    item = _object(name, center, size, color, faults)
+    if item is None:
         raise WorldError(faults)
-    (x, y), (w, h) = thing.center, thing.size
-    return Thing(name, (x * scale, y * scale), (w * scale, h * scale), thing.color)
+    (x, y), (w, h) = item.center, item.size
+    return ArenaObject(name, (x * scale, y * scale), (w * scale, h * scale), item.color)
 
 
-def _thing(name: str, center: Json, size: Json, color: Json, found: _Faults) -> Thing | None:
+def _object(name: str, center: Json, size: Json, color: Json, found: _Faults) -> ArenaObject | None:
     before = len(found)
     middle, extent = found.pair(f"{name}.center", center), found.pair(f"{name}.size", size)
     if extent is not None and not min(extent) > 0:
@@ -278,4 +278,6 @@ def _thing(name: str, center: Json, size: Json, color: Json, found: _Faults) -> 
     if len(found) > before:
         return None
     assert middle is not None and extent is not None
-    return Thing(name, middle, extent, (float(parts[0] or 0), float(parts[1] or 0), float(parts[2] or 0)))
+    return ArenaObject(
+        name, middle, extent, (float(parts[0] or 0), float(parts[1] or 0), float(parts[2] or 0))
+    )

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from deodar.errors import Problem, WorldError
 from deodar.parameters import show
-from deodar.worlds.arena.layout import Thing
+from deodar.worlds.arena.layout import ArenaObject
 
 
 def rows_of(what: str, given: npt.ArrayLike, scale: Sequence[float]) -> np.ndarray:
@@ -51,8 +51,10 @@ class Places:
     ) -> None:
         self.border, self.unit, self.scale, self.source = border, unit, scale, source
 
-    def misplaced(self, rows: np.ndarray, what: str, radius: float, things: Sequence[Thing]) -> list[Problem]:
-        """Return problems of positions that are outside the arena or too near to a thing for the radius."""
+    def misplaced(
+        self, rows: np.ndarray, what: str, radius: float, objects: Sequence[ArenaObject]
+    ) -> list[Problem]:
+        """Return problems of positions that are outside the arena or too near to an object for the radius."""
         problems: list[Problem] = []
         left, low, right, high = self.border
         needs = f"; the vehicle needs {radius / self.scale:g} {self.unit} around it" if radius else ""
@@ -66,7 +68,7 @@ class Places:
                     self.fault(what, rows, k, f"lies outside the arena, {span} {self.unit}{needs}")
                 )
                 continue
-            inside = [t.name for t in things if _distance(t.box, x, y) < max(radius, 1e-12)]
+            inside = [t.name for t in objects if _distance(t.box, x, y) < max(radius, 1e-12)]
             if inside:
                 problems.append(self.fault(what, rows, k, f"lies inside {inside[0]!r}{needs}"))
         return problems

@@ -39,9 +39,9 @@ def _along(axis: Axis, lower: Array, upper: Array, scale: float) -> Array:
 
 
 def coloured(cover: Array, colours: Array) -> Array:
-    """Return the colour (samples, samples, 3) of things that cover a floor, later ones over earlier ones."""
+    """Return the colour (samples, samples, 3) of objects that cover a floor, later ones over earlier ones."""
     free = 1.0 - cover
-    above = jnp.cumprod(free[::-1], axis=0)[::-1]  # share that this thing and all later ones leave free
+    above = jnp.cumprod(free[::-1], axis=0)[::-1]  # share that this object and all later ones leave free
     seen = cover * jnp.concatenate([above[1:], jnp.ones_like(above[:1])])
     return jnp.einsum("nij,nc->ijc", seen, colours) + above[0][..., None] * jnp.asarray(FLOOR, cover.dtype)
 

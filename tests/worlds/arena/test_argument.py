@@ -7,11 +7,11 @@ import pytest
 
 from deodar.errors import WorldError
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.asked import asked
+from deodar.worlds.arena.argument import parse_argument
 
 
 def test_an_argument_may_name_only_the_layout():
-    assert asked("z") == ("z", {})
+    assert parse_argument("z") == ("z", {})
 
 
 def test_settings_of_the_argument_are_passed_to_the_arena():

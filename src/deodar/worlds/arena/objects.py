@@ -1,4 +1,4 @@
-"""The things of a running arena, which are added, moved and removed without recompilation."""
+"""The objects of a running arena, which are added, moved and removed without recompilation."""
 
 from __future__ import annotations
 
@@ -11,79 +11,79 @@ import numpy.typing as npt
 
 from deodar.codec import Json
 from deodar.errors import UnknownName, WorldError, did_you_mean
-from deodar.worlds.arena.layout import ArenaLayout, Thing, make
+from deodar.worlds.arena.layout import ArenaLayout, ArenaObject, make
 from deodar.worlds.arena.places import of, rows_of
 from deodar.worlds.arena.view import OUTSIDE
 
 SPARE = 16
-"""Number of things that may be placed besides those of the layout; it fixes the size of the arrays."""
+"""Number of objects that may be placed besides those of the layout; it fixes the size of the arrays."""
 
 ALWAYS = (0, 2**31 - 1)
-"""The window of a thing without windows: first period of presence, and the first one after it."""
+"""The window of an object without windows: first period of presence, and the first one after it."""
 
 BORDER = 4
 
 
-class Furniture:
-    """The things of a layout and those placed later, as arrays of fixed size.
+class ArenaObjects:
+    """The objects of a layout and those placed later, as arrays of fixed size.
 
     Attributes:
-        things: thing in each slot; None: the slot is free.
-        windows: for each thing the first period in which it is present, and the first after that in which it
+        slots: object in each slot; None: the slot is free.
+        windows: for each object the first period in which it is present, and the first after that in which it
             is not; one row, or one for each trial.
     """
 
     def __init__(self, layout: ArenaLayout, period: float) -> None:
         self.border = layout.border
         self.period = period
-        self.room = len(layout.things) + SPARE
-        self.things: list[Thing | None] = list(layout.things) + [None] * SPARE
+        self.room = len(layout.objects) + SPARE
+        self.slots: list[ArenaObject | None] = list(layout.objects) + [None] * SPARE
         self.windows: list[np.ndarray] = [np.asarray([ALWAYS], np.int32) for _ in range(self.room)]
 
-    def place(self, thing: Thing, windows: npt.ArrayLike | None) -> None:
-        """Add a thing, or replace the one of the same name; windows are in ms, or None."""
+    def place(self, item: ArenaObject, windows: npt.ArrayLike | None) -> None:
+        """Add an object, or replace the one of the same name; windows are in ms, or None."""
         times = np.asarray([ALWAYS], np.int32)
         if windows is not None:
-            what = f"windows of {thing.name}"
+            what = f"windows of {item.name}"
             given = rows_of(what, windows, [1.0, 1.0])
             if not (given[:, 0] <= given[:, 1]).all():
                 raise WorldError("begins after it ends", where=what)
             times = np.clip(np.ceil(given / self.period - 0.5), *ALWAYS).astype(np.int32)
-        names = [t.name if t is not None else None for t in self.things]
-        if thing.name not in names and None not in names:
+        names = [t.name if t is not None else None for t in self.slots]
+        if item.name not in names and None not in names:
             raise WorldError(
-                f"the arena is full: {SPARE} things besides those of its file",
-                where=thing.name,
+                f"the arena is full: {SPARE} objects besides those of its file",
+                where=item.name,
                 fix="Remove one with remove(name)",
             )
-        k = names.index(thing.name if thing.name in names else None)
-        self.things[k], self.windows[k] = thing, times
+        k = names.index(item.name if item.name in names else None)
+        self.slots[k], self.windows[k] = item, times
 
     def move(self, name: str, center: Sequence[float], scale: float) -> None:
-        """Move a thing; `center` is in units of `scale` metres."""
+        """Move an object; `center` is in units of `scale` metres."""
         k = self._index(name)
-        old = self.things[k]
+        old = self.slots[k]
         assert old is not None
-        self.things[k] = dc.replace(old, center=make(name, center, (1, 1), old.color, scale).center)
+        self.slots[k] = dc.replace(old, center=make(name, center, (1, 1), old.color, scale).center)
 
     def remove(self, name: str) -> None:
-        """Remove a thing."""
-        self.things[self._index(name)] = None
+        """Remove an object."""
+        self.slots[self._index(name)] = None
 
-    def standing(self) -> list[Thing]:
-        """Return the things that are always present."""
+    def permanent(self) -> list[ArenaObject]:
+        """Return the objects that are always present."""
         return [
-            t for t, w in zip(self.things, self.windows, strict=True) if t is not None and (w == ALWAYS).all()
+            t for t, w in zip(self.slots, self.windows, strict=True) if t is not None and (w == ALWAYS).all()
         ]
 
-    def there(self, period: int, trial: int) -> list[Thing]:
-        """Return the things that are present in a period of a trial."""
+    def present(self, period: int, trial: int) -> list[ArenaObject]:
+        """Return the objects that are present in a period of a trial."""
         rows = (
             (t, w[min(trial, len(w) - 1)])
-            for t, w in zip(self.things, self.windows, strict=True)
+            for t, w in zip(self.slots, self.windows, strict=True)
             if t is not None
         )
-        return [thing for thing, (start, stop) in rows if start <= period < stop]
+        return [item for item, (start, stop) in rows if start <= period < stop]
 
     # ------------------------------------------------------------------------------------------------- arrays
 
@@ -97,38 +97,38 @@ class Furniture:
         free = (right + 2 * far, high + 2 * far, right + 3 * far, high + 3 * far)
         x0, y0, x1, y1 = left - far, low - far, right + far, high + far
         sides = [(x0, y0, left, y1), (right, y0, x1, y1), (x0, y0, x1, low), (x0, high, x1, y1)]
-        return np.asarray([*(free if t is None else t.box for t in self.things), *sides])
+        return np.asarray([*(free if t is None else t.box for t in self.slots), *sides])
 
     def colours(self) -> np.ndarray:
         """Return the colours (n, 3) of the rows of `boxes`."""
-        return np.asarray([*(OUTSIDE if t is None else t.color for t in self.things), *([OUTSIDE] * BORDER)])
+        return np.asarray([*(OUTSIDE if t is None else t.color for t in self.slots), *([OUTSIDE] * BORDER)])
 
     def times(self, trials: Sequence[int]) -> np.ndarray:
         """Return the windows (trials, n, 2) of the rows of `boxes`, in periods."""
         out = np.zeros((len(trials), self.room + BORDER, 2), np.int32)
         out[:, self.room :] = ALWAYS
-        for k, (thing, rows) in enumerate(zip(self.things, self.windows, strict=True)):
-            if thing is not None:
-                out[:, k] = of(trials, rows, f"windows of {thing.name}")
+        for k, (item, rows) in enumerate(zip(self.slots, self.windows, strict=True)):
+            if item is not None:
+                out[:, k] = of(trials, rows, f"windows of {item.name}")
         return out
 
     def to_data(self) -> list[Json]:
-        """Return the things and their windows as plain data."""
+        """Return the objects and their windows as plain data."""
         return [
             [t.name, *t.center, *t.size, *t.color, w.tolist()]
-            for t, w in zip(self.things, self.windows, strict=True)
+            for t, w in zip(self.slots, self.windows, strict=True)
             if t is not None
         ]
 
-    def take(self, data: Sequence[Any]) -> None:
-        """Replace all things by those that `to_data` returned."""
-        self.things = [Thing(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7])) for d in data]
+    def restore(self, data: Sequence[Any]) -> None:
+        """Replace all objects by those that `to_data` returned."""
+        self.slots = [ArenaObject(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7])) for d in data]
         self.windows = [np.asarray(d[8], np.int32) for d in data]
-        self.things += [None] * (self.room - len(data))
+        self.slots += [None] * (self.room - len(data))
         self.windows += [np.asarray([ALWAYS], np.int32)] * (self.room - len(data))
 
     def _index(self, name: str) -> int:
-        names = {t.name: k for k, t in enumerate(self.things) if t is not None}
+        names = {t.name: k for k, t in enumerate(self.slots) if t is not None}
         if name not in names:
             raise UnknownName(f"nothing in the arena is called {name!r}", fix=did_you_mean(str(name), names))
         return names[name]

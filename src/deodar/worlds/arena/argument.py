@@ -14,7 +14,7 @@ PLACES = {"start": (2, 3), "goal": (2, 2)}
 NUMBERS = ("period", "reflection", "place_noise", "place_every", "infrared_noise", "slip", "encoder_noise")
 
 
-def asked(argument: str) -> tuple[str, Mapping[str, Any]]:
+def parse_argument(argument: str) -> tuple[str, Mapping[str, Any]]:
     """Parse `LAYOUT, NAME=VALUE, ...` into a layout and settings.
 
     An example is `z, unit=cm, goal=-27 78, place_noise=0.5`.
