@@ -27,7 +27,7 @@ from deodar.architectures.serial_order import lesson, lesson_end, production_sta
 from deodar.architectures.spa import spa
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Within
-from deodar.papers.saliency.scenes import look, photographs
+from deodar.papers.saliency.scenes import photographs, run_scene
 from deodar.papers.saliency.targets import totals
 from deodar.papers.spa import cases
 from deodar.papers.spa.pairs import pairs, reference
@@ -69,7 +69,7 @@ def serial_order(quadrature: str) -> None:
 
 def saliency_demo(quadrature: str) -> None:
     scenes = [scene for scene in photographs(untuned=True) if not scene.tuned]
-    results = [look(scene, model=with_quadrature(saliency(), quadrature)) for scene in scenes]
+    results = [run_scene(scene, model=with_quadrature(saliency(), quadrature)) for scene in scenes]
     for claim in totals(results):
         print(f"{'saliency':14}{quadrature:8}{claim.name}: {claim.value} ({claim.target})", flush=True)
 

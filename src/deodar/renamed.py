@@ -84,6 +84,9 @@ RENAMED = {
     "deodar.figures.space_time.draw": "dd.space_time",
     "deodar.figures.time_course.draw": "dd.time_course",
     "deodar.importers.presets.apply": "dd.apply_preset",
+    "deodar.model.document.Document.knobs": "dd.Model(...).document.parameters",
+    "deodar.papers.saliency.scenes.look": "dd.papers.saliency.scenes.run_scene",
+    "deodar.papers.spa.narrative.go": "dd.papers.spa.narrative.run",
     "deodar.recording.files.load": "dd.load_record",
     "deodar.recording.files.save": "dd.save_record",
     "deodar.runtime": "deodar.session, deodar.batch and deodar.live",
@@ -111,12 +114,13 @@ def missing(module: str, name: str, known: Iterable[str] = ()) -> AttributeError
 
 
 def no_member(obj: object, name: str) -> AttributeError:
-    """Make the error for an attribute that an object of a public class does not have; Python suggests the
-    nearest one.
+    """Make the error for an attribute that an object does not have; Python suggests the nearest one.
+
+    A class is in the table under `dd`, or with its full path if it is not public.
     """
     kind = type(obj).__name__
     text = f"{kind!r} object has no attribute {name!r}"
-    hint = fix(f"dd.{kind}.{name}")
+    hint = fix(f"dd.{kind}.{name}") or fix(f"{type(obj).__module__}.{kind}.{name}")
     return (
         AttributeError(f"{text}. {hint}", name=name, obj=None)
         if hint

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import deodar as dd
-from deodar.server.turns import Turns
+from deodar.server.change_queue import ChangeQueue
 from tests.attacks import edits
 from tests.server.page import page, studio
 
@@ -71,7 +71,7 @@ def test_a_change_is_completed_although_its_page_disconnects() -> None:
     done: list[str] = []
 
     async def main() -> None:
-        turns = Turns()
+        queue = ChangeQueue()
         middle = asyncio.Event()
 
         async def change(name: str) -> None:
@@ -79,10 +79,10 @@ def test_a_change_is_completed_although_its_page_disconnects() -> None:
             await asyncio.sleep(0.02)
             done.append(name)
 
-        first = asyncio.create_task(turns.take(lambda: change("first")))
+        first = asyncio.create_task(queue.run(lambda: change("first")))
         await middle.wait()
         first.cancel()
-        await turns.take(lambda: change("second"))
+        await queue.run(lambda: change("second"))
 
     asyncio.run(main())
     assert done == ["first", "second"]

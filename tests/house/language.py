@@ -43,10 +43,10 @@ class Word:
 
     @functools.cached_property
     def pattern(self) -> re.Pattern[str]:
-        """The phrase as whole words, over the ends of lines."""
+        """The phrase as whole words, over the ends of lines; a word after a dot is an attribute of code."""
         body = r"\s+".join(re.escape(part) for part in self.wrong.split())
         end = r"(?![\w-])" if self.wrong[-1].isalnum() else ""
-        return re.compile(rf"(?<![\w-]){body}{end}", re.IGNORECASE)
+        return re.compile(rf"(?<![\w-])(?<!\w\.){body}{end}", re.IGNORECASE)
 
 
 @dataclass(frozen=True)

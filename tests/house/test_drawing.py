@@ -44,7 +44,7 @@ def test_matplotlib_is_imported_where_figures_are_drawn(path: Path) -> None:
 
 def test_colours_are_named_only_in_the_style() -> None:
     """A colour that a figure needs has a meaning, and a line in `Palette`."""
-    allowed = {"_style.py", "film.py"}  # the video has a palette of its own, on the floor of the arena
+    allowed = {"_style.py", "animation.py"}  # the video has a palette of its own, on the floor of the arena
     for path in sorted((SRC / "figures").glob("*.py")):
         texts = [
             n.value for n in ast.walk(tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str)

@@ -62,6 +62,7 @@ def test_a_phrase_is_found_in_prose(name: str, text: str) -> None:
         ("page.md", "`goes on` and [a link](goes-on.md)"),
         ("page.md", "It foregoes on purpose; cargoes onward."),
         ("module.py", "goes = on\nif goes in goes: on\n"),
+        ("module.py", "old = 'model.document.knobs'\n"),
         ("page.css", ".goes on {}\n"),
         ("CHANGELOG.md", "# Changelog\n\n## [Unreleased]\n\n- New.\n\n## [0.1.0]\n\n- It goes on.\n"),
     ],

@@ -141,6 +141,7 @@ CALLS: dict[str, Callable[[], object]] = {
         "wants",
     )
 }
+CALLS["deodar.model.document.Document.knobs"] = lambda: deodar.Model("m").document.knobs  # type: ignore[attr-defined]
 """For each old name that is an argument with a certain value, or a call that needs more than its name: the
 call that raises.
 """

@@ -46,6 +46,6 @@ def test_each_paper_of_deodar_with_a_file_demo_is_a_demonstration():
 
 
 def test_a_paper_and_its_files_are_imported_when_they_are_used():
-    assert papers.saliency.scenes.photographs and papers.spa.narrative.go
+    assert papers.saliency.scenes.photographs and papers.spa.narrative.run
     with pytest.raises(AttributeError, match="no attribute 'salience'"):
         papers.salience  # noqa: B018

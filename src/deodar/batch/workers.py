@@ -21,7 +21,7 @@ from deodar.batch.pool import Pool
 from deodar.batch.request import SimulationRequest
 from deodar.errors import Interrupted
 from deodar.model.model import Model
-from deodar.session.interrupt import AtOnce
+from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds._base import World
 
 LOOK_EVERY = 0.1
@@ -81,7 +81,7 @@ def run(
             if not board[-1]:
                 try:
                     between(sum(board.tolist()[:-1]))
-                except AtOnce:
+                except SecondInterrupt:
                     raise
                 except KeyboardInterrupt:  # running pieces report how far they have come
                     board[-1] = 1

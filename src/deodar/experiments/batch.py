@@ -123,10 +123,10 @@ def run_batch(
     order = list(dict.fromkeys([*watched, *places.values()])) or [_anything(doc)]
     swept = {path: np.asarray(v, float) for path, v in (values or {}).items()}
     leaves = [driven(doc, path) for path in swept]
-    flock = _Flock(
+    copies = _RunningCopies(
         model, read, precision, float(step), require_seed(seed), numbers, world, leaves, [*swept.values()]
     )
-    axes = {p: flock.batch.program.axes(flock.batch.program.port(*p)) for p in order}
+    axes = {p: copies.batch.program.axes(copies.batch.program.port(*p)) for p in order}
     kept: list[list[Sequence[np.ndarray]]] = [[] for _ in numbers]
     looks = np.zeros(len(numbers), int)
     times: list[float] = []
@@ -136,35 +136,35 @@ def run_batch(
         ticks = [min(first + n * gap, steps) for n in range(arrays[0].shape[1])]
         new = [doc.t0 + tick * float(step) for tick in ticks]
         times.extend(new)
-        good = flock.good(np.asarray(ticks))
+        good = copies.good(np.asarray(ticks))
         by = {p: _blank(a, good) for p, a in zip(order, arrays, strict=True)}
         seen = {v: v.given(by[p]) if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
-        counts = observed.take(flock.rows, np.asarray(new), seen, ticks[-1] == steps, good)
-        looks[flock.rows] += counts
+        counts = observed.take(copies.rows, np.asarray(new), seen, ticks[-1] == steps, good)
+        looks[copies.rows] += counts
         for k, n in enumerate(counts):
             if watched and n:
-                kept[flock.rows[k]].append([np.array(by[p][k, :n]) for p in watched])
+                kept[copies.rows[k]].append([np.array(by[p][k, :n]) for p in watched])
 
     ahead = 0
     while True:
-        begun = flock.batch.clock.tick
-        ports = [flock.batch.program.port(*p) for p in order]
+        begun = copies.batch.clock.tick
+        ports = [copies.batch.program.port(*p) for p in order]
         first = min(gap, ahead)
-        flock.batch.record(
+        copies.batch.record(
             ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen)
         )
-        running = [k for k, row in enumerate(flock.rows) if not observed.outcome[row]]
+        running = [k for k, row in enumerate(copies.rows) if not observed.outcome[row]]
         if between is not None:
             between(len(running))
         if not running:
             break
-        left = steps - flock.batch.clock.tick
-        flock.shrink(running, left)
+        left = steps - copies.batch.clock.tick
+        copies.shrink(running, left)
         ahead = min(LOOKS * gap, left - left % gap if left >= gap else left)
     out: list[Trial] = []
     for row, n in enumerate(looks):
         found = np.asarray(times[:n])
-        error = flock.errors[row] if observed.outcome[row] == DIVERGED else None
+        error = copies.errors[row] if observed.outcome[row] == DIVERGED else None
         whole_ = {name: np.concatenate([part[i] for part in kept[row]]) for i, name in enumerate(watch)}
         whole_ = (
             whole_
@@ -216,7 +216,7 @@ def _anything(doc: Document) -> ReadPlace:
 
 
 @dataclass
-class _Flock:
+class _RunningCopies:
     """Copies of a model that run in one batch, and their trials.
 
     Attributes:

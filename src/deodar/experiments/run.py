@@ -91,7 +91,7 @@ def run_trial(
     running = RunningTrial(session, pushes, any(isinstance(a, Reset) for a in actions))
     running.recording = not any(isinstance(a, Record) and a.on for a in actions)
     waiting = _schedule(running, actions)
-    eye = _Eye(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
+    sampler = _Sampler(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
     values: dict[str, np.ndarray] = {}
     lost: NotFinite | None = None
@@ -105,7 +105,7 @@ def run_trial(
     try:
         with _put_back(world, actions):
             while True:
-                values, seen = eye.see()  # also at an action alone: the world must be at its time
+                values, seen = sampler.sample()  # also at an action alone: the world must be at its time
                 looked = session.tick % gap == 0 or session.tick == steps
                 if looked:
                     keep(values)
@@ -134,7 +134,7 @@ def run_trial(
         else np.zeros((0, *(values[name].shape if name in values else ())))
         for name in watch
     }
-    events_, measures_ = observed.events_of(0), observed.measures_of(0, eye.axes())
+    events_, measures_ = observed.events_of(0), observed.measures_of(0, sampler.axes())
     return Trial(
         np.asarray(times),
         stacked,
@@ -188,7 +188,7 @@ def _schedule_after(
     return [w for w in waiting if happened[w[1].when] is None]
 
 
-class _Eye:
+class _Sampler:
     """Samples all ports by one program, then the sensors of the world, which the program has brought up to
     date.
     """
@@ -211,7 +211,7 @@ class _Eye:
             self.places = [(ident, "output") for ident in tied[:1]]
         self.reader: PortReader = port_reader(session.program, self.places)
 
-    def see(self) -> tuple[dict[str, np.ndarray], dict[Observable, np.ndarray]]:
+    def sample(self) -> tuple[dict[str, np.ndarray], dict[Observable, np.ndarray]]:
         """Return the values of the watched ports, and the value of each view, as one sample of one trial."""
         session = self.session
         if self.reader.program is not session.program:  # an action compiled another one

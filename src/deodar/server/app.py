@@ -74,7 +74,7 @@ class Studio:
         self._hub = Hub(service.root, service.trust, service.world)
         project, file = self._hub.project, service.file
         if file is not None:
-            await project.turns.take(lambda: project.open_file(file.resolve(), True))
+            await project.queue.run(lambda: project.open_file(file.resolve(), True))
         try:
             self._ready()
             yield

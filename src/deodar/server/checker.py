@@ -8,8 +8,8 @@ from collections.abc import Callable
 from deodar.model.check import check
 from deodar.model.document import Document
 from deodar.server import view
+from deodar.server.change_queue import ChangeQueue
 from deodar.server.to_page import Checked
-from deodar.server.turns import Turns
 
 SECONDS = 0.2
 """Wall time, in seconds, between a change and the check.
@@ -28,22 +28,25 @@ class Checker:
 
     Args:
         present: returns the version and the document that are open.
-        turns: keeps a reference to the task.
+        queue: keeps a reference to the task.
         changed: called after each result.
     """
 
     def __init__(
-        self, present: Callable[[], tuple[int, Document | None]], turns: Turns, changed: Callable[[], None]
+        self,
+        present: Callable[[], tuple[int, Document | None]],
+        queue: ChangeQueue,
+        changed: Callable[[], None],
     ) -> None:
         self.found: Checked | None = None
-        self._present, self._turns, self._changed = present, turns, changed
+        self._present, self._queue, self._changed = present, queue, changed
         self._busy = False
 
     def start(self) -> None:
         """Check the open document, and repeat until its version no longer changes."""
         if not self._busy:
             self._busy = True
-            self._turns.beside(self._check())
+            self._queue.start_task(self._check())
 
     async def _check(self) -> None:
         try:

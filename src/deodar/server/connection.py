@@ -21,7 +21,7 @@ from deodar.errors import DeodarError
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
 from deodar.server.message import Message, union
-from deodar.server.project import Asks
+from deodar.server.project import ConfirmationRequired
 from deodar.server.to_page import (
     Answer,
     Checked,
@@ -107,8 +107,8 @@ class PageConnection:
     async def _do(self, message: Any) -> None:
         try:
             answers = await requests.do(self._hub, self.page, message)
-        except Asks as asks:
-            answers = [Answer(request=message.request, ask=asks.question)]
+        except ConfirmationRequired as required:
+            answers = [Answer(request=message.request, ask=required.question)]
         except DeodarError as error:
             model = self._hub.project.model
             problems = view.problems(error.problems, None if model is None else model.document)

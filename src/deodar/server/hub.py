@@ -10,8 +10,8 @@ from deodar import __version__
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
 from deodar.server import gallery, plots, view
-from deodar.server.aside import attempt
 from deodar.server.embodiment import Embodiment
+from deodar.server.file_thread import try_in_file_thread
 from deodar.server.keeper import Keeper, state_folder
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
@@ -75,7 +75,7 @@ class Hub:
             recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
             self._gallery = Gallery(recent=recent, recoveries=self.keeper.kept())
 
-        await attempt(read)
+        await try_in_file_thread(read)
         return self._gallery
 
     def clock(self, frame: int) -> RunClock:
@@ -149,7 +149,7 @@ class Hub:
     async def _keep(self) -> None:
         while True:
             await asyncio.sleep(KEEP_SECONDS)
-            await self.project.turns.take(self.project.keep)  # `forget` cannot run while edits are written
+            await self.project.queue.run(self.project.keep)  # `forget` cannot run while edits are written
 
     async def close(self) -> None:
         """Store unsaved edits and stop the engine."""

@@ -21,13 +21,13 @@ from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.server import content, view
-from deodar.server.aside import aside, attempt
+from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.embodiment import Embodiment
+from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.keeper import Keeper
 from deodar.server.recent_changes import RecentChanges
 from deodar.server.to_page import Changed, DocumentView, ListedProblem
-from deodar.server.turns import Turns
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -35,7 +35,7 @@ from deodar.worlds._base import World
 Ask = Literal["unsaved", "replace"]
 
 
-class Asks(Exception):
+class ConfirmationRequired(Exception):
     """A question that the user must answer before the request can be repeated."""
 
     def __init__(self, question: Ask) -> None:
@@ -46,10 +46,10 @@ class Asks(Exception):
 class OpenProject:
     """The open document, if any.
 
-    Methods that change it must be called through `turns`.
+    Methods that change it must be called through `queue`.
 
     Attributes:
-        turns: runs one change after the other.
+        queue: runs one change after the other.
         version: number of changes that pages must receive.
         model: the document being edited, with its history.
         file: the file that the document is saved to.
@@ -70,7 +70,7 @@ class OpenProject:
     ) -> None:
         self.workspace, self.keeper, self.engine, self.embodiment = workspace, keeper, engine, embodiment
         self._trust, self._changed = trust, changed
-        self.turns = Turns()
+        self.queue = ChangeQueue()
         self.version = 0
         self.model: Model | None = None
         self.file: Path | None = None
@@ -78,7 +78,7 @@ class OpenProject:
         self.failure: Sequence[Wrong] = ()
         self.busy = ""
         self.checker = Checker(
-            lambda: (self.version, None if self.model is None else self.model.document), self.turns, changed
+            lambda: (self.version, None if self.model is None else self.model.document), self.queue, changed
         )
         self._name = ""
         self._saved: Document | None = None
@@ -93,7 +93,7 @@ class OpenProject:
     @property
     def session(self) -> int:
         """Counter that increases when a document is opened or closed."""
-        return self.turns.session
+        return self.queue.session
 
     def view(self) -> DocumentView | None:
         """Return the document for the page; None if none is open."""
@@ -131,7 +131,7 @@ class OpenProject:
         a file of another tool, otherwise an empty string.
         """
         self._ask_unsaved(discard)
-        foreign = await aside(lambda: content.is_foreign(self.workspace, path), str(path))
+        foreign = await in_file_thread(lambda: content.is_foreign(self.workspace, path), str(path))
         own = None if foreign or examples.holds(path) else path
         await self._open(lambda: content.load(self.workspace, path), own, str(path), discard)
         return self._reported() if foreign else ""
@@ -148,7 +148,7 @@ class OpenProject:
     async def recover(self, name: str, discard: bool) -> None:
         """Open stored unsaved edits."""
         self._ask_unsaved(discard)
-        doc, file = await aside(lambda: self.keeper.read(name), name)
+        doc, file = await in_file_thread(lambda: self.keeper.read(name), name)
         path = Path(file) if file else None
         if path is not None and not self.workspace.holds(path):
             path = None
@@ -167,7 +167,7 @@ class OpenProject:
     async def _open(self, read: Callable[[], Document], file: Path | None, title: str, discard: bool) -> None:
         self._ask_unsaved(discard)
         try:
-            doc = await aside(read, title)
+            doc = await in_file_thread(read, title)
             if found := problems(doc):
                 raise DocumentError(found)
         except DeodarError as error:
@@ -180,15 +180,15 @@ class OpenProject:
         self.file, self._saved, self._digest = file, view.plain(doc), await self._hash(file)
         self._name, self._kept = self.keeper.new_name(), doc
         if file is not None:
-            await attempt(lambda: self.keeper.opened(file))
+            await try_in_file_thread(lambda: self.keeper.opened(file))
         self.busy = "compiling"  # set before pages receive the document, so that no page considers it ready
         self._moved()
-        self.turns.beside(self._start())
+        self.queue.start_task(self._start())
 
     async def _leave(self) -> None:
         if self._name:
-            await attempt(lambda: self.keeper.forget(self._name))
-        self.turns.session += 1
+            await try_in_file_thread(lambda: self.keeper.forget(self._name))
+        self.queue.session += 1
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.trouble, self.failure, self.busy = ("", ()), (), ""
@@ -215,7 +215,7 @@ class OpenProject:
         except Exception as error:  # functions that the document names run during compilation
             self._fail(attempt, [Wrong("", f"{type(error).__name__}: {error}")])
         else:
-            await self.turns.take(lambda: self._take(attempt, session, doc))
+            await self.queue.run(lambda: self._take(attempt, session, doc))
 
     async def _take(self, attempt: int, session: Session, doc: Document) -> None:
         """Load the compiled session into the engine, with the edits that were made since."""
@@ -239,7 +239,7 @@ class OpenProject:
 
     def _ask_unsaved(self, discard: bool) -> None:
         if self.unsaved and not discard:
-            raise Asks("unsaved")
+            raise ConfirmationRequired("unsaved")
 
     # ------------------------------------------------------------------------------------------------- saving
 
@@ -247,7 +247,8 @@ class OpenProject:
         """Write the document to a path, or to its own file if the path is empty; return the file.
 
         Raises:
-            Asks: without `replace`, if the file is not the document's own, or changed since it was read.
+            ConfirmationRequired: without `replace`, if the file is not the document's own, or changed since
+                it was read.
             DocumentError: the path is empty and the document has no file, or the file cannot be written.
         """
         model = self._require()
@@ -257,28 +258,28 @@ class OpenProject:
         own = self.file is not None and place == self.file
         now = await self._hash(place)
         if not replace and now and not (own and now == self._digest):
-            raise Asks("replace")
+            raise ConfirmationRequired("replace")
         doc = model.document
-        await aside(lambda: self.workspace.save(doc, place), path or str(place))
+        await in_file_thread(lambda: self.workspace.save(doc, place), path or str(place))
         self.file, self._saved, self._digest, self._kept = (
             place,
             view.plain(doc),
             await self._hash(place),
             doc,
         )
-        await attempt(lambda: self.keeper.forget(self._name))
-        await attempt(lambda: self.keeper.opened(place))
+        await try_in_file_thread(lambda: self.keeper.forget(self._name))
+        await try_in_file_thread(lambda: self.keeper.opened(place))
         self._moved()
         return place
 
     async def _hash(self, place: Path | None) -> str:
-        return "" if place is None else await aside(lambda: self.workspace.digest(place), str(place))
+        return "" if place is None else await in_file_thread(lambda: self.workspace.digest(place), str(place))
 
     async def keep(self) -> None:
         """Store unsaved edits, if they are new."""
         if self.model is not None and self.unsaved and self._kept is not self.model.document:
             doc, name, file = self.model.document, self._name, "" if self.file is None else str(self.file)
-            await attempt(lambda: self.keeper.keep(name, doc, file))
+            await try_in_file_thread(lambda: self.keeper.keep(name, doc, file))
             self._kept = doc
 
     # ------------------------------------------------------------------------------------------------ editing
@@ -315,7 +316,7 @@ class OpenProject:
         model, session = self._require(), self.engine.session
         self.embodiment.world(model.document)
         if session is None:
-            self.turns.beside(self._restart())
+            self.queue.start_task(self._restart())
         elif session.program.plan.sensors:
             await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
         self._changed()
@@ -397,7 +398,7 @@ class OpenProject:
         if session is None:
             if not self.busy:
                 self.busy = "compiling"
-                self.turns.beside(self._restart())
+                self.queue.start_task(self._restart())
             return "recompile"
         if session.cost(doc) == "recompile" and problems(doc):
             return "recompile"
@@ -407,7 +408,7 @@ class OpenProject:
     async def _restart(self) -> None:
         """Compile a document again that failed before, after an edit."""
         session = self.session
-        async with self.turns.lock:  # waits until the edit is in the history
+        async with self.queue.lock:  # waits until the edit is in the history
             if session != self.session or self.model is None:
                 return
             if problems(self.model.document):

@@ -19,7 +19,7 @@ from deodar.live.trace import TraceRequest
 from deodar.model import edit, files, find
 from deodar.numerics.axes import Axes
 from deodar.server import content, gallery, to_server
-from deodar.server.aside import aside
+from deodar.server.file_thread import in_file_thread
 from deodar.server.hub import Hub
 from deodar.server.page import Page
 from deodar.server.scene import Follower
@@ -60,7 +60,7 @@ async def do(hub: Hub, page: Page, message: to_server.Request) -> Answers:
     Requests that change the document are handled one after the other.
     """
     if isinstance(message, to_server.DocumentRequest):
-        return await hub.project.turns.take(lambda: _change(hub, page, message), message.session)
+        return await hub.project.queue.run(lambda: _change(hub, page, message), message.session)
     return await _done(hub, page, message)
 
 
@@ -110,7 +110,7 @@ async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
 
 @handles(to_server.Forget)
 async def _forget(hub: Hub, page: Page, m: to_server.Forget) -> None:
-    await aside(lambda: hub.keeper.forget(m.name), m.name)
+    await in_file_thread(lambda: hub.keeper.forget(m.name), m.name)
     hub.project.touch()
 
 
@@ -127,7 +127,7 @@ async def _save(hub: Hub, page: Page, m: to_server.Save) -> Answer:
 
 @handles(to_server.ListFolder)
 async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
-    return await aside(lambda: hub.workspace.listed(m.request, m.path), m.path)
+    return await in_file_thread(lambda: hub.workspace.listed(m.request, m.path), m.path)
 
 
 # ------------------------------------------------------------------------------------------------------ edits
@@ -184,7 +184,7 @@ async def _arrange(hub: Hub, page: Page, m: to_server.Arrange) -> None:
 @handles(to_server.ApplyPreset)
 async def _apply_preset(hub: Hub, page: Page, m: to_server.ApplyPreset) -> Answer:
     place = hub.workspace.inside(m.path)
-    preset = await aside(lambda: content.load(hub.workspace, place), m.path)
+    preset = await in_file_thread(lambda: content.load(hub.workspace, place), m.path)
     return await _take_over(hub, page, m.request, preset)
 
 
@@ -308,7 +308,7 @@ async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
         hub.workspace.require_file(place)
         return hub.embodiment.open(m.kind, place, m.path)
 
-    world = await aside(read, m.path)
+    world = await in_file_thread(read, m.path)
     await hub.project.embody(world)
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Generator
 from types import FrameType
 
 
-class AtOnce(KeyboardInterrupt):
+class SecondInterrupt(KeyboardInterrupt):
     """A second Ctrl-C, which stops the run immediately."""
 
 
@@ -31,7 +31,7 @@ def stoppable() -> Generator[Callable[[], None]]:
 
     def ask(number: int, frame: FrameType | None) -> None:
         if asked:
-            raise AtOnce
+            raise SecondInterrupt
         asked.append(number)
 
     if threading.current_thread() is not threading.main_thread():

@@ -13,7 +13,7 @@ from PIL import Image
 
 import deodar as dd
 from deodar.papers.saliency import scenes
-from deodar.papers.saliency.scenes import Cue, filmed, look, own, photographs, watched
+from deodar.papers.saliency.scenes import Cue, filmed, own, photographs, run_scene, watched
 from deodar.papers.saliency.targets import claims, sentence
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
@@ -46,7 +46,7 @@ def test_claims_hold_for_another_seed_and_fail_for_a_wrong_mark() -> None:
     chelsea = next(s for s in photographs() if s.name == "chelsea")
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
     scene = scenes.CueScene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
-    result = look(scene, seed=11)
+    result = run_scene(scene, seed=11)
     assert [c.holds for c in claims(result)] == [True, True, True, True, True, False, True, False, False]
     assert "1 of 2 cued colours" in sentence([result])
 
@@ -55,7 +55,7 @@ def test_a_photograph_of_the_user_is_searched(tmp_path: Path) -> None:
     scene = np.full((60, 90, 3), 120, np.uint8)
     scene[20:40, 60:80] = [20, 30, 230]
     Image.fromarray(scene).save(tmp_path / "mine.png")
-    result = look(own(tmp_path / "mine.png", [240.0, 0.0]))
+    result = run_scene(own(tmp_path / "mine.png", [240.0, 0.0]))
     blue, red = result.outcomes
     assert len(blue.places) == 1 and 60 <= blue.places[0][0] <= 80 and 20 <= blue.places[0][1] <= 40
     assert not red.places and abs(blue.motor[0] - blue.places[0][0]) < 3
@@ -71,7 +71,7 @@ def test_a_video_and_a_camera_are_searched(way: str) -> None:
         if way == "film"
         else watched(Camera(str(film), period=scenes.PERIOD, patience=60.0), [0.0, 240.0])
     )
-    red, blue = look(scene).outcomes
+    red, blue = run_scene(scene).outcomes
     assert len(red.places) == 1 and 46 <= red.places[0][0] <= 64 and 14 <= red.places[0][1] <= 34
     assert not blue.places and abs(red.motor[0] - red.places[0][0]) < 4
 

@@ -37,7 +37,7 @@ def inside(holds: Callable[[tuple[float, float]], bool], scene: CueScene) -> tup
 @pytest.fixture
 def rows(monkeypatch: pytest.MonkeyPatch) -> dict[str, Row]:
     """The rows of three photographs, after a file."""
-    monkeypatch.setattr(trials, "look", ideal)
+    monkeypatch.setattr(trials, "run_scene", ideal)
     made = [row for job in PAPER.jobs(True) for row in job.run()]
     return {row["key"]: row for row in json.loads(json.dumps(made))}
 
@@ -60,7 +60,7 @@ def test_a_photograph_without_all_of_its_rows_is_undecided(rows: dict[str, Row])
 def test_required_claims_of_the_untuned_photographs_are_undecided_until_all_have_run(
     monkeypatch: pytest.MonkeyPatch, rows: dict[str, Row]
 ) -> None:
-    monkeypatch.setattr(trials, "look", ideal)
+    monkeypatch.setattr(trials, "run_scene", ideal)
     whole = {row["key"]: row for job in PAPER.jobs(False) for row in job.run()}
     required = [c for c in PAPER.report(whole, False).claims if c.kind == "required"]
     assert [(c.value, c.holds) for c in required] == [(12, True), (12, True)]

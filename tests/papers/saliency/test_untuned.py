@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from importlib import resources
 
-from deodar.papers.saliency.scenes import NEAR, Cue, look, photographs
+from deodar.papers.saliency.scenes import NEAR, Cue, photographs, run_scene
 from deodar.papers.saliency.targets import claims, totals
 
 FOLDER = resources.files("deodar.papers.saliency") / "photographs"
@@ -53,7 +53,7 @@ def test_every_photograph_has_its_author_and_licence() -> None:
 
 def test_a_strong_peak_moves_the_motor_variable_to_it_and_a_weak_one_does_not_in_time() -> None:
     scenes = {scene.name: scene for scene in photographs(untuned=True)}
-    bird, clock = look(scenes["bird"]), look(scenes["clock"])
+    bird, clock = run_scene(scenes["bird"]), run_scene(scenes["clock"])
     for result in (bird, clock):
         present, absent = result.outcomes
         assert present.right and absent.right and absent.converged

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     from deodar.figures._files import save_figure
     from deodar.figures.cues import overview
     from deodar.papers.saliency import targets
-    from deodar.papers.saliency.scenes import CUE_AT, DURATION, look
+    from deodar.papers.saliency.scenes import CUE_AT, DURATION, run_scene
     from deodar.recording import files
 
     scenes = _scenes(args)
@@ -69,7 +69,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
             show(words, next(shares))
 
         step()
-        result = look(scene, args.seed, step)
+        result = run_scene(scene, args.seed, step)
         done.append(result)
         drawn.append(result.figure())
 

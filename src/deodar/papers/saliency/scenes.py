@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec
+from deodar import codec, renamed
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
 from deodar.batch.simulate import simulate
@@ -234,7 +234,7 @@ def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
     return tuple(Cue(h) for h in hues or WHEEL)
 
 
-def look(
+def run_scene(
     scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None
 ) -> SceneResult:
     """Run all cues of a scene as one batch: half a second without a cue, then three seconds with it.
@@ -277,3 +277,7 @@ def _outcome(scene_: CueScene, record: xarray.Dataset, end: xarray.Dataset, k: i
 
 def _places(scene: CueScene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
     return tuple(scene.picture.to_pixels(axes, p.position[0], p.position[1]) for p in found)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.papers.saliency.scenes import CueScene, Found, Outcome, look, photographs
+from deodar.papers.saliency.scenes import CueScene, Found, Outcome, photographs, run_scene
 
 COST = 15.0
 """Approximate duration of a photograph, s."""
@@ -28,7 +28,7 @@ def jobs(quick: bool) -> list[Job]:
 def photograph(name: str, untuned: bool) -> Sequence[Row]:
     """Run a photograph and return its rows, one for each cue."""
     [scene] = [s for s in photographs(untuned) if s.name == name]
-    result = look(scene)
+    result = run_scene(scene)
     return [
         {
             "key": key,

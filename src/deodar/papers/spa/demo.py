@@ -38,7 +38,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     # start-up time: these bring JAX
     from deodar.architectures.spa import DIRECTIONS, maze
     from deodar.figures._files import save_figure
-    from deodar.figures.film import film
+    from deodar.figures.animation import save_animation
     from deodar.papers.spa import narrative
     from deodar.recording import files
 
@@ -54,12 +54,12 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
         result = narrative.drive(arena, noise, args.seed, duration, shown)
         about = {"maze": result.arena.describe()}
     else:
-        result = narrative.go(args.seed, duration, shown)
+        result = narrative.run(args.seed, duration, shown)
         about = {"obstacle_at": narrative.COMES}
 
     def fill(folder: Path) -> None:
         save_figure(result.figure(), folder / "spa.png")
-        film(result, folder / "spa.gif")
+        save_animation(result, folder / "spa.gif")
         # the motivation fields are as large as a video, and the pictures show them
         names = ["pose.output", *(f"{name}.strongest.output" for name in DIRECTIONS)]
         files.save_record(result.record[names], folder / "spa.zarr")

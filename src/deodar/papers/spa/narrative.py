@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from deodar import renamed
 from deodar.analysis.claims import Claim
 from deodar.analysis.paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
@@ -140,7 +141,7 @@ class Narrative:
         return plan_figure(self)
 
 
-def go(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Narrative:
+def run(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = lambda _: None) -> Narrative:
     """Run case 3 of the paper with the obstacle that closes the northern route, at low noise."""
     arena = maze("z")
     center, size = OBSTACLES["full"]
@@ -290,3 +291,7 @@ def sentence(result: Narrative) -> str:
         "; ".join(f"{what} at step {k}" if k is not None else f"never {what}" for what, k in said)
         + f" (one step is {STEP_MS:g} ms)."
     )
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

@@ -31,7 +31,7 @@ FULL = 8.0
 FLOOR, WALL, OBSTACLE, ROBOT = (250, 250, 248), (70, 70, 74), (215, 185, 135), (20, 20, 20)
 
 
-def film(result: DrawnRun, file: str | Path) -> Path:
+def save_animation(result: DrawnRun, file: str | Path) -> Path:
     """Write a GIF: each position in the colours of the behaviours that are motivated there, with the path,
     the robot, walls and goal.
     """

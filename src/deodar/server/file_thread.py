@@ -19,7 +19,7 @@ A guess: a network folder that does not answer takes longer.
 """
 
 
-async def aside(function: Callable[[], T], where: str) -> T:
+async def in_file_thread(function: Callable[[], T], where: str) -> T:
     """Run a function in a new daemon thread and return its result.
 
     A thread pool would be blocked by a few calls that never return, and would keep the process alive.
@@ -38,7 +38,7 @@ async def aside(function: Callable[[], T], where: str) -> T:
             future.set_result(result)
 
     future.set_running_or_notify_cancel()
-    threading.Thread(target=work, name="deodar-aside", daemon=True).start()
+    threading.Thread(target=work, name="deodar-file", daemon=True).start()
     try:
         async with asyncio.timeout(SECONDS):
             return await asyncio.wrap_future(future)
@@ -50,7 +50,7 @@ async def aside(function: Callable[[], T], where: str) -> T:
         ) from None
 
 
-async def attempt(function: Callable[[], None]) -> None:
-    """Run a function as `aside` does, and ignore a `DeodarError`, also that of the time limit."""
+async def try_in_file_thread(function: Callable[[], None]) -> None:
+    """Run a function as `in_file_thread` does, and ignore a `DeodarError`, also that of the time limit."""
     with contextlib.suppress(DeodarError):
-        await aside(function, "")
+        await in_file_thread(function, "")

@@ -11,7 +11,7 @@ from deodar.errors import DocumentError
 T = TypeVar("T")
 
 
-class Turns:
+class ChangeQueue:
     """A lock around every change, in the order of arrival.
 
     An edit awaits the engine between reading the document and committing it; a second edit that read the same
@@ -26,7 +26,7 @@ class Turns:
         self.lock = asyncio.Lock()
         self._tasks: set[asyncio.Task[Any]] = set()
 
-    async def take(self, change: Callable[[], Awaitable[T]], session: int = 0) -> T:
+    async def run(self, change: Callable[[], Awaitable[T]], session: int = 0) -> T:
         """Run a change after all earlier changes.
 
         A change whose page disconnects runs to its end, so that engine and history never hold different
@@ -40,17 +40,17 @@ class Turns:
             DocumentError: another document was opened since.
         """
 
-        async def turn() -> T:
+        async def in_order() -> T:
             async with self.lock:
                 if session not in (0, self.session):
                     raise DocumentError("another document was opened since; nothing was changed")
                 return await change()
 
-        task = self.beside(turn())
+        task = self.start_task(in_order())
         task.add_done_callback(_read_error)
         return await asyncio.shield(task)
 
-    def beside(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
+    def start_task(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
         """Run a coroutine in a task, and keep a reference to the task until its end."""
         task = asyncio.create_task(work)
         self._tasks.add(task)
