@@ -282,3 +282,35 @@ def test_memory_counts_all_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     dd.simulate(small(), 5, trials=4, batch=1)
     with pytest.raises(dd.errors.TooLarge, match="fewer workers"):
         dd.simulate(small(), 5, trials=4, workers=4)
+
+
+def test_a_worker_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
+    """A killed process can end nothing itself, so each worker watches it, also during a task."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import time\n"
+        "from deodar.batch.pool import Pool\n"
+        "with Pool(1) as pool:\n"
+        "    worker = pool._idle[0][0].pid\n"
+        "    pool.give(0, time.sleep, 600)\n"
+        "    print(worker, flush=True)\n"
+        "    pool.wait(600)\n"
+    )
+    parent = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
+    assert parent.stdout is not None
+    worker = psutil.Process(int(parent.stdout.readline()))
+    parent.kill()
+    parent.wait()
+    parent.stdout.close()
+    ends = time.monotonic() + 60
+    while runs(worker) and time.monotonic() < ends:
+        time.sleep(0.05)
+    assert not runs(worker)
+
+
+def runs(process: psutil.Process) -> bool:
+    """Whether a process has not ended yet. One that ended may remain as a zombie."""
+    try:
+        return process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
