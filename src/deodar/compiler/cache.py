@@ -8,6 +8,7 @@ cache.
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import os
 import platform
@@ -88,8 +89,10 @@ def options(device: Device) -> CompilerOptions:
     return {"xla_cpu_prefer_vector_width": "512"} if wide else {}
 
 
+@functools.cache
 def _processor() -> str:
     """Return the processor's instruction sets, if known; a program for other ones would not run."""
+    # kept: every program asks twice, and the file takes milliseconds to read
     with contextlib.suppress(OSError):
         for line in Path("/proc/cpuinfo").read_text().splitlines():
             if line.startswith(("flags", "Features")):
