@@ -15,6 +15,8 @@ const FLAGS = [
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
   "--ignore-gpu-blocklist",
+  // WebGL is drawn by SwiftShader; the page itself is not, which would take seconds a frame
+  "--disable-gpu-compositing",
   "--disable-background-networking",
   "--disable-component-update",
   "--disable-default-apps",
