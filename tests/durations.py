@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 FILE = Path(__file__).with_name("durations.csv")
-LIMIT = 0.3
+LIMIT = 0.2
 """CPU seconds of all cases of a function above which it is slow."""
 
 
