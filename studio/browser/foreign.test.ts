@@ -139,7 +139,7 @@ test("the values of a preset file are one undo step, and values without a match 
     2, 0,
   ]);
   await took()
-    .getByText(/^3 values were taken over from preset\.json\. \d+ things did not match/)
+    .getByText(/^3 values were taken over from preset\.json\. \d+ entries did not match/)
     .waitFor();
   const unmatched = await took().getByRole("listitem").allInnerTexts();
   expect(unmatched).toHaveLength(ELEMENTS - 3 + 1);

@@ -46,7 +46,7 @@ afterAll(() => studio.stop());
 const world = () => panel(studio.page, "World");
 const canvas = () => world().getByRole("img", { name: /^The world from above/ });
 const told = () => world().getByRole("status");
-const thing = (name: string) =>
+const object = (name: string) =>
   [...(observer.world.now.scene?.boxes ?? []), ...(observer.world.now.scene?.marks ?? [])].find(
     (one) => one.name === name,
   );
@@ -83,14 +83,15 @@ test("a crate dragged in front of the running robot stops it, and dragged away r
   await observer.until(() => observer.running);
   await drag({ x: 0.8, y: 1.5 }, { x: 1.6, y: 1.05 });
   await observer.until(
-    () => Math.abs((thing("crate")?.x ?? 0) - 1.6) < 0.05 && Math.abs((thing("crate")?.y ?? 0) - 1.05) < 0.05,
+    () =>
+      Math.abs((object("crate")?.x ?? 0) - 1.6) < 0.05 && Math.abs((object("crate")?.y ?? 0) - 1.05) < 0.05,
   );
   await observer.until(() => robot() > 1.4);
   const { time } = observer;
   await observer.until(() => observer.time > time + 2000);
-  expect(robot()).toBeLessThan((thing("crate")?.x ?? 0) - 0.1 - 0.036);
+  expect(robot()).toBeLessThan((object("crate")?.x ?? 0) - 0.1 - 0.036);
   await shot(studio.page, "studio-world");
-  await drag({ x: thing("crate")?.x ?? 0, y: thing("crate")?.y ?? 0 }, { x: 1.0, y: 0.3 });
+  await drag({ x: object("crate")?.x ?? 0, y: object("crate")?.y ?? 0 }, { x: 1.0, y: 0.3 });
   await observer.until(() => robot() > 1.8);
   expect(observer.world.now.way.length).toBeGreaterThan(20);
   await button(studio.page, "Pause").click();
@@ -99,8 +100,8 @@ test("a crate dragged in front of the running robot stops it, and dragged away r
 
 test("a goal moves too; what does not fit is refused with its reason, and stays", async () => {
   await drag({ x: 2.7, y: 0.5 }, { x: 2.5, y: 0.2 });
-  await observer.until(() => Math.abs((thing("goal")?.x ?? 0) - 2.5) < 0.02);
-  const before = thing("goal");
+  await observer.until(() => Math.abs((object("goal")?.x ?? 0) - 2.5) < 0.02);
+  const before = object("goal");
   const { mouse } = studio.page;
   const [from, to] = [
     await onPage({ x: before?.x ?? 0, y: before?.y ?? 0 }),
@@ -111,17 +112,17 @@ test("a goal moves too; what does not fit is refused with its reason, and stays"
   await mouse.move(to.x, to.y);
   await expect.poll(() => told().textContent()).toMatch(/^goal: .* lies inside 'wall'/);
   await mouse.up();
-  expect(thing("goal")).toEqual(before);
+  expect(object("goal")).toEqual(before);
 });
 
 test("a double click places a box, arrow keys move it, Delete takes it away", async () => {
   const { x, y } = await onPage({ x: 0.4, y: 0.4 });
   await studio.page.mouse.dblclick(x, y);
-  await observer.until(() => thing("box 1"));
-  await world().getByLabel("Thing to move").selectOption("box 1");
-  const before = thing("box 1")?.x ?? Number.NaN;
+  await observer.until(() => object("box 1"));
+  await world().getByLabel("Object to move").selectOption("box 1");
+  const before = object("box 1")?.x ?? Number.NaN;
   await canvas().press("ArrowRight");
-  await observer.until(() => Math.abs((thing("box 1")?.x ?? 0) - before - 0.03) < 1e-9);
+  await observer.until(() => Math.abs((object("box 1")?.x ?? 0) - before - 0.03) < 1e-9);
   await canvas().press("Delete");
-  await observer.until(() => thing("box 1") === undefined);
+  await observer.until(() => object("box 1") === undefined);
 });

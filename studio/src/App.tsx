@@ -36,14 +36,14 @@ export function App() {
 
 function Page() {
   const ready = useStudio((state) => state.welcome !== null);
-  const trouble = useStudio((state) => state.trouble);
+  const fileProblems = useStudio((state) => state.fileProblems);
   const open = useStudio((state) => state.document !== null);
   const gallery = useView((view) => view.gallery);
   if (!ready) {
     return <Splash />;
   }
-  if (trouble !== null) {
-    return <ProblemsPage trouble={trouble} />;
+  if (fileProblems !== null) {
+    return <ProblemsPage fileProblems={fileProblems} />;
   }
   if (!open || gallery) {
     return <GalleryPage />;

@@ -256,6 +256,13 @@ export type ExampleView = {
   picture: string;
 };
 
+// A file that could not be opened, with all its problems; an empty list clears an earlier message.
+export type FileProblems = {
+  type: "file_problems";
+  file: string;
+  problems: ListedProblem[];
+};
+
 // Content of a folder below the root.
 export type Folder = {
   type: "folder";
@@ -361,9 +368,9 @@ export type MeasureCosts = {
   request?: number;
 };
 
-// Move a thing or a mark of the world; `x` and `y` are its new middle.
-export type MoveThing = {
-  type: "move_thing";
+// Move an object or a mark of the world; `x` and `y` are its new middle.
+export type MoveObject = {
+  type: "move_object";
   request?: number;
   name: string;
   x: number;
@@ -456,9 +463,9 @@ export type Pause = {
   request?: number;
 };
 
-// Add a thing to the world, with its middle and its size.
-export type PlaceThing = {
-  type: "place_thing";
+// Add an object to the world, with its middle and its size.
+export type PlaceObject = {
+  type: "place_object";
   request?: number;
   name: string;
   x: number;
@@ -536,9 +543,9 @@ export type RemoveDocumentParameter = {
   name: string;
 };
 
-// Remove a thing from the world.
-export type RemoveThing = {
-  type: "remove_thing";
+// Remove an object from the world.
+export type RemoveObject = {
+  type: "remove_object";
   request?: number;
   name: string;
 };
@@ -627,7 +634,7 @@ export type ToPage =
   | Welcome
   | Gallery
   | Opened
-  | Trouble
+  | FileProblems
   | Changed
   | Checked
   | RunClock
@@ -672,20 +679,13 @@ export type ToServer =
   | UseWorld
   | UseWorldContent
   | WatchWorld
-  | MoveThing
-  | PlaceThing
-  | RemoveThing
+  | MoveObject
+  | PlaceObject
+  | RemoveObject
   | Watch
   | WatchTrace
   | Unwatch
   | Drawn;
-
-// A file that could not be opened, with all its problems; an empty list clears an earlier message.
-export type Trouble = {
-  type: "trouble";
-  file: string;
-  problems: ListedProblem[];
-};
 
 // Undo the last change.
 export type Undo = {

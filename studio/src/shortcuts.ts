@@ -116,8 +116,8 @@ function onKey(event: KeyboardEvent, focusSeen: boolean): void {
     return;
   }
   event.preventDefault();
-  const { document, trouble } = useStudio.getState();
-  const shown = document !== null && trouble === null && !useView.getState().gallery;
+  const { document, fileProblems } = useStudio.getState();
+  const shown = document !== null && fileProblems === null && !useView.getState().gallery;
   const ready = shown || shortcut.always === true;
   if (!ready || useDialogs.getState().asked !== null || (event.repeat && shortcut.repeats !== true)) {
     return;

@@ -12,7 +12,7 @@ import type {
   Kind,
   ListedProblem,
   ToPage,
-  Trouble,
+  FileProblems,
   Welcome,
 } from "./protocol";
 import { replaced } from "./values";
@@ -35,7 +35,7 @@ export type Studio = {
   version: number;
   document: DocumentView | null;
   elements: Map<string, ElementView>;
-  trouble: Trouble | null;
+  fileProblems: FileProblems | null;
   clock: RunClock | null;
   costs: Costs | null;
   selected: string[];
@@ -59,7 +59,7 @@ export const useStudio = create<Studio>((set) => ({
   version: 0,
   document: null,
   elements: new Map(),
-  trouble: null,
+  fileProblems: null,
   clock: null,
   costs: null,
   selected: [],
@@ -99,8 +99,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return state.document === null || state.version !== message.version
         ? {}
         : { document: { ...state.document, problems: message.problems } };
-    case "trouble":
-      return { trouble: message.problems.length > 0 ? message : null };
+    case "file_problems":
+      return { fileProblems: message.problems.length > 0 ? message : null };
     case "clock":
       return { clock: message };
     case "costs":

@@ -64,7 +64,7 @@ def test_a_file_of_another_tool_may_be_dropped(tmp_path: Path) -> None:
         await p.until(lambda: p.document["undo"] == 1)
         assert (await p.ask("apply_preset_text", name="preset.json", text="{"))["problems"]
         broken = await p.do("open_text", name="preset.json", text=text(parts())[:-1], discard=True)
-        assert broken["imported"] == "" and p.said["trouble"]["problems"]
+        assert broken["imported"] == "" and p.said["file_problems"]["problems"]
 
     with studio(tmp_path) as address:
         play(address, scene)

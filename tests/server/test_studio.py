@@ -384,8 +384,8 @@ def test_a_file_with_problems_lists_all_of_them_until_a_valid_file_is_opened(roo
     (root / "bad.json").write_text(json.dumps(data))
 
     async def scene(p: Page) -> None:
-        await p.until(lambda: "trouble" in p.said and p.said["trouble"]["problems"])
-        problems = p.said["trouble"]["problems"]
+        await p.until(lambda: "file_problems" in p.said and p.said["file_problems"]["problems"])
+        problems = p.said["file_problems"]["problems"]
         assert (
             len(problems) == 2
             and any("u.tau" in q["where"] for q in problems)
@@ -393,9 +393,9 @@ def test_a_file_with_problems_lists_all_of_them_until_a_valid_file_is_opened(roo
         )
         assert p.document is None
         await p.do("open_file", path="gone.json")
-        await p.until(lambda: "no such file" in p.said["trouble"]["problems"][0]["what"])
+        await p.until(lambda: "no such file" in p.said["file_problems"]["problems"][0]["what"])
         await p.open("open_file", path="selection.json")
-        assert p.said["trouble"]["problems"] == []
+        assert p.said["file_problems"]["problems"] == []
 
     with studio(root, root / "bad.json") as address:
         play(address, scene)
@@ -482,7 +482,7 @@ def test_a_dropped_document_is_saved_only_under_a_new_name(root: Path) -> None:
         await p.do(
             "open_text", name="broken.json", text='{"deodar": 1, "elements": {"u": {"kind": "Nothing"}}}'
         )
-        assert p.said["trouble"]["file"] == "broken.json"
+        assert p.said["file_problems"]["file"] == "broken.json"
 
     with studio(root) as address:
         play(address, scene)
@@ -498,8 +498,8 @@ def test_a_package_that_is_dropped_is_opened_with_its_arrays(root: Path) -> None
         assert p.document["file"] == "" and p.document["title"] == "m"
         await p.do("save", path="mine.deodar")
         await p.do("open_package", name="cut.deodar", content=base64.b64encode(dropped[:300]).decode())
-        await p.until(lambda: "trouble" in p.said and p.said["trouble"]["problems"])
-        assert "damaged" in p.said["trouble"]["problems"][0]["what"]
+        await p.until(lambda: "file_problems" in p.said and p.said["file_problems"]["problems"])
+        assert "damaged" in p.said["file_problems"]["problems"][0]["what"]
 
     with studio(root) as address:
         play(address, scene)

@@ -107,7 +107,7 @@ def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
         await one.do("watch_world", on=True)
         await one.do("speed", factor=8)
         await one.do("play")
-        await one.do("move_thing", name="crate", x=1.2, y=1.0)
+        await one.do("move_object", name="crate", x=1.2, y=1.0)
         await one.until(lambda: box(one, "crate")["x"] == 1.2)
         await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.06)
         tick = one.clock["tick"]
@@ -115,12 +115,12 @@ def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
         assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), (
             "it is in front of the crate"
         )
-        await one.do("move_thing", name="goal", x=2.0, y=0.4)
+        await one.do("move_object", name="goal", x=2.0, y=0.4)
         await one.until(lambda: scene(one)["marks"][0]["x"] == 2.0)
-        await one.do("remove_thing", name="crate")
+        await one.do("remove_object", name="crate")
         await one.until(lambda: not scene(one)["boxes"])
         await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.3)
-        await one.do("place_thing", name="block", x=1.0, y=0.3, width=0.1, height=0.2)
+        await one.do("place_object", name="block", x=1.0, y=0.3, width=0.1, height=0.2)
         await one.until(lambda: box(one, "block").get("height") == 0.2)
 
     with studio(file.parent, file, world=arena) as address:
@@ -132,12 +132,12 @@ def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(fi
     async def story(one: Page) -> None:
         await shown(one)
         for request, said in [
-            ({"type": "move_thing", "name": "crate", "x": 0.2, "y": 1.0}, "cover 'e-puck'"),
-            ({"type": "move_thing", "name": "crate", "x": 9, "y": 1.0}, "outside the border"),
-            ({"type": "move_thing", "name": "goal", "x": 0.8, "y": 1.5}, "inside 'crate'"),
-            ({"type": "move_thing", "name": "crat", "x": 1, "y": 1}, "'crat'"),
-            ({"type": "remove_thing", "name": "goal"}, "is a mark"),
-            ({"type": "place_thing", "name": "flat", "x": 1, "y": 1, "width": 0.1, "height": 0}, "no area"),
+            ({"type": "move_object", "name": "crate", "x": 0.2, "y": 1.0}, "cover 'e-puck'"),
+            ({"type": "move_object", "name": "crate", "x": 9, "y": 1.0}, "outside the border"),
+            ({"type": "move_object", "name": "goal", "x": 0.8, "y": 1.5}, "inside 'crate'"),
+            ({"type": "move_object", "name": "crat", "x": 1, "y": 1}, "'crat'"),
+            ({"type": "remove_object", "name": "goal"}, "is a mark"),
+            ({"type": "place_object", "name": "flat", "x": 1, "y": 1, "width": 0.1, "height": 0}, "no area"),
         ]:
             (problem,) = (await one.ask(**request))["problems"]
             assert said in problem["what"], problem
@@ -152,7 +152,7 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
         await one.open("open_file", path="node.json")
         await one.do("watch_world", on=True)
         assert one.said["scene"] == {"type": "scene", "scene": None}
-        (problem,) = (await one.ask("move_thing", name="crate", x=1, y=1))["problems"]
+        (problem,) = (await one.ask("move_object", name="crate", x=1, y=1))["problems"]
         assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]
 
     with studio(root) as address:

@@ -26,12 +26,12 @@ from deodar.server.to_page import (
     Answer,
     Checked,
     Costs,
+    FileProblems,
     Folder,
     Gallery,
     ListedProblem,
     Opened,
     RunClock,
-    Trouble,
     WorldScene,
 )
 from deodar.server.to_server import MESSAGES, Drawn
@@ -195,8 +195,8 @@ class PageConnection:
             else:
                 out.extend(changes)
             self._session, self._version = now
-            file, problems = project.trouble
-            self._new("trouble", Trouble(file=file, problems=view.problems(problems)), out)
+            file, problems = project.file_problems
+            self._new("file_problems", FileProblems(file=file, problems=view.problems(problems)), out)
         if project.checker.found is not None:
             self._new("checked", project.checker.found, out)
         self._new("costs", self._hub.costs(), out)
@@ -208,7 +208,7 @@ class PageConnection:
     def _new(
         self,
         what: str,
-        message: Gallery | Trouble | Checked | RunClock | Costs | WorldScene,
+        message: Gallery | FileProblems | Checked | RunClock | Costs | WorldScene,
         out: list[Message],
     ) -> None:
         if self._known.get(what) != message:

@@ -53,7 +53,7 @@ class OpenProject:
         version: number of changes that pages must receive.
         model: the document being edited, with its history.
         file: the file that the document is saved to.
-        trouble: the file that could not be opened, and its problems.
+        file_problems: the file that could not be opened, and its problems.
         failure: why the document does not run.
         busy: a phrase for the compilation in progress; empty: none.
         checker: finds the warnings after changes of single parameters.
@@ -74,7 +74,7 @@ class OpenProject:
         self.version = 0
         self.model: Model | None = None
         self.file: Path | None = None
-        self.trouble: tuple[str, Sequence[Wrong]] = ("", ())
+        self.file_problems: tuple[str, Sequence[Wrong]] = ("", ())
         self.failure: Sequence[Wrong] = ()
         self.busy = ""
         self.checker = Checker(
@@ -127,8 +127,8 @@ class OpenProject:
     async def open_file(self, path: Path, discard: bool) -> str:
         """Open a document; an example or a file of another tool becomes a document without a file.
 
-        Problems of the file are stored in `trouble`, which the page shows. Return a sentence on the import of
-        a file of another tool, otherwise an empty string.
+        Problems of the file are stored in `file_problems`, which the page shows. Return a sentence on the
+        import of a file of another tool, otherwise an empty string.
         """
         self._ask_unsaved(discard)
         foreign = await in_file_thread(lambda: content.is_foreign(self.workspace, path), str(path))
@@ -172,7 +172,7 @@ class OpenProject:
                 raise DocumentError(found)
         except DeodarError as error:
             await self._leave()
-            self.trouble = (title, error.problems)
+            self.file_problems = (title, error.problems)
             self._moved()
             return
         await self._leave()
@@ -191,7 +191,7 @@ class OpenProject:
         self.queue.session += 1
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
-        self.trouble, self.failure, self.busy = ("", ()), (), ""
+        self.file_problems, self.failure, self.busy = ("", ()), (), ""
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
     async def _start(self) -> None:

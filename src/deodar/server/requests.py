@@ -323,18 +323,18 @@ async def _watch_world(hub: Hub, page: Page, m: to_server.WatchWorld) -> None:
     page.follower = Follower() if m.on else None
 
 
-@handles(to_server.MoveThing)
-async def _move_thing(hub: Hub, page: Page, m: to_server.MoveThing) -> None:
+@handles(to_server.MoveObject)
+async def _move_object(hub: Hub, page: Page, m: to_server.MoveObject) -> None:
     await _rearrange(hub, page, lambda session: session.move(m.name, (m.x, m.y)))
 
 
-@handles(to_server.PlaceThing)
-async def _place_thing(hub: Hub, page: Page, m: to_server.PlaceThing) -> None:
+@handles(to_server.PlaceObject)
+async def _place_object(hub: Hub, page: Page, m: to_server.PlaceObject) -> None:
     await _rearrange(hub, page, lambda session: session.place(m.name, (m.x, m.y), (m.width, m.height)))
 
 
-@handles(to_server.RemoveThing)
-async def _remove_thing(hub: Hub, page: Page, m: to_server.RemoveThing) -> None:
+@handles(to_server.RemoveObject)
+async def _remove_object(hub: Hub, page: Page, m: to_server.RemoveObject) -> None:
     await _rearrange(hub, page, lambda session: session.remove(m.name))
 
 

@@ -208,7 +208,7 @@ class Opened(Message, frozen=True, tag="opened"):
 
 
 @MESSAGES.register
-class Trouble(Message, frozen=True, tag="trouble"):
+class FileProblems(Message, frozen=True, tag="file_problems"):
     """A file that could not be opened, with all its problems; an empty list clears an earlier message."""
 
     file: str

@@ -293,8 +293,8 @@ class WatchWorld(Request, frozen=True, kw_only=True, tag="watch_world"):
 
 
 @MESSAGES.register
-class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
-    """Move a thing or a mark of the world; `x` and `y` are its new middle."""
+class MoveObject(Request, frozen=True, kw_only=True, tag="move_object"):
+    """Move an object or a mark of the world; `x` and `y` are its new middle."""
 
     name: Text
     x: float
@@ -302,8 +302,8 @@ class MoveThing(Request, frozen=True, kw_only=True, tag="move_thing"):
 
 
 @MESSAGES.register
-class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
-    """Add a thing to the world, with its middle and its size."""
+class PlaceObject(Request, frozen=True, kw_only=True, tag="place_object"):
+    """Add an object to the world, with its middle and its size."""
 
     name: Text
     x: float
@@ -313,8 +313,8 @@ class PlaceThing(Request, frozen=True, kw_only=True, tag="place_thing"):
 
 
 @MESSAGES.register
-class RemoveThing(Request, frozen=True, kw_only=True, tag="remove_thing"):
-    """Remove a thing from the world."""
+class RemoveObject(Request, frozen=True, kw_only=True, tag="remove_object"):
+    """Remove an object from the world."""
 
     name: Text
 

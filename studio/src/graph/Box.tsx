@@ -8,22 +8,22 @@ import { useHover } from "./hover";
 import { LiveBox } from "./LiveBox";
 import { Mark } from "./Mark";
 import type { BoxNode } from "./scene";
-import { useTrouble, useWarning } from "./trouble";
+import { useProblem, useWarning } from "./problem";
 
 export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<BoxNode>) {
   const { element: id, path, name, title, inputs, outputs } = data;
   const selected = useStudio((state) => state.selected.includes(id));
   const port = useStudio((state) => known(state.elements.get(id), livePort));
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
-  const trouble = useTrouble(id);
+  const problem = useProblem(id);
   const warning = useWarning(id);
   const { enter, leave } = useHover.getState();
   return (
     <div
       className="graph-box"
       data-selected={selected || undefined}
-      data-trouble={trouble !== "" || undefined}
-      data-marked={trouble !== "" || warning !== "" || undefined}
+      data-problem={problem !== "" || undefined}
+      data-marked={problem !== "" || warning !== "" || undefined}
       onPointerEnter={(event) => enter(id, event.currentTarget)}
       onPointerLeave={leave}
     >

@@ -7,7 +7,7 @@ import { useStudio } from "../store";
 import { facts } from "./facts";
 import { useHover } from "./hover";
 import { MarkIcon } from "./Mark";
-import { useTrouble, useWarning } from "./trouble";
+import { useProblem, useWarning } from "./problem";
 
 export function Card() {
   const target = useHover((state) => state.target);
@@ -51,7 +51,7 @@ function Said({ element: id }: { element: string }) {
   const element = useStudio((state) => state.elements.get(id));
   const kinds = useStudio((state) => state.kinds);
   const document = useStudio((state) => state.document);
-  const trouble = useTrouble(id);
+  const problem = useProblem(id);
   const warning = useWarning(id);
   const kind = kinds.get(element?.kind ?? "");
   if (element === undefined || document === null) {
@@ -61,14 +61,14 @@ function Said({ element: id }: { element: string }) {
     <>
       <div className="graph-card-path">{element.path}</div>
       <div className="graph-box-kind">{kind?.title ?? element.kind}</div>
-      {trouble !== "" && (
-        <div className="graph-card-trouble">
+      {problem !== "" && (
+        <div className="graph-card-problem">
           <MarkIcon problem size={14} />
-          <span>{trouble}</span>
+          <span>{problem}</span>
         </div>
       )}
       {warning !== "" && (
-        <div className="graph-card-trouble" data-warning>
+        <div className="graph-card-problem" data-warning>
           <MarkIcon problem={false} size={14} />
           <span>{warning}</span>
         </div>

@@ -8,13 +8,13 @@ import { useStudio } from "../store";
 import { fold } from "./arrange";
 import { MarkIcon } from "./Mark";
 import type { FoldedNode } from "./scene";
-import { troubleOf, warningOf } from "./trouble";
+import { problemOf, warningOf } from "./problem";
 import { keyOf } from "./tree";
 
 export const Folded = memo(function Folded({ data: { key, name, count } }: NodeProps<FoldedNode>) {
   const inside = useStudio(
     (state) =>
-      state.document?.elements.some((e) => within(e.group, key) && troubleOf(e.id, state) !== "") ?? false,
+      state.document?.elements.some((e) => within(e.group, key) && problemOf(e.id, state) !== "") ?? false,
   );
   const warned = useStudio(
     (state) =>
@@ -27,7 +27,7 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
   return (
     <div
       className="graph-folded"
-      data-trouble={inside || undefined}
+      data-problem={inside || undefined}
       data-selected={selected || undefined}
       onDoubleClick={(event) => {
         event.stopPropagation();

@@ -3,15 +3,15 @@
 
 import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
 import { useStudio } from "../store";
-import { useTrouble, useWarning } from "./trouble";
+import { useProblem, useWarning } from "./problem";
 
 export function Mark({ element }: { element: string }) {
-  const trouble = useTrouble(element);
+  const problem = useProblem(element);
   const warning = useWarning(element);
-  if (trouble === "" && warning === "") {
+  if (problem === "" && warning === "") {
     return null;
   }
-  const text = trouble !== "" ? `Problem: ${trouble}` : `Warning: ${warning}`;
+  const text = problem !== "" ? `Problem: ${problem}` : `Warning: ${warning}`;
   return (
     <button
       type="button"
@@ -23,7 +23,7 @@ export function Mark({ element }: { element: string }) {
         useStudio.getState().select([element]);
       }}
     >
-      <MarkIcon problem={trouble !== ""} size={16} />
+      <MarkIcon problem={problem !== ""} size={16} />
     </button>
   );
 }

@@ -6,7 +6,7 @@ import { mainNumber } from "./facts";
 import { useHover } from "./hover";
 import { labelOf } from "./label";
 import { MarkIcon } from "./Mark";
-import { useTrouble, useWarning } from "./trouble";
+import { useProblem, useWarning } from "./problem";
 
 export function Pill({ element: id }: { element: string }) {
   const path = useStudio((state) => state.elements.get(id)?.path ?? "");
@@ -15,9 +15,9 @@ export function Pill({ element: id }: { element: string }) {
     return labelOf(name, kind, kinds.get(kind)?.title ?? "");
   });
   const selected = useStudio((state) => state.selected.includes(id));
-  const trouble = useTrouble(id);
+  const problem = useProblem(id);
   const warning = useWarning(id);
-  const said = trouble !== "" ? trouble : warning !== "" ? `Warning: ${warning}` : "";
+  const said = problem !== "" ? problem : warning !== "" ? `Warning: ${warning}` : "";
   const number = useStudio(({ elements, kinds, document }) => {
     const element = elements.get(id);
     return element === undefined || document === null
@@ -30,7 +30,7 @@ export function Pill({ element: id }: { element: string }) {
       type="button"
       className="graph-pill nodrag nopan"
       data-selected={selected || undefined}
-      data-trouble={trouble !== "" || undefined}
+      data-problem={problem !== "" || undefined}
       title={said || undefined}
       aria-label={[path, number, said].filter((part) => part !== "").join(", ")}
       aria-pressed={selected}
@@ -53,7 +53,7 @@ export function Pill({ element: id }: { element: string }) {
       onPointerEnter={(event) => enter(id, event.currentTarget)}
       onPointerLeave={leave}
     >
-      {said !== "" && <MarkIcon problem={trouble !== ""} size={12} />}
+      {said !== "" && <MarkIcon problem={problem !== ""} size={12} />}
       <span className="one-line">{label}</span>
       {number !== "" && <b className="numbers">{number}</b>}
     </button>

@@ -4,44 +4,44 @@ import { Button, Group } from "@mantine/core";
 import { IconArrowLeft, IconFileAlert, IconRefresh } from "@tabler/icons-react";
 import { useState } from "react";
 
-import type { ListedProblem, Trouble } from "../protocol";
+import type { FileProblems, ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 import { ProblemText } from "./ProblemText";
 import { leave } from "./flows";
 import { belowRoot, isWhole } from "./paths";
 import classes from "./ProblemsPage.module.css";
 
-export function ProblemsPage({ trouble }: { trouble: Trouble }) {
+export function ProblemsPage({ fileProblems }: { fileProblems: FileProblems }) {
   const root = useStudio((state) => state.welcome?.root ?? "");
   const [trying, setTrying] = useState(false);
   const again = async () => {
     setTrying(true);
-    await leave({ type: "open_file", path: trouble.file });
+    await leave({ type: "open_file", path: fileProblems.file });
     setTrying(false);
   };
-  const count = trouble.problems.length;
+  const count = fileProblems.problems.length;
   return (
     <main className={classes.page}>
       <div className={classes.column}>
         <header className={classes.header}>
           <IconFileAlert size={34} stroke={1.5} className={classes.icon} aria-hidden="true" />
           <div className={classes.titles}>
-            <h1>{belowRoot(root, trouble.file)} cannot be opened</h1>
+            <h1>{belowRoot(root, fileProblems.file)} cannot be opened</h1>
             <p>{count === 1 ? "There is one problem." : `There are ${count} problems.`}</p>
           </div>
         </header>
         <ol className={classes.list} aria-label="Problems">
-          {trouble.problems.map((problem, i) => (
+          {fileProblems.problems.map((problem, i) => (
             <li key={i} className={classes.problem}>
               <span className={`${classes.number} numbers`} aria-hidden="true">
                 {i + 1}
               </span>
-              <ProblemText problem={within(trouble.file, problem)} />
+              <ProblemText problem={within(fileProblems.file, problem)} />
             </li>
           ))}
         </ol>
         <Group gap="xs">
-          {isWhole(trouble.file) && (
+          {isWhole(fileProblems.file) && (
             <Button
               leftSection={<IconRefresh size={16} />}
               loading={trying}

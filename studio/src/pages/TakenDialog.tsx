@@ -7,11 +7,12 @@ import { takenText } from "./values";
 import classes from "./TakenDialog.module.css";
 
 export function TakenDialog({ question: { file, carried, unmatched }, answer }: Asking<"taken">) {
-  const label = unmatched.length === 1 ? "1 thing did not match" : `${unmatched.length} things did not match`;
+  const label =
+    unmatched.length === 1 ? "1 entry did not match" : `${unmatched.length} entries did not match`;
   return (
     <>
       <Text size="sm" style={{ overflowWrap: "anywhere" }}>
-        {takenText(carried, file)} {label} and stays as it is here:
+        {takenText(carried, file)} {label} and left the values here unchanged:
       </Text>
       <ul className={classes.list} aria-label={label} tabIndex={0}>
         {unmatched.map((line, i) => (

@@ -1,5 +1,5 @@
-// The panel of the world: what a robot drives in, from above and to scale. Things and goals are moved by hand
-// while it runs.
+// The panel of the world: what a robot drives in, from above and to scale. Objects and goals are moved with
+// the mouse during a run.
 
 import "./world.css";
 
@@ -26,7 +26,7 @@ import {
   inside,
   placeText,
   type PlanPoint,
-  things,
+  objects,
   toWorld,
   under,
 } from "./place";
@@ -125,20 +125,20 @@ export function World() {
     );
   }
 
-  const all = things(scene);
-  const find = (name: string | null) => all.find((thing) => thing.name === name);
+  const all = objects(scene);
+  const find = (name: string | null) => all.find((object) => object.name === name);
   const at = ({ nativeEvent: { offsetX: x, offsetY: y } }: { nativeEvent: MouseEvent }): PlanPoint => ({
     x,
     y,
   });
   const down = (event: PointerEvent<HTMLCanvasElement>) => {
-    const thing =
+    const object =
       frame.current === null || event.button !== 0 ? null : under(scene, frame.current, at(event));
-    setSelected(thing?.name ?? null);
+    setSelected(object?.name ?? null);
     hand.current?.forgive();
-    if (thing !== null && !thing.fixed && frame.current !== null) {
+    if (object !== null && !object.fixed && frame.current !== null) {
       const place = toWorld(frame.current, at(event));
-      grip.current = { x: thing.x - place.x, y: thing.y - place.y };
+      grip.current = { x: object.x - place.x, y: object.y - place.y };
       event.currentTarget.setPointerCapture(event.pointerId);
     }
   };
@@ -165,7 +165,7 @@ export function World() {
       const [x0, y0, x1, y1] = frame.current.border;
       const size = BOX * Math.min(x1 - x0, y1 - y0);
       void request({
-        type: "place_thing",
+        type: "place_object",
         name: freeName(scene),
         ...inside(frame.current, toWorld(frame.current, at(event))),
         width: size,
@@ -174,19 +174,19 @@ export function World() {
     }
   };
   const key = (event: KeyboardEvent) => {
-    const [thing, arrow, border] = [find(selected), ARROWS[event.key], frame.current?.border];
-    if (thing === undefined || border === undefined || frame.current === null) {
+    const [object, arrow, border] = [find(selected), ARROWS[event.key], frame.current?.border];
+    if (object === undefined || border === undefined || frame.current === null) {
       return;
     }
     if (arrow !== undefined) {
       const step = STEP * Math.max(border[2] - border[0], border[3] - border[1]);
       hand.current?.carry(
-        thing.name,
-        inside(frame.current, { x: thing.x + step * arrow.x, y: thing.y + step * arrow.y }),
+        object.name,
+        inside(frame.current, { x: object.x + step * arrow.x, y: object.y + step * arrow.y }),
       );
       hand.current?.drop();
     } else if (event.key === "Delete" || event.key === "Backspace") {
-      void request({ type: "remove_thing", name: thing.name });
+      void request({ type: "remove_object", name: object.name });
     } else {
       return;
     }
@@ -206,7 +206,7 @@ export function World() {
         <NativeSelect
           size="xs"
           variant="unstyled"
-          aria-label="Thing to move"
+          aria-label="Object to move"
           value={selected ?? ""}
           data={[
             { value: "", label: "nothing chosen" },

@@ -22,9 +22,9 @@ function carried() {
 it("asks for one place at a time, and for the newest next", async () => {
   const { asked, carrier } = carried();
   for (const x of [1, 2, 3]) carrier.carry("crate", { x, y: 0 });
-  expect(asked.map(({ message }) => message)).toEqual([{ type: "move_thing", name: "crate", x: 1, y: 0 }]);
+  expect(asked.map(({ message }) => message)).toEqual([{ type: "move_object", name: "crate", x: 1, y: 0 }]);
   await asked[0]?.answer();
-  expect(asked[1]?.message).toEqual({ type: "move_thing", name: "crate", x: 3, y: 0 });
+  expect(asked[1]?.message).toEqual({ type: "move_object", name: "crate", x: 3, y: 0 });
   await asked[1]?.answer();
   expect(asked.length).toBe(2);
 });

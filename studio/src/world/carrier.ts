@@ -1,4 +1,4 @@
-// Carries a thing to where the pointer is: one request at a time, the newest place next, so that a slow run
+// Carries an object to where the pointer is: one request at a time, the newest place next, so that a slow run
 // is asked no more than it can do.
 
 import type { Answer, ToServer } from "../protocol";
@@ -29,7 +29,7 @@ export class Carrier {
     void this.go();
   }
 
-  // Let go: the thing stays at the last place that was not refused.
+  // Let go: the object stays at the last place that was not refused.
   drop(): void {
     this.down = true;
     this.settle();
@@ -49,7 +49,7 @@ export class Carrier {
     while (this.due && this.held !== null) {
       this.due = false;
       const { name, at } = this.held;
-      const { problems } = await this.ask({ type: "move_thing", name, x: at.x, y: at.y });
+      const { problems } = await this.ask({ type: "move_object", name, x: at.x, y: at.y });
       const [problem] = problems ?? [];
       this.refused =
         problem === undefined

@@ -3,7 +3,14 @@
 import type { SceneView } from "../protocol";
 
 export type PlanPoint = { x: number; y: number };
-export type Thing = { name: string; fixed: boolean; x: number; y: number; width: number; height: number };
+export type SceneObject = {
+  name: string;
+  fixed: boolean;
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+};
 
 export type PlanFrame = {
   // pixels in a unit of the world
@@ -44,21 +51,21 @@ export function inside({ border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
 }
 
 // Objects that can be picked, marks first: they lie above solid objects.
-export function things({ boxes, marks }: SceneView): Thing[] {
+export function objects({ boxes, marks }: SceneView): SceneObject[] {
   return [...marks.map((mark) => ({ ...mark, width: 0, height: 0 })), ...[...boxes].reverse()];
 }
 
 // What lies under a pointer.
-export function under(scene: SceneView, frame: PlanFrame, pixel: PlanPoint): Thing | null {
+export function under(scene: SceneView, frame: PlanFrame, pixel: PlanPoint): SceneObject | null {
   const { x, y } = toWorld(frame, pixel);
-  const holds = (thing: Thing) => {
-    if (thing.width === 0) {
-      const at = toPixels(frame, thing);
+  const holds = (object: SceneObject) => {
+    if (object.width === 0) {
+      const at = toPixels(frame, object);
       return Math.hypot(at.x - pixel.x, at.y - pixel.y) <= NEAR;
     }
-    return Math.abs(x - thing.x) <= thing.width / 2 && Math.abs(y - thing.y) <= thing.height / 2;
+    return Math.abs(x - object.x) <= object.width / 2 && Math.abs(y - object.y) <= object.height / 2;
   };
-  return things(scene).find(holds) ?? null;
+  return objects(scene).find(holds) ?? null;
 }
 
 // Steps of an axis: 1, 2 or 5 times a power of ten, none nearer than `least` pixels.

@@ -2,21 +2,21 @@ import { expect, test } from "vitest";
 import type { RunClock } from "../protocol";
 import { fakeDocument } from "./fakes";
 import { labelOf } from "./label";
-import { troubleOf, warningOf } from "./trouble";
+import { problemOf, warningOf } from "./problem";
 
 test("the failure of the run comes before the problems of the document", () => {
   const document = fakeDocument([], [], { problems: [{ what: "axes", fix: "Project", element: "u" }] });
   const clock = { failure: [{ what: "not finite", element: "u" }] } as RunClock;
-  expect(troubleOf("u", { document, clock: null })).toBe("axes\nProject");
-  expect(troubleOf("u", { document, clock })).toBe("not finite");
-  expect(troubleOf("v", { document, clock })).toBe("");
+  expect(problemOf("u", { document, clock: null })).toBe("axes\nProject");
+  expect(problemOf("u", { document, clock })).toBe("not finite");
+  expect(problemOf("v", { document, clock })).toBe("");
 });
 
 test("a warning marks no element as broken", () => {
   const document = fakeDocument([], [], {
     problems: [{ what: "never on", element: "u", severity: "warning" }],
   });
-  expect(troubleOf("u", { document, clock: null })).toBe("");
+  expect(problemOf("u", { document, clock: null })).toBe("");
 });
 
 test("all warnings of an element are said, with what to type, and problems are none of them", () => {

@@ -7,8 +7,8 @@ import { useStudio, type Studio } from "../store";
 
 type Said = Pick<Studio, "document" | "clock">;
 
-export function useTrouble(element: string): string {
-  return useStudio((state) => troubleOf(element, state));
+export function useProblem(element: string): string {
+  return useStudio((state) => problemOf(element, state));
 }
 
 export function useWarning(element: string): string {
@@ -16,7 +16,7 @@ export function useWarning(element: string): string {
 }
 
 // The failure of the run first, then the first problem of the document.
-export function troubleOf(element: string, { document, clock }: Said): string {
+export function problemOf(element: string, { document, clock }: Said): string {
   const own = (problem: ListedProblem) => problem.element === element && !isWarning(problem);
   const problem = clock?.failure.find(own) ?? document?.problems.find(own);
   return problem === undefined ? "" : text(problem);
