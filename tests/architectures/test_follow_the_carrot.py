@@ -37,7 +37,7 @@ def test_the_vehicle_turns_towards_the_carrot():
     np.testing.assert_allclose(wheels[2], [300, 300])  # it is at its carrot
 
 
-def test_the_shorter_turn_is_taken():
+def test_the_vehicle_takes_the_shorter_turn():
     paths = np.asarray([[(-1.0, -0.2), (-1, -0.2)]])
     left, right = Carrot(gain=100).wheels(np.zeros((1, 2)), np.asarray([3.0]), paths)[0]
     assert right > left and right - left == pytest.approx(100 * (2 * np.pi - 3.0 - np.arctan2(0.2, -1)))

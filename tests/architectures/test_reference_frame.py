@@ -50,7 +50,7 @@ def test_both_couplings_give_the_same_values() -> None:
 
 
 @pytest.mark.parametrize("form", ["diagonal", "steered"])
-def test_a_peak_is_at_the_sum_of_place_and_gaze(form: str) -> None:
+def test_a_peak_is_at_the_sum_of_position_and_gaze(form: str) -> None:
     model = reference_frame(form, noise=0.0)
     gaze = model.add(Boost("at", [], amplitude=0.0))
     gaze >> model["gaze"]

@@ -53,7 +53,7 @@ def test_a_missing_package_is_printed_with_the_line_to_type(
 
 
 @pytest.mark.parametrize(("more", "advice"), [([], device.INSTALL), (["gpu:0"], "Choose one with --device")])
-def test_the_line_of_devices_says_how_to_choose_or_to_install_one(
+def test_the_line_of_devices_states_how_to_choose_or_install_one(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, more: list[str], advice: str
 ) -> None:
     names, cpu = ["cpu:0", *more], device.find()

@@ -137,7 +137,7 @@ def test_an_example_can_be_named_instead_of_a_file(words: list[str]) -> None:
 
 
 @pytest.mark.parametrize("command", ["check", "run", "studio", "regimes", "import", "pack"])
-def test_every_command_with_a_model_takes_names(command: str) -> None:
+def test_every_command_with_a_model_accepts_names_of_examples(command: str) -> None:
     """They share one type of argument, which `load` of scripts agrees with."""
     import argparse
 
@@ -168,7 +168,7 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(
         play(address, scene)
 
 
-def test_a_missing_document_is_reported_before_a_port_is_taken(here: Path) -> None:
+def test_a_missing_document_is_reported_before_a_port_is_opened(here: Path) -> None:
     command = [sys.executable, "-m", "deodar", "studio", "nope.json", "--no-browser", "--port", "0"]
     done = subprocess.run(
         command,

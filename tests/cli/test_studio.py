@@ -170,7 +170,7 @@ def test_the_redirect_file_is_removed_when_the_studio_is_terminated(tmp_path: Pa
     assert list((tmp_path / "tmp").glob("deodar-studio-*")) == []
 
 
-def test_a_taken_port_is_reported(
+def test_a_port_in_use_is_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -196,7 +196,9 @@ def test_an_unknown_world_is_reported(capsys: pytest.CaptureFixture[str]) -> Non
     assert "picture" in capsys.readouterr().err
 
 
-def test_a_page_that_was_not_built_says_what_to_type(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_page_is_an_error_that_states_what_to_type(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(app, "STATIC", tmp_path)
     monkeypatch.setenv("DEODAR_STATE", str(tmp_path))
     with studio(tmp_path) as address:

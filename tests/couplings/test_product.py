@@ -20,7 +20,7 @@ def product(axes: list[dd.Axis], factor: list[dd.Axis]) -> dd.Model:
     return model
 
 
-def test_a_factor_with_more_axes_is_refused_with_the_advice_to_change_places() -> None:
+def test_a_factor_with_more_axes_is_refused_with_advice_to_exchange_the_inputs() -> None:
     (found,) = problems(product([X], [X, Y]).document)
     assert "f.output" in str(found) and "it has more axes" in str(found) and "change places" in str(found)
 

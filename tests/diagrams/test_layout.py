@@ -89,7 +89,7 @@ def along(shape):
         pytest.param(big(), id="big"),
     ],
 )
-def test_boxes_are_apart_and_connections_go_round_them(graph):
+def test_boxes_do_not_overlap_and_connections_are_routed_around_them(graph):
     scene, places, found = laid_out(graph)
     shown = list(places.items())
     for k, (one, a) in enumerate(shown):
@@ -121,7 +121,7 @@ def test_boxes_are_apart_and_connections_go_round_them(graph):
                 assert not inside or ident in (wire.source, wire.target), (wire, ident)
 
 
-def test_captions_are_apart_from_boxes_and_from_each_other():
+def test_captions_do_not_overlap_boxes_or_each_other():
     for graph in (big(20, 60), sketch(dd.load(EXAMPLES[0]).document)):
         drawn, found, sizes = paint.lay_out(graph)
         rects = [(x, y, drawn[i].box.width, drawn[i].box.height) for i, (x, y) in found.boxes.items()]

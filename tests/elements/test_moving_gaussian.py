@@ -82,7 +82,7 @@ def test_a_document_keeps_the_waypoints(tmp_path):
     assert dd.load(tmp_path / "moving.json").document == model.document
 
 
-def test_a_document_of_version_2_calls_the_waypoints_a_path():
+def test_a_document_of_version_2_names_the_waypoints_path():
     model = dd.Model("moving")
     model.add(MovingGaussian("s", [X], waypoints=[[0, 1], [10, 5]]))
     data, arrays = files.to_data(model.document)

@@ -93,7 +93,7 @@ def test_trust_of_a_model_does_not_extend_to_inserted_models(stranger: Path) -> 
     assert not stranger.exists()
 
 
-def test_a_model_is_trusted_again_after_what_was_inserted_is_undone(stranger: Path) -> None:
+def test_a_model_is_trusted_again_after_an_insert_is_undone(stranger: Path) -> None:
     own = dd.Model("own")
     own.insert(dd.load(stranger.with_name("strange.json")), "theirs")
     assert not own.trusted

@@ -76,7 +76,7 @@ def test_ports_are_connected_by_name(model: dd.Model) -> None:
     assert not problems(model.document)
 
 
-def test_paths_connect_as_handles_do(model: dd.Model) -> None:
+def test_connect_accepts_paths_and_handles(model: dd.Model) -> None:
     model.connect("a.activation", "b.input")
     assert _edges(model) == [("a", "activation", "b", "input")]
 

@@ -101,7 +101,7 @@ def test_invalid_document_parameters_are_refused(
     assert model.document is before
 
 
-def test_a_missing_document_parameter_says_how_to_create_it() -> None:
+def test_a_missing_document_parameter_is_an_error_that_states_how_to_create_it() -> None:
     model = dd.Model("m")
     model.add(dd.Field("u", [X]))
     with pytest.raises(UnknownName, match=r"model.parameter\(name, value\)"):

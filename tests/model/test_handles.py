@@ -279,7 +279,7 @@ def test_no_parameter_has_the_name_of_an_attribute_of_part_handles(u: Handle, ki
 # ------------------------------------------------------------------------------------------------ one or many
 
 
-def test_set_takes_one_or_many(model: dd.Model) -> None:
+def test_set_accepts_one_or_several_values(model: dd.Model) -> None:
     before = model.document
     model.set({"g.u.tau": 30, "v.tau": 10, "g.u.kernel.0.sigma": 4})
     assert (model.get("g.u.tau"), model.get("v.tau"), model.get("g.u.kernel.0.sigma")) == (30.0, 10.0, 4.0)

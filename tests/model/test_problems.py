@@ -31,7 +31,7 @@ def _line() -> int:
     return sys._getframe(1).f_lineno
 
 
-def test_a_good_model_has_no_problems() -> None:
+def test_a_valid_model_has_no_problems() -> None:
     model = dd.Model("m")
     (
         model.add(dd.GaussianStimulus("left", [X], center=5, amplitude=4))

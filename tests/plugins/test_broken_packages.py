@@ -187,7 +187,7 @@ def test_a_module_of_any_group_that_raises_is_a_line_of_doctor(
     )
 
 
-def test_a_name_of_deodar_that_any_group_takes_is_a_line_of_doctor(
+def test_an_entry_with_a_name_of_deodar_is_a_line_of_doctor(
     install: Install, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for group, (_, _, _, taken) in GROUPS.items():

@@ -38,9 +38,7 @@ def test_a_repetition_on_the_same_machine_has_the_same_bits(
 
 
 @pytest.mark.parametrize(("version", "port"), [(2, "output"), (3, "activation")])
-def test_the_path_of_a_field_alone_means_what_it_meant_when_the_record_was_made(
-    version: int, port: str
-) -> None:
+def test_the_path_of_a_field_has_the_meaning_of_the_version_of_the_record(version: int, port: str) -> None:
     data = dd.simulate(dd.Model(document=document(about(record()))), 5, record=f"u.{port}")
     made = about(data)
     made |= {"record": ["u"], "document": made["document"] | {"deodar": version}}

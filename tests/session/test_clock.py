@@ -149,7 +149,7 @@ def test_a_step_at_its_bound_does_not_grow_and_the_run_is_late() -> None:
     assert meter.step == 4 and meter.factor == pytest.approx(0.5, rel=0.05) and meter.lost > 500
 
 
-def test_a_step_shrinks_again_when_there_is_time() -> None:
+def test_a_lengthened_step_returns_to_dt_when_there_is_time() -> None:
     wall = Wall(session(), cost=0.0025, hiccups={300: 0.0})
     first = wall.live(600, longest=10)
     wall.cost = 0.0001

@@ -81,7 +81,7 @@ def test_the_words_of_the_optimiser_are_found_in_physics(tmp_path: Path) -> None
     assert root.is_dir()
 
 
-def test_the_command_prints_every_limit_and_says_which_is_broken(
+def test_the_command_prints_every_limit_and_marks_those_exceeded(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     figures = [

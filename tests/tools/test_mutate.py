@@ -114,6 +114,6 @@ def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None
     ]
 
 
-def test_a_mutant_that_takes_too_long_survives(tmp_path: Path) -> None:
+def test_a_mutant_that_times_out_survives(tmp_path: Path) -> None:
     (tmp_path / "test_slow.py").write_text("import time\ndef test_slow(): time.sleep(600)\n")
     assert mutate.run(tmp_path, ["test_slow.py::test_slow"], 0.5) == ("timed out", "")

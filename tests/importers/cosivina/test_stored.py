@@ -59,7 +59,7 @@ def test_each_row_is_stored_when_cosivina_stores_it(name, size, first, tmp_path)
     assert np.isnan(data.isel(time=0)).all() and not np.isnan(data.isel(time=-1)).all()
 
 
-def test_rows_that_elements_read_begin_with_zero_and_the_report_says_so(tmp_path):
+def test_rows_that_elements_read_begin_with_zero_which_the_report_states(tmp_path):
     readers = [("v", "NeuralField", {"size": [4, 4], "tau": 5, "h": 0, "beta": 4}, [("past", "output")])]
     done = read(written(tmp_path, [element(*part) for part in parts_of("running", ROW, readers)]))
     assert [(line.where, line.verdict) for line in done.report.losses] == [("past", "approximated")]

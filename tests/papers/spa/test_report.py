@@ -329,7 +329,7 @@ def test_every_sentence_has_a_number_and_all_figures_are_drawn():
     assert json.loads(results(report.claims, {"quick": False}))["settings"] == {"quick": False}
 
 
-def test_a_part_of_the_runs_gives_a_part_of_the_report():
+def test_a_report_of_some_runs_contains_their_claims():
     rows = {k: r for k, r in all_rows(True).items() if k.startswith("z/")}
     report = spa.report(rows, True)
     assert set(report.figures) == {"figure-7-success", "figure-8-divergence"}

@@ -152,7 +152,7 @@ def test_a_path_along_a_wall_grazes_it_unless_it_points_into_it(inward: float, t
 
 
 @pytest.mark.parametrize(("gap", "touches"), [(2e-6, True), (1e-3, False)])
-def test_a_disc_touches_what_is_closer_than_rounding(gap: float, touches: bool) -> None:
+def test_a_disc_touches_a_box_within_the_rounding_error(gap: float, touches: bool) -> None:
     wall = np.asarray([(0, -10, 1, 10)], np.float32)
     start, steps = np.asarray([[-RADIUS - gap, 0.0]], np.float32), np.asarray([[[1e-4, 0.0]]], np.float32)
     end, touched = mover(False)(start, steps, wall, np.ones(1, bool))
