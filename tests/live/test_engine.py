@@ -51,7 +51,7 @@ class Driven:
             self.news.clear()
 
     def idle(self, condition: Callable[[], Any]) -> None:
-        """Wait without wanting a shot."""
+        """Wait without requesting a state."""
         end = time.monotonic() + WAIT
         while not condition():
             assert time.monotonic() < end, "it never came"
@@ -69,10 +69,10 @@ def test_a_snapshot_after_steps_equals_that_of_a_script(driven: Driven) -> None:
     engine, place = driven.engine, (driven.u, "activation")
     driven.do(lambda: engine.show([place], []))
     driven.do(lambda: engine.step(123))
-    driven.until(lambda: engine.shot.tick == 123 and place in engine.shot.arrays)
+    driven.until(lambda: engine.published.tick == 123 and place in engine.published.arrays)
     script = dd.Session(driven.model)
     script.step(123)
-    np.testing.assert_array_equal(engine.shot.arrays[place], script.read("u.activation"))
+    np.testing.assert_array_equal(engine.published.arrays[place], script.read("u.activation"))
     assert not engine.running
 
 
@@ -81,18 +81,18 @@ def test_a_port_requested_before_a_session_exists_is_shown(driven: Driven) -> No
     driven.do(lambda: engine.load(None))
     driven.do(lambda: engine.show([place], [TraceRequest(place)]))
     driven.do(lambda: engine.load(dd.Session(driven.model)))
-    driven.until(lambda: place in engine.shot.arrays)
+    driven.until(lambda: place in engine.published.arrays)
 
 
 def test_an_injected_input_is_part_of_the_input(driven: Driven) -> None:
     engine, place = driven.engine, (driven.u, "input")
     driven.do(lambda: engine.show([place], []))
-    driven.until(lambda: place in engine.shot.arrays)
-    before = engine.shot.arrays[place]
+    driven.until(lambda: place in engine.published.arrays)
+    before = engine.published.arrays[place]
     driven.do(lambda: engine.inject(Injection(driven.u, np.full(101, 2.5))))
-    driven.until(lambda: np.allclose(engine.shot.arrays[place], before + 2.5))
+    driven.until(lambda: np.allclose(engine.published.arrays[place], before + 2.5))
     driven.do(lambda: engine.inject(None))
-    driven.until(lambda: np.allclose(engine.shot.arrays[place], before))
+    driven.until(lambda: np.allclose(engine.published.arrays[place], before))
 
 
 def test_steps_wait_for_a_session(driven: Driven) -> None:
@@ -100,7 +100,7 @@ def test_steps_wait_for_a_session(driven: Driven) -> None:
     driven.do(lambda: engine.load(None))
     driven.do(lambda: engine.step(7))
     driven.do(lambda: engine.load(dd.Session(driven.model)))
-    driven.until(lambda: engine.shot.tick == 7)
+    driven.until(lambda: engine.published.tick == 7)
 
 
 def test_play_waits_for_a_session(driven: Driven) -> None:
@@ -108,7 +108,7 @@ def test_play_waits_for_a_session(driven: Driven) -> None:
     driven.do(lambda: engine.load(None))
     driven.do(lambda: engine.play(True))
     driven.do(lambda: engine.load(dd.Session(driven.model)))
-    driven.until(lambda: engine.shot.tick > 5)
+    driven.until(lambda: engine.published.tick > 5)
     driven.do(lambda: engine.load(dd.Session(driven.model)))
     assert not engine.running, "another document is paused at first"
 
@@ -130,7 +130,7 @@ def test_speed_none_is_faster_than_real_time(driven: Driven) -> None:
     engine = driven.engine
     driven.do(lambda: engine.pace.go(None))
     driven.do(lambda: engine.play(True))
-    driven.until(lambda: engine.shot.tick > 5000)
+    driven.until(lambda: engine.published.tick > 5000)
     assert engine.pace.speed is None
 
 
@@ -144,14 +144,14 @@ def test_a_request_without_a_session_is_an_error(driven: Driven) -> None:
 
 def test_without_requested_ports_no_state_is_published(driven: Driven) -> None:
     engine = driven.engine
-    driven.until(lambda: engine.shot.number > 0)
+    driven.until(lambda: engine.published.number > 0)
     driven.do(lambda: engine.play(True))
     driven.idle(lambda: engine.session is not None and engine.session.tick > 10)
-    number, tick = engine.shot.number, driven.do(lambda: engine.session.tick)  # type: ignore[union-attr]
+    number, tick = engine.published.number, driven.do(lambda: engine.session.tick)  # type: ignore[union-attr]
     driven.idle(lambda: engine.session is not None and engine.session.tick > tick + 100)
-    assert engine.shot.number <= number + 1
+    assert engine.published.number <= number + 1
     engine.want()
-    driven.until(lambda: engine.shot.number > number + 1)
+    driven.until(lambda: engine.published.number > number + 1)
 
 
 def test_traces_contain_times_and_values_and_are_cleared_by_a_reset(driven: Driven) -> None:
@@ -165,7 +165,7 @@ def test_traces_contain_times_and_values_and_are_cleared_by_a_reset(driven: Driv
         lambda: all(request in engine.traces and engine.traces[request].count for request in requests)
     )
     driven.do(lambda: engine.step(200))
-    driven.until(lambda: engine.shot.tick == 200)
+    driven.until(lambda: engine.published.tick == 200)
     samples = {w: engine.traces[w].since(0) for w in requests}
     top, mean, at = (samples[w] for w in requests)
     assert top[-1, 0] == 200 and (np.diff(top[:, 0]) > 0).all() and len(top) > 4
@@ -180,14 +180,14 @@ def test_a_live_change_acts_at_once_and_a_structural_one_when_it_is_compiled(dri
     assert driven.do(lambda: engine.adopt(m, m.document)) == "live"
     assert driven.do(lambda: engine.session.get("u.resting_level")) == -3  # type: ignore[union-attr]
     driven.do(lambda: engine.play(True))
-    driven.until(lambda: engine.shot.tick > 20)
+    driven.until(lambda: engine.published.tick > 20)
     m.set("u.kernel", [dd.Gaussian(1, 5), dd.Gaussian(-0.5, 9)])
     assert driven.do(lambda: engine.adopt(m, m.document)) == "recompile"
     m.set("u.tau", 30)
     driven.do(lambda: engine.adopt(m, m.document))
     driven.until(lambda: engine.session is not None and engine.session.document is m.document)
-    tick = engine.shot.tick
-    driven.until(lambda: engine.shot.tick > tick + 20)
+    tick = engine.published.tick
+    driven.until(lambda: engine.published.tick > tick + 20)
     assert engine.running and not engine.failure[0]
 
 

@@ -30,7 +30,7 @@ def test_a_reader_of_many_ports_agrees_with_single_readings() -> None:
     places = [
         (h.id, port) for h in model for port in ("activation", "output", "input") if hasattr(h.element, "tau")
     ]
-    seen = session.look(port_reader(session.program, places), places)
+    seen = session.read_ports(port_reader(session.program, places), places)
     assert set(seen) == set(places)
     for h in model:
         for port in ("activation", "output", "input"):
@@ -51,7 +51,7 @@ def test_unknown_ports_are_omitted() -> None:
     session = dd.Session(model)
     places = [("feedbeef", "activation"), (model["u0"].id, "nonsense")]
     seen = port_reader(session.program, places)
-    assert seen.ports == () and session.look(seen, places) == {}
+    assert seen.ports == () and session.read_ports(seen, places) == {}
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.5])

@@ -216,7 +216,7 @@ class _Sampler:
         session = self.session
         if self.reader.program is not session.program:  # an action compiled another one
             self.reader = port_reader(session.program, self.places)
-        arrays = session.look(self.reader, self.places)
+        arrays = session.read_ports(self.reader, self.places)
         self._require_finite(arrays)
         sensed = self._sensed()
         values = {

@@ -1,7 +1,7 @@
 """A session driven by the wall clock, in its own thread.
 
 Only this thread accesses the session. Other threads pass functions to it (`call`), which it runs between two
-exchanges, at most `EXCHANGE` apart; they read the last published `shot`, which never changes. Compilation
+exchanges, at most `EXCHANGE` apart; they read the state `published` last, which never changes. Compilation
 runs in a second thread while the session continues; the engine switches to the new program between two
 exchanges, with the states of all elements that remain.
 """
@@ -42,7 +42,7 @@ MOST_LOOKS = 8
 
 
 @dc.dataclass(frozen=True)
-class Shot:
+class PublishedState:
     """Published state of the run at one moment."""
 
     number: int
@@ -63,7 +63,7 @@ class Engine:
     """Runs a session and publishes its state.
 
     Attributes:
-        shot: the state published last.
+        published: the state published last.
         running: whether the clock advances the session.
         failure: why the run stopped, and the paths of the elements concerned.
         busy: a phrase for the compilation in progress; empty: none.
@@ -93,7 +93,7 @@ class Engine:
         self.session: Session | None = None
         self.injection: Injection | None = None
         self.traces: dict[TraceRequest, Trace] = {}
-        self.shot = Shot(0, 0.0, 0, {})
+        self.published = PublishedState(0, 0.0, 0, {})
         self.running = False
         self.failure: tuple[tuple[Problem, ...], tuple[str, ...]] = ((), ())
         self.busy = ""
@@ -112,7 +112,7 @@ class Engine:
         return future
 
     def want(self) -> None:
-        """Request another shot; without a request none is made."""
+        """Request another state; none is published without a request."""
         self._wanted = True
         self._wake.set()
 
@@ -222,7 +222,7 @@ class Engine:
     def inject(self, injection: Injection | None) -> None:
         """Inject an external input into the running model; None releases it."""
         if injection is not None and self.session is not None:
-            self.session.require_push(injection.element)
+            self.session.require_injection(injection.element)
         self.injection = injection
         self._stale = True
 
@@ -302,7 +302,7 @@ class Engine:
         if not self.traces or sample is None or sample.program is not session.program:
             return
         arrays = self._with_injection(
-            session.look(sample, {request.place for request in self.traces}), session
+            session.read_ports(sample, {request.place for request in self.traces}), session
         )
         for request, trace in self.traces.items():
             if request.place in arrays:
@@ -326,19 +326,19 @@ class Engine:
         return {**arrays, place: arrays[place] + self.injection.amount} if place in arrays else arrays
 
     def _publish(self) -> None:
-        """Publish a shot if the state changed, one was requested, and the last one is older than FRAME."""
+        """Publish the state if it changed, one was requested, and the last one is older than FRAME."""
         now = time.perf_counter()
         if not (self._stale and self._wanted) or now - self._shown < FRAME:
             return
-        # before the shot is published, because its readers may request the next one at once
+        # before the state is published, because its readers may request the next one at once
         self._stale, self._wanted = False, False
         session, seen = self.session, self._reader
         arrays: Mapping[PortKey, np.ndarray] = {}
         if session is not None and seen is not None and seen.program is session.program:
-            arrays = self._with_injection(session.look(seen, self._places), session)
+            arrays = self._with_injection(session.read_ports(seen, self._places), session)
         self.track.follow(session)
         moment = (session.time, session.tick) if session is not None else (0.0, 0)
-        self.shot = Shot(self.shot.number + 1, *moment, arrays)
+        self.published = PublishedState(self.published.number + 1, *moment, arrays)
         self._shown = now
         self._changed()
 

@@ -55,7 +55,7 @@ class PageConnection:
         self._answers: deque[Answer | Folder] = deque()
         self._exchange = 0
         self._ready = True
-        self._shot = -1
+        self._published = -1
         self._known: dict[str, Any] = {}
         self._session, self._version = -1, -1
         self._malformed = 0
@@ -157,9 +157,9 @@ class PageConnection:
             # an answer is never sent before its change
             if (self._session, self._version) == (hub.project.session, hub.project.version):
                 break
-        shot = engine.shot
-        sent = shot.number != self._shot
-        self._shot = shot.number
+        published = engine.published
+        sent = published.number != self._published
+        self._published = published.number
         for stream in list(self.page.streams.values()):
             news = stream.news(engine.session)
             if news is not None:
@@ -180,7 +180,7 @@ class PageConnection:
             self._ready = False
             await self._text(msgspec.structs.replace(clock, frame=self._exchange))
         else:
-            # the last shot contained nothing for this page, which still waits for one that does
+            # the last state contained nothing for this page, which still waits for one that does
             engine.want()
 
     async def _news_of_state(self) -> list[Message]:

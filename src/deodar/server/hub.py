@@ -80,13 +80,13 @@ class Hub:
 
     def clock(self, frame: int) -> RunClock:
         """Return the time and status of the run."""
-        engine, shot, session = self.engine, self.engine.shot, self.engine.session
+        engine, published, session = self.engine, self.engine.published, self.engine.session
         injection, meter = engine.injection, Meter() if session is None else engine.pace.meter(session)
         return RunClock(
             frame=frame,
             running=engine.running,
-            time=shot.time,
-            tick=shot.tick,
+            time=published.time,
+            tick=published.tick,
             dt=1.0 if session is None else session.dt,
             seed=0 if session is None else session.seed,
             speed=engine.pace.speed,

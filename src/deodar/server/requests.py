@@ -270,7 +270,7 @@ async def _push(hub: Hub, page: Page, m: to_server.PushInput) -> None:
     entry = None if session is None else session.document.by_id().get(m.element)
     if session is None or entry is None:
         raise DocumentError("the running model has no such element", where=m.element)
-    session.require_push(m.element)
+    session.require_injection(m.element)
     injection = Injection(
         m.element, _blob(session.program.axes(session.program.port(m.element, entry.element.ports()[0])), m)
     )

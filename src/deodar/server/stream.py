@@ -44,16 +44,16 @@ class Stream:
         """Return the frame to send, or None if there is nothing new."""
         if not isinstance(self._said, Announced):
             return None
-        shot = engine.shot
+        published = engine.published
         if self.request is not None:
-            return self._samples(engine.traces.get(self.request), shot.number)
-        array = shot.arrays.get(self.place)
+            return self._samples(engine.traces.get(self.request), published.number)
+        array = published.arrays.get(self.place)
         if array is None:
             return None
         values = thin(fold(array, self._axes), self.most, self._said.channels)
         if list(values.shape) != self._said.shape:
-            return None  # a shot of the previous program
-        return frames.pack(self.number, shot.number, shot.time, values)
+            return None  # a state of the previous program
+        return frames.pack(self.number, published.number, published.time, values)
 
     def _samples(self, trace: Trace | None, number: int) -> bytes | None:
         if trace is not self._trace:

@@ -215,7 +215,7 @@ class Run:
         )
         return [np.asarray(a) for a in seen]
 
-    def look(self, reader: Compiled) -> Sequence[np.ndarray]:
+    def read_arrays(self, reader: Compiled) -> Sequence[np.ndarray]:
         """Return the values of a compiled reader in the present state."""
         self.sense()
         return self.program.call(

@@ -157,7 +157,7 @@ class Session:
         element's input, with the same noise.
         """
         entry = find.element(self.document, path_of(path))
-        self.require_push(entry.id)
+        self.require_injection(entry.id)
         self.journal.append(Change(self.tick, f"push {entry.path}", (FrozenArray(amount), n)))
         g, r = self._run.program.plan.row[entry.id]
         for _ in range(n):
@@ -183,7 +183,7 @@ class Session:
             self._coming_dt = None
         return taken
 
-    def require_push(self, ident: str) -> None:
+    def require_injection(self, ident: str) -> None:
         """Raise an error for an element that accepts no external input.
 
         Raises:
@@ -198,14 +198,16 @@ class Session:
             raise ParameterError(
                 "takes no input from outside",
                 where=entry.path,
-                fix="Push a field or node that runs at every tick",
+                fix="Inject into a field or node that runs at every tick",
             )
 
     # ----------------------------------------------------------------------------------- reading and changing
 
-    def look(self, reader: PortReader, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
+    def read_ports(self, reader: PortReader, places: Iterable[PortKey]) -> Mapping[PortKey, np.ndarray]:
         """Read many ports now, with a `PortReader` that was compiled for the running program."""
-        return reader.arrays(self._run.look(reader.reader) if reader.reader is not None else [], places)
+        return reader.arrays(
+            self._run.read_arrays(reader.reader) if reader.reader is not None else [], places
+        )
 
     def require(self, document: Document) -> None:
         """Raise an error for a document that the session cannot continue with.
