@@ -7,7 +7,7 @@ from deodar.compiler.plans import CASES, Case, measure
 
 def test_every_strategy_is_measured_and_the_one_with_the_lowest_estimate_is_chosen() -> None:
     found = list(measure(Case((160,), sigmas=(2.0,))))
-    assert {m.way for m in found} == {"taps", "waves", "matrices"}
+    assert {m.method for m in found} == {"taps", "waves", "matrices"}
     assert [m.chosen for m in found] == [True, False, False]
     assert [m.predicted_us for m in found] == sorted(m.predicted_us for m in found)
     assert all(0 < m.measured_us < 1e4 for m in found)

@@ -345,7 +345,7 @@ def test_spectral_transforms_are_shared_between_coupled_fields() -> None:
         for k in range(4):
             ring[k] >> Convolve([dd.Gaussian(1, 3, normalized=True)]) >> dd.Gain(0.5) >> ring[(k + 1) % 4]
         made = plan(model.document)
-        shares = {type(g.like.element).__name__ for g in made.groups if g.way.shared}
+        shares = {type(g.like.element).__name__ for g in made.groups if g.strategy.shared}
         assert shares == {"Field", "Convolve", "Gain"} and "waves shared" in made.describe()
         assert executable(model, precision="float64").plan.describe().count("waves") == 0, (
             "double precision is exact"

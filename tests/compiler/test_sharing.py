@@ -12,7 +12,7 @@ import pytest
 import deodar as dd
 from deodar.compiler.executable import executable
 from deodar.compiler.plan import plan
-from deodar.compiler.ways import role
+from deodar.compiler.strategies import role
 from deodar.errors import ModelError
 from deodar.model.resolve import resolve
 
@@ -94,7 +94,7 @@ def roles(model: dd.Model) -> dict[str, str]:
 
 def shares(model: dd.Model, path: str) -> bool:
     groups = plan(model.document).groups
-    return next(bool(g.way.shared) for g in groups for n in g.nodes if n.path == path)
+    return next(bool(g.strategy.shared) for g in groups for n in g.nodes if n.path == path)
 
 
 def test_roles_follow_from_declarations() -> None:

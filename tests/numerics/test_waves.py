@@ -81,7 +81,7 @@ def test_taps_agree_with_matrices(boundary: str) -> None:
         dd.Gaussian(7, 3.0, boundary=[boundary]),
         dd.Gaussian(-4, 6.0, boundary=[boundary], normalized=True),
     ]
-    assert [c.way for c in interaction.choices(kernels, axes).values()] == ["taps"]
+    assert [c.method for c in interaction.choices(kernels, axes).values()] == ["taps"]
     y = np.random.default_rng(1).random(200)
     total = np.abs(applied(kernels, axes, np.ones(200), False)).max()
     assert np.abs(applied(kernels, axes, y, True) - applied(kernels, axes, y, False)).max() < 1e-5 * total
@@ -99,17 +99,17 @@ def test_the_strategy_with_the_lowest_cost_is_chosen() -> None:
         tuple(Axis(a, 0, 49, 50, periodic=True) for a in "xy"),
         tuple(Axis(a, 0, 399, 400, periodic=True) for a in "xy"),
     )
-    assert choose(line, ("zero",), ((3.0, 6.0),), 2).way == "matrices", "a small field takes its matrix"
+    assert choose(line, ("zero",), ((3.0, 6.0),), 2).method == "matrices", "a small field takes its matrix"
     longer = (Axis("x", 0, 499, 500),)
-    assert choose(longer, ("zero",), ((3.0, 12.0),), 2).way == "taps"
-    assert choose(longer, ("zero",), ((30.0, 90.0),), 2).way == "waves", (
+    assert choose(longer, ("zero",), ((3.0, 12.0),), 2).method == "taps"
+    assert choose(longer, ("zero",), ((30.0, 90.0),), 2).method == "waves", (
         "wide kernels have many taps and few waves"
     )
-    assert choose(square, ("periodic",) * 2, ((3.0, 6.0),) * 2, 2).way == "waves"
-    assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).way == "fourier", (
+    assert choose(square, ("periodic",) * 2, ((3.0, 6.0),) * 2, 2).method == "waves"
+    assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).method == "fourier", (
         "narrow kernels need many waves"
     )
-    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).way == "matrices", (
+    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).method == "matrices", (
         "one narrow kernel gains nothing"
     )
 

@@ -100,29 +100,29 @@ def test_a_track_follows_the_bodies_and_is_cleared_by_a_reset() -> None:
     for _ in range(30):
         track.follow(session)
         session.step()
-    places, way = np.asarray(track.way.places), track.way
+    places, way = np.asarray(track.trail.places), track.trail
     assert track.scene is not None and np.allclose(places[0], (0.2, 1.0))
     assert (np.hypot(*np.diff(places, axis=0).T) >= FINE * 3).all() and len(places) > 10
     track.follow(session)
     track.follow(session)
-    assert track.way is way and len(way.places) - len(places) <= 1, (
+    assert track.trail is way and len(way.places) - len(places) <= 1, (
         "a scene without motion is not recorded again"
     )
     session.reset()
     track.follow(session)
-    assert track.way is not way and np.allclose(track.way.places, [(0.2, 1.0)])
+    assert track.trail is not way and np.allclose(track.trail.places, [(0.2, 1.0)])
     session.world = Arena({**OPEN, "start": [1.5, 1.0]})
     track.follow(session)
-    assert np.allclose(track.way.places, [(1.5, 1.0)])
+    assert np.allclose(track.trail.places, [(1.5, 1.0)])
     track.follow(None)
-    assert track.scene is None and track.way.places == []
+    assert track.scene is None and track.trail.places == []
 
 
 def test_a_long_track_drops_every_second_point() -> None:
     session, track = dd.Session(driving(100), world=Arena(OPEN)), Track()
     track.follow(session)
-    track.way.fine, whole = 1e-9, track.way
-    track.way.places.extend([(0.2 + 1e-6 * k, 1.0) for k in range(1, MOST)])
+    track.trail.fine, whole = 1e-9, track.trail
+    track.trail.places.extend([(0.2 + 1e-6 * k, 1.0) for k in range(1, MOST)])
     session.step(2)
     track.follow(session)
-    assert track.way is not whole and len(track.way.places) == MOST // 2 + 1 and track.way.fine == 2e-9
+    assert track.trail is not whole and len(track.trail.places) == MOST // 2 + 1 and track.trail.fine == 2e-9

@@ -76,7 +76,7 @@ def _plans(as_json: bool) -> int:
         return 0
     table = Table(
         "field and kernels",
-        "way",
+        "method",
         "predicted us",
         "measured us",
         "",
@@ -85,7 +85,7 @@ def _plans(as_json: bool) -> int:
     for m in found:
         table.add_row(
             str(m.case),
-            m.way,
+            m.method,
             f"{m.predicted_us:.1f}",
             f"{m.measured_us:.1f}",
             "*" if m.chosen else "",

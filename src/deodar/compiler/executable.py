@@ -27,7 +27,7 @@ from deodar.compiler.device import Device
 from deodar.compiler.functions import Constants
 from deodar.compiler.layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
-from deodar.compiler.plan import Leaf, Plan, plan, ways_of
+from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
 from deodar.compiler.program import Chunk, Port, Program, precision_context
 from deodar.element import Arrays
 from deodar.errors import ModelError, ParameterError, Untrusted
@@ -468,10 +468,10 @@ def executable(
     lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
-    ways = () if exact else tuple(ways_of(doc, lifted, batch.size, body is not None).items())
+    strategies = () if exact else tuple(strategies_of(doc, lifted, batch.size, body is not None).items())
     key = (
         signature(doc),
-        ways,
+        strategies,
         outside,
         precision,
         exact,

@@ -13,7 +13,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 import numpy as np
 
 from deodar.compiler.sharing import shared
-from deodar.compiler.ways import EXACT, Strategy, ways
+from deodar.compiler.strategies import EXACT, Strategy, strategies
 from deodar.errors import ModelError
 from deodar.leaves import bind, leaves, resting, structure
 from deodar.model.document import Document
@@ -41,7 +41,7 @@ class RowGroup:
         cost: for each leaf, `live` or `rebuild`.
         still: whether its outputs are constant during a chunk.
         noise: axes over which a row draws noise, or None.
-        way: the strategy for its kernels.
+        strategy: the strategy for its kernels.
     """
 
     nodes: list[Node]
@@ -50,7 +50,7 @@ class RowGroup:
     cost: dict[str, str]
     still: bool
     noise: Axes | None
-    way: Strategy = EXACT
+    strategy: Strategy = EXACT
     exact: frozenset[str] = frozenset()
 
     @property
@@ -126,8 +126,8 @@ class Plan:
                 f" {g.like.every}{' still' if g.still else ''}: {names}"
             )
             lines += [
-                f"  {key}: {choice.way}{' shared' if key == g.way.shared else ''}"
-                for key, choice in g.way.choices
+                f"  {key}: {choice.method}{' shared' if key == g.strategy.shared else ''}"
+                for key, choice in g.strategy.choices
             ]
         lines += [f"call: {c.role} of group {c.group} at t{' + dt' if c.instant else ''}" for c in self.calls]
         return "\n".join(lines)
@@ -169,14 +169,14 @@ class Plan:
         return [c for c in self.calls if c.role == "output" and c.instant == 0 and c.group in want]
 
 
-def by_structure(node: Node, still: bool, neutral: frozenset[str], way: Strategy) -> Hashable:
-    """Rows that share one group: equal level, rate, structure, axes and way.
+def by_structure(node: Node, still: bool, neutral: frozenset[str], strategy: Strategy) -> Hashable:
+    """Rows that share one group: equal level, rate, structure, axes and strategy.
 
     An element with an external input is alone in its group: a world feeds it by its id.
     """
     alone = node.id if node.element.external else ""
     ins, outs = tuple(sorted(node.ins.items())), tuple(node.outs.items())
-    return (node.level, node.every, still, structure(node.element, neutral), ins, outs, way, alone)
+    return (node.level, node.every, still, structure(node.element, neutral), ins, outs, strategy, alone)
 
 
 def plan(
@@ -206,7 +206,7 @@ def plan(
         n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes
     }
     still = _still(nodes, embodied)
-    found = ways(nodes, still, {n.id for n in nodes} if exact else _swept(nodes, lifted), copies)
+    found = strategies(nodes, still, {n.id for n in nodes} if exact else _swept(nodes, lifted), copies)
     nodes = shared(nodes, found)
     groups, row = _groups(nodes, neutral, still, found, partition or by_structure)
     size = _place(groups, neutral)
@@ -222,15 +222,15 @@ def plan(
     return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
 
 
-def ways_of(
+def strategies_of(
     doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False
 ) -> dict[str, Strategy]:
     """Return the strategy of each element for its kernels, if not matrices."""
     nodes, problems = resolve(doc)
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
         return {}
-    found = ways(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies)
-    return {i: way for i, way in sorted(found.items()) if way != EXACT}
+    found = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies)
+    return {i: strategy for i, strategy in sorted(found.items()) if strategy != EXACT}
 
 
 def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:

@@ -74,12 +74,12 @@ CASES = (
 
 @dc.dataclass(frozen=True)
 class Measured:
-    """One way of one case: what a step of all copies should cost and costs, in microseconds; `chosen`:
+    """One method of one case: what a step of all copies should cost and costs, in microseconds; `chosen`:
     whether it is the one that is taken.
     """
 
     case: Case
-    way: str
+    method: str
     predicted_us: float
     measured_us: float
     chosen: bool
@@ -93,7 +93,7 @@ def measure(case: Case) -> Iterator[Measured]:
     for k, choice in enumerate(sorted(found, key=lambda c: c.nanoseconds)):
         yield Measured(
             case,
-            choice.way,
+            choice.method,
             choice.nanoseconds * case.copies / 1000,
             1e6 * _seconds(case, key, choice),
             k == 0,
@@ -102,7 +102,7 @@ def measure(case: Case) -> Iterator[Measured]:
 
 def _seconds(case: Case, key: str, choice: Choice) -> float:
     """Return the CPU time in seconds of one application to all copies."""
-    axes, kernels, chosen = case.axes, case.kernels, {} if choice.way == "matrices" else {key: choice}
+    axes, kernels, chosen = case.axes, case.kernels, {} if choice.method == "matrices" else {key: choice}
     weights = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, np.dtype("float32"), chosen))
 
     def run(weights: interaction.Mixture, y: Array, n: Array) -> Array:

@@ -115,7 +115,7 @@ class Program:
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
-        self.functions = [functions(g.like, g.way) for g in plan.groups]
+        self.functions = [functions(g.like, g.strategy) for g in plan.groups]
 
     # --------------------------------------------------------------------------------------- prepare and init
 

@@ -1,10 +1,10 @@
 """Sums in Fourier space: the ports, reads and functions of nodes that share waves.
 
-`ways` decides which nodes share. `shared` adds ports to them: what ends in `WAVES` holds the coefficients of
-a port, and what ends in `REST` the part of an input that does not come as coefficients. `functions` wraps the
-elements, which see neither: a `SharingSource` gives its output as coefficients and takes those that arrive
-into the convolution of its dynamics, and a `SharingFilter` applies its own function to coefficients, where a
-convolution is a product.
+`strategies` decides which nodes share. `shared` adds ports to them: what ends in `WAVES` holds the
+coefficients of a port, and what ends in `REST` the part of an input that does not come as coefficients.
+`functions` wraps the elements, which see neither: a `SharingSource` gives its output as coefficients and
+takes those that arrive into the convolution of its dynamics, and a `SharingFilter` applies its own function
+to coefficients, where a convolution is a product.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from deodar.compiler.functions import Functions, StepArguments, run_advance, run_output
-from deodar.compiler.ways import EXACT, Strategy, acted_axes, role
+from deodar.compiler.strategies import EXACT, Strategy, acted_axes, role
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
 from deodar.model.resolve import Node, Slot
@@ -70,8 +70,10 @@ def shared(nodes: Sequence[Node], found: dict[str, Strategy]) -> list[Node]:
 def _with_waves(
     n: Node, by: Mapping[str, Node], found: Mapping[str, Strategy], smooth: Collection[str]
 ) -> Node:
-    way = found[n.id]
-    waves = tuple(w.axis(a) for w, a in zip(dict(way.choices)[way.shared].waves, acted_axes(n), strict=True))
+    strategy = found[n.id]
+    waves = tuple(
+        w.axis(a) for w, a in zip(dict(strategy.choices)[strategy.shared].waves, acted_axes(n), strict=True)
+    )
     through = role(n) == "filter"
 
     def comes(slot: Slot) -> bool:
@@ -82,7 +84,7 @@ def _with_waves(
             return through
         # beyond a border there is nothing; as waves what a kernel has spread over it would still be there for
         # the next
-        return slot[0] in smooth and not (through and "zero" in way.shared)
+        return slot[0] in smooth and not (through and "zero" in strategy.shared)
 
     arriving = [slot for slot in n.reads["input"] if comes(slot)]
     staying = [slot for slot in n.reads["input"] if not comes(slot)]
@@ -122,22 +124,22 @@ def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
 # ------------------------------------------------------------------------------------------ wrapped functions
 
 
-def functions(node: Node, way: Strategy) -> Functions:
+def functions(node: Node, strategy: Strategy) -> Functions:
     """Return the functions of a group whose rows have the structure of the node."""
-    if not way.shared:
-        return Functions(node, dict(way.choices))
-    return (SharingSource if role(node) == "source" else SharingFilter)(node, way)
+    if not strategy.shared:
+        return Functions(node, dict(strategy.choices))
+    return (SharingSource if role(node) == "source" else SharingFilter)(node, strategy)
 
 
 class _Sharing(Functions):
-    def __init__(self, node: Node, way: Strategy) -> None:
-        super().__init__(node, dict(way.choices))
-        self.key, self.waves = way.shared, dict(way.choices)[way.shared].waves
+    def __init__(self, node: Node, strategy: Strategy) -> None:
+        super().__init__(node, dict(strategy.choices))
+        self.key, self.waves = strategy.shared, dict(strategy.choices)[strategy.shared].waves
 
 
 class SharingSource(_Sharing):
     """Elements whose dynamics convolve their output: it is transformed once for all readers, and what arrives
-    as waves is added before the one way back.
+    as waves is added before the one transform back.
     """
 
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:

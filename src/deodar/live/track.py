@@ -41,7 +41,7 @@ class Track:
 
     def __init__(self) -> None:
         self.scene: Scene | None = None
-        self.way = Trail()
+        self.trail = Trail()
         self._of: tuple[Session, World | None] | None = None
         self._time = 0.0
 
@@ -49,7 +49,7 @@ class Track:
         """Store the present scene, and add the positions of the bodies to the path."""
         scene = None if session is None else session.scene()
         if session is None or scene is None:
-            self.scene, self.way, self._of = None, Trail(), None
+            self.scene, self.trail, self._of = None, Trail(), None
             return
         left, low, right, high = scene.border
         now: Positions = tuple(v for body in scene.bodies for v in body.center)
@@ -57,16 +57,16 @@ class Track:
         if (
             not known
             or session.time < self._time
-            or (self.way.places and len(self.way.places[-1]) != len(now))
+            or (self.trail.places and len(self.trail.places[-1]) != len(now))
         ):
-            self.way = Trail(fine=FINE * max(right - left, high - low))
+            self.trail = Trail(fine=FINE * max(right - left, high - low))
         self._of, self._time = (session, session.world), session.time
-        last = self.way.places[-1] if self.way.places else None
+        last = self.trail.places[-1] if self.trail.places else None
         if last is None or any(
-            math.hypot(now[k] - last[k], now[k + 1] - last[k + 1]) >= self.way.fine
+            math.hypot(now[k] - last[k], now[k + 1] - last[k + 1]) >= self.trail.fine
             for k in range(0, len(now), 2)
         ):
-            if len(self.way.places) >= MOST:
-                self.way = Trail(self.way.places[::2], 2 * self.way.fine)
-            self.way.places.append(now)
+            if len(self.trail.places) >= MOST:
+                self.trail = Trail(self.trail.places[::2], 2 * self.trail.fine)
+            self.trail.places.append(now)
         self.scene = scene

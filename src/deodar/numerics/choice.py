@@ -55,7 +55,7 @@ class Choice:
     `fourier` (with the spectral modes of each axis).
     """
 
-    way: str
+    method: str
     waves: tuple[Waves, ...] = ()
     reach: int = 0
     nanoseconds: float = 0.0

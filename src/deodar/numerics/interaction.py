@@ -103,7 +103,7 @@ def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str,
         key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies)
         for key, terms in spans(kernels, axes).items()
     }
-    return {key: choice for key, choice in found.items() if choice.way != "matrices"}
+    return {key: choice for key, choice in found.items() if choice.method != "matrices"}
 
 
 def prepare(
@@ -226,14 +226,14 @@ def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None
                 for t in kernel.terms()
             ]
         }
-    if choice.way == "taps":
+    if choice.method == "taps":
         return {
             "taps": [
                 [convolution.taps(axes[0], ends[0], _profile(t, 0, axes[0]), choice.reach, dtype)]
                 for t in kernel.terms()
             ]
         }
-    if choice.way == "waves":
+    if choice.method == "waves":
         return {
             "waves": [
                 [

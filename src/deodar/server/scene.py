@@ -40,7 +40,7 @@ class Follower:
 
     def news(self, track: Track) -> Bodies | None:
         """Return the bodies and the part of their path that the page does not have; None if nothing moved."""
-        seen, way = track.scene, track.way
+        seen, way = track.scene, track.trail
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
         fresh = way is not self._way
         taken = 0 if fresh else self._taken

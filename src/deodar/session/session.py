@@ -14,9 +14,9 @@ from deodar import renamed
 from deodar.compiler.arguments import ProgramValues
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.layout import require_range
-from deodar.compiler.plan import ways_of
+from deodar.compiler.plan import strategies_of
 from deodar.compiler.program import Port
-from deodar.compiler.ways import widths
+from deodar.compiler.strategies import widths
 from deodar.errors import ModelError, ParameterError, TimeError, UnknownName, WorldError
 from deodar.leaves import step_limits
 from deodar.model import edit, find
@@ -238,7 +238,7 @@ class Session:
         exact, old = self._accuracy == "exact" or self._precision == "float64", self.document
         return (
             "rebuild"
-            if exact or widths(old) == widths(document) or ways_of(old) == ways_of(document)
+            if exact or widths(old) == widths(document) or strategies_of(old) == strategies_of(document)
             else "recompile"
         )
 

@@ -2,8 +2,8 @@
 
 A convolution is cheap in spectral modes. If fields over the same axes are coupled by Gaussian kernels, each
 field is therefore transformed once, all kernels are applied to its modes, the inputs of a field are summed as
-modes, and one inverse transform follows. `ways` decides before compiling, by the costs of `numerics.choice`
-and the declarations of elements (`role`); `sharing` implements the decision.
+modes, and one inverse transform follows. `strategies` decides before compiling, by the costs of
+`numerics.choice` and the declarations of elements (`role`); `sharing` implements the decision.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ WORTH = 1.1
 
 SharingRole = Literal["", "source", "filter", "gain"]
 
-Circle = tuple[list[Node], str, Choice]
+Cycle = tuple[list[Node], str, Choice]
 """Nodes, the kind of boundaries, and the waves that they share."""
 
 
@@ -80,18 +80,22 @@ def acted_axes(n: Node) -> Axes:
 
 
 def widths(doc: Document) -> dict[str, Hashable]:
-    """What of its kernels' widths the way of an element is decided by: while it stays equal, so do all
-    ways.
+    """Return for each element the buckets of its kernels' widths; while they are equal, so are all
+    strategies.
     """
     return {e.id: interaction.buckets(e.element.kernels()) for e in doc.entries if e.element.kernels()}
 
 
-def ways(
+def strategies(
     nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str], copies: int = 1
 ) -> dict[str, Strategy]:
-    """The way of every node; those in `exact` take matrices.
+    """Return the strategy of every node.
 
-    `copies`: how many of the whole model run at once.
+    Args:
+        nodes: the resolved nodes of the model.
+        still: for each node whether it is constant during a chunk.
+        exact: ids of nodes that use matrices.
+        copies: number of copies of the whole model that run at once.
     """
     alike = Counter(_likeness(n) for n in nodes)
     out: dict[str, Strategy] = {}
@@ -103,22 +107,22 @@ def ways(
         )
         out[n.id] = Strategy(_sorted(own))
     free = [n for n in nodes if role(n) and not still[n.id] and n.id not in exact and acted_axes(n)]
-    for members, key, choice in _merged(list(_circles(free, out, copies)), free, out, copies):
+    for members, key, choice in _merged(list(_cycles(free, out, copies)), free, out, copies):
         for n in members:
             out[n.id] = Strategy(_sorted({**dict(out[n.id].choices), key: choice}), key)
     return out
 
 
 def _merged(
-    circles: Sequence[Circle], free: Sequence[Node], alone: Mapping[str, Strategy], copies: int
-) -> Iterator[Circle]:
-    """Circles over the same axes with the same waves, and fields that would take waves on their own, where
-    that costs little more: fewer groups.
+    cycles: Sequence[Cycle], free: Sequence[Node], alone: Mapping[str, Strategy], copies: int
+) -> Iterator[Cycle]:
+    """Yield cycles, merged where that costs little more: cycles over the same axes with the same spectral
+    modes, and fields that would use spectral modes on their own. This gives fewer groups.
     """
-    places: dict[tuple[Axes, int, str], list[Circle]] = {}
-    for circle in circles:
-        first = circle[0][0]
-        places.setdefault((acted_axes(first), first.every, circle[1]), []).append(circle)
+    places: dict[tuple[Axes, int, str], list[Cycle]] = {}
+    for cycle in cycles:
+        first = cycle[0][0]
+        places.setdefault((acted_axes(first), first.every, cycle[1]), []).append(cycle)
     for (axes, every, key), found in places.items():
         inside = {n.id for members, _, _ in found for n in members}
         beside = [
@@ -126,7 +130,7 @@ def _merged(
             for n in free
             if role(n) == "source" and n.id not in inside and (acted_axes(n), n.every) == (axes, every)
         ]
-        beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "way", "") == "waves"]
+        beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "method", "") == "waves"]
         everyone = [n for n in free if n.id in inside | {n.id for n in beside}]
         choice = _waves_of(everyone, key, copies)
         apart = sum(_shared_cost(members, key, own) for members, _, own in found) + sum(
@@ -138,9 +142,9 @@ def _merged(
             yield from found
 
 
-def _circles(free: Sequence[Node], alone: Mapping[str, Strategy], copies: int) -> Iterator[Circle]:
-    """Nodes that are linked through filters of one kind of boundaries, where sharing waves is cheaper for
-    them than each on its own.
+def _cycles(free: Sequence[Node], alone: Mapping[str, Strategy], copies: int) -> Iterator[Cycle]:
+    """Yield nodes that are linked through filters of one kind of boundaries, if sharing spectral modes is
+    cheaper than using them separately.
     """
     by = {n.id: n for n in free}
     keys = {n.id: _key(n) for n in free if role(n) == "filter"}
@@ -169,7 +173,7 @@ def _circles(free: Sequence[Node], alone: Mapping[str, Strategy], copies: int) -
 
 
 def _linked(a: Node, b: Node) -> bool:
-    """Whether two neighbours could share waves: not two fields without a kernel between them."""
+    """Return whether two neighbours could share spectral modes: not two fields without a kernel between."""
     return acted_axes(a) == acted_axes(b) and a.every == b.every and not role(a) == role(b) == "source"
 
 
@@ -181,8 +185,8 @@ def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
 
 
 def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:
-    """What they cost together: half of a transform for each field whose output is wanted as waves, half for
-    each way back.
+    """Return the cost of sharing: half a transform for each field whose output is needed as spectral modes,
+    and half for each inverse transform.
     """
     axes = acted_axes(members[0])
     there = {s[0] for n in members if role(n) == "filter" for s in n.reads["input"]}
