@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler import executable, program
 from tests.session.models import RECORD, mixed
 
 STEPS = 120
@@ -194,6 +195,22 @@ def test_both_precisions_run_in_one_process_without_a_change_of_flags() -> None:
     assert 0 < np.abs(a - b).max() < 1e-3
     assert before == {name: getattr(jax.config, name) for name in before}
     assert jax.numpy.ones(1).dtype == np.float32
+
+
+@pytest.mark.parametrize("trials", [None, 3])
+def test_noise_kept_for_the_next_step_has_the_bits_of_noise_drawn_in_every_step(
+    monkeypatch: pytest.MonkeyPatch, trials: int | None
+) -> None:
+    model = mixed()
+    results = []
+    for cells in (1, 10**9):
+        monkeypatch.setattr(program, "BLOCKS_FROM", cells)
+        executable._shared.cache_clear()
+        data = dd.simulate(dd.Model(document=model.document), 31, trials=trials, seed=3, record=RECORD)
+        results.append({path: data[path].values for path in RECORD})
+    executable._shared.cache_clear()
+    for path in RECORD:
+        np.testing.assert_array_equal(results[0][path], results[1][path])
 
 
 @pytest.mark.parametrize("every", [1, 2])

@@ -45,8 +45,11 @@ Result = TypeVar("Result")
 OneCopy = Callable[[ProgramValues, list[Constants], ProgramState, NoiseKeys], Result]
 """A function of one copy of a model."""
 
-Recorded = tuple[Array, ProgramState, tuple[Array, ...]]
-"""Tick, state, and a buffer of records for each port."""
+Stepped = tuple[Array, ProgramState, Arrays]
+"""Tick, state, and the noise drawn for two ticks."""
+
+Recorded = tuple[Stepped, tuple[Array, ...]]
+"""What steps carry, and a buffer of records for each port."""
 
 ChunkResult = tuple[ProgramState, tuple[Array, ...], tuple[Array, list[Array]]]
 """The state after a chunk, the records of each port, and the result of `Program.finite`."""
@@ -55,14 +58,6 @@ PRECISIONS = ("float32", "float64")
 ACCURACIES = ("default", "exact")
 MOST_KEPT = 16
 """Most executables that one model keeps; the oldest are dropped first."""
-
-PAIRS_FROM = 1000
-"""Cells with noise, for each call of a step, from which noise is drawn in pairs: they save 0.4 ns a cell and
-step, a copy costs compile time.
-"""
-
-MOST_COPIED = 12
-"""Calls of a step beyond which three copies of it would compile for seconds."""
 
 SHARED_BYTES = 8 * 2**20
 """Arrays among the parameters, in bytes, beyond which an executable belongs to its model alone: it holds
@@ -149,7 +144,13 @@ class Executable:
             doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
-        self.program = Program(self.plan, precision, self.layout.swept, body)
+        self.program = Program(
+            self.plan,
+            precision,
+            self.layout.swept,
+            body,
+            copies=batch.size if self.device.platform == "cpu" else 0,
+        )
         self.body = body
         self.traced = 0
         self.compiled = 0
@@ -336,62 +337,34 @@ class Executable:
         def flat(state: ProgramState) -> ProgramState:
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
-        def steps(n: Array, tick: Array, state: ProgramState) -> tuple[Array, ProgramState]:
-            def one(_: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
-                tick, state = carry
-                return tick + jnp.uint32(1), flat(program.step(chunk, full(state), {}, tick))
+        def steps(n: Array, given: Stepped) -> Stepped:
+            def one(_: Array, carry: Stepped) -> Stepped:
+                tick, state, drawn = carry
+                drawn = program.draw(chunk.keys, tick, clock["tick"], drawn)
+                return tick + jnp.uint32(1), flat(program.step(chunk, full(state), drawn, tick)), drawn
 
-            def two(_: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
-                tick, state = carry
-                # noise comes in pairs: for an even tick and the odd one after it
-                for drawn in program.draw(chunk.keys, tick):
-                    state = flat(program.step(chunk, full(state), drawn, tick))
-                    tick = tick + jnp.uint32(1)
-                return tick, state
+            return lax.fori_loop(0, n, one, given)
 
-            if not self.draws_pairs():
-                return lax.fori_loop(0, n, one, (tick, state))
-            lead = jnp.minimum(n, (tick % jnp.uint32(2)).astype(n.dtype))
-            singles, doubles = (
-                jnp.stack([lead, (n - lead) % 2]),
-                jnp.stack([(n - lead) // 2, jnp.zeros_like(n)]),
-            )
-
-            # up to an even tick, pairs, what is left
-            def phase(p: Array, carry: tuple[Array, ProgramState]) -> tuple[Array, ProgramState]:
-                return lax.fori_loop(0, doubles[p], two, lax.fori_loop(0, singles[p], one, carry))
-
-            return lax.fori_loop(0, 2, phase, (tick, state))
-
+        begun = clock["tick"], flat(state), program.undrawn()
         if not ports:
-            state = full(steps(head, clock["tick"], flat(state))[1])
+            state = full(steps(head, begun)[1])
             return state, (), program.finite(state)
         buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
 
         def segment(r: Array, carry: Recorded) -> Recorded:
-            tick, state, buffers = carry
-            tick, state = steps(jnp.where(r == 0, head, every), tick, state)
-            seen = program.observe(ports, chunk, full(state), tick)
+            stepped, buffers = carry
+            stepped = steps(jnp.where(r == 0, head, every), stepped)
+            seen = program.observe(ports, chunk, full(stepped[1]), stepped[0])
             return (
-                tick,
-                state,
+                stepped,
                 tuple(
                     lax.dynamic_update_index_in_dim(b, s, r, 0) for b, s in zip(buffers, seen, strict=True)
                 ),
             )
 
-        _, state, buffers = lax.fori_loop(0, records, segment, (clock["tick"], flat(state), buffers))
+        (_, state, _), buffers = lax.fori_loop(0, records, segment, (begun, buffers))
         state = full(state)
         return state, buffers, program.finite(state)
-
-    def draws_pairs(self) -> bool:
-        """Return whether to draw noise for two steps at once, in a program with three copies of the step."""
-        cells = sum(
-            self.plan.groups[g].rows * math.prod(shape(self.plan.groups[g].noise or ()))
-            for g in self.program.paired
-        )
-        calls = len(self.program.moving)
-        return calls <= MOST_COPIED and cells * self.batch.size >= PAIRS_FROM * calls
 
     # ---------------------------------------------------------------------------------------------- compiling
 

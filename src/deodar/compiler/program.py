@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar, cast
 
@@ -26,11 +27,16 @@ from deodar.element import Arrays, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
-from deodar.numerics.noise import element_keys, normal, pair
+from deodar.numerics.noise import block, element_keys, normal, of_block
 
 T = TypeVar("T")
 
 Buffers = dict[tuple[int, str, int], Array]
+
+BLOCKS_FROM = 1000
+"""Cells with noise in all copies from which a step keeps the deviates of the next one: below, drawing every
+tick costs less than a branch.
+"""
 
 
 @dc.dataclass(frozen=True)
@@ -92,10 +98,19 @@ class Program:
         chunk: what stays the same from step to step.
         state: `groups` (one entry a group) and `held` (new states of slow groups that are not yet visible);
             `world` where it is inside the step.
+        drawn: noise of the fast groups for both ticks of a block (`draw`); without them it is drawn every
+            tick.
+
+    `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
     """
 
     def __init__(
-        self, plan: Plan, precision: str, sweep: Sequence[Sequence[int]] = (), body: Body | None = None
+        self,
+        plan: Plan,
+        precision: str,
+        sweep: Sequence[Sequence[int]] = (),
+        body: Body | None = None,
+        copies: int = 1,
     ) -> None:
         self.plan = plan
         self.body = body
@@ -103,9 +118,11 @@ class Program:
         self.dtype: np.dtype[np.floating] = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
         self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
-        self.paired = [
+        paired = [
             g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful
         ]
+        cells = copies * sum(plan.groups[g].rows * _cells(plan.groups[g]) for g in paired)
+        self.kept = paired if cells >= BLOCKS_FROM else []
         self.slow = [
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
@@ -157,21 +174,31 @@ class Program:
             self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
 
-    def draw(self, keys: NoiseKeys, tick: Array) -> tuple[Arrays, Arrays]:
-        """Noise of the fast groups for the two ticks of the block that `tick` lies in."""
-        out: list[tuple[Array, Array]] = []
-        for g in self.paired:
-            cells = shape(self.plan.groups[g].noise or ())
-            out.append(jax.vmap(lambda key, cells=cells: pair(cells, key, tick, self.dtype))(keys[str(g)]))
-        return {str(g): first for g, (first, _) in zip(self.paired, out, strict=True)}, {
-            str(g): second for g, (_, second) in zip(self.paired, out, strict=True)
-        }
+    def undrawn(self) -> Arrays:
+        """The blocks before the first is drawn."""
+        kind = jnp.result_type(self.dtype, jnp.complex64)
+        groups = self.plan.groups
+        return {str(g): jnp.zeros((groups[g].rows, _cells(groups[g])), kind) for g in self.kept}
+
+    def draw(self, keys: NoiseKeys, tick: Array, start: Array, drawn: Arrays) -> Arrays:
+        """The blocks that `tick` lies in: drawn at even ticks and at the tick `start` of the chunk."""
+
+        def anew() -> Arrays:
+            return {
+                str(g): jax.vmap(lambda key, g=g: block(_cells(self.plan.groups[g]), key, tick, self.dtype))(
+                    keys[str(g)]
+                )
+                for g in self.kept
+            }
+
+        if not self.kept:
+            return drawn
+        # the predicate is that of all copies; a branch is a computation of its own, which XLA fuses with no
+        # other
+        return lax.cond((tick % jnp.uint32(2) == 0) | (tick == start), anew, lambda: drawn)
 
     def step(self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array) -> ProgramState:
-        """The state at tick + 1: every output at t is read, then all new states are committed together.
-
-        `drawn`: noise of the fast groups.
-        """
+        """The state at tick + 1: every output at t is read, then all new states are committed together."""
         chunk = self._seeing(chunk, state)
         buffers, old = dict(chunk.still), state["groups"]
         new, held = list(old), dict(state["held"])
@@ -186,7 +213,7 @@ class Program:
                     inputs[port] = buffers[call.group, port, 0]
 
                 def run(g: int = call.group, inputs: Arrays = inputs, time: Time = time) -> Arrays:
-                    noise = drawn[str(g)] if str(g) in drawn else self._noise(g, chunk.keys, tick)
+                    noise = self._noise(g, chunk.keys, tick, drawn.get(str(g)))
                     read = StepArguments(old[g], inputs, chunk.constants[g], noise)
                     return self._advance(g, chunk.values, read, time)
 
@@ -273,11 +300,13 @@ class Program:
         due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
-    def _noise(self, g: int, keys: NoiseKeys, tick: Array) -> Array | None:
+    def _noise(self, g: int, keys: NoiseKeys, tick: Array, drawn: Array | None = None) -> Array | None:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
         cells = shape(group.noise)
+        if drawn is not None:
+            return of_block(drawn, tick).reshape(group.rows, *cells)
         own = tick // jnp.uint32(group.like.every)
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 
@@ -374,6 +403,11 @@ def gather(x: Array, read: Read) -> Array:
 
         total = total.at[rows].set(lax.fori_loop(0, blocks.shape[0], add, total[rows]))
     return total
+
+
+def _cells(group: RowGroup) -> int:
+    """The number of cells with noise in each row of a group."""
+    return math.prod(shape(group.noise or ()))
 
 
 def _numbers(group: RowGroup) -> np.ndarray:

@@ -93,14 +93,22 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
     return (radius * wave).reshape(shape)
 
 
-@functools.partial(jax.jit, static_argnames=("shape", "dtype"))
-def pair(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> tuple[Array, Array]:
-    """Return the deviates of both ticks of a block, the even one first: equal to `normal`, at a lower cost
-    than two calls.
+@functools.partial(jax.jit, static_argnames=("cells", "dtype"))
+def block(cells: int, key: Array, tick: Array, dtype: DTypeLike) -> Array:
+    """Return the deviates of both ticks of the block of `tick`, shape (cells,): the even one as the real part
+    of a complex number, the odd one as the imaginary part.
+
+    As one array they have one loop, where the integers are computed once. They equal those of `normal` up to
+    rounding.
     """
-    a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
+    a, b = bits(cells, key, tick >> jnp.uint32(1))
     radius, turn = _radius(a, dtype), _uniform(b)
-    return (radius * _sine(turn, dtype)).reshape(shape), (radius * _cosine(turn, dtype)).reshape(shape)
+    return lax.complex(radius * _sine(turn, dtype), radius * _cosine(turn, dtype))
+
+
+def of_block(drawn: Array, tick: Array) -> Array:
+    """Return the deviates of one of the two ticks of a block."""
+    return jnp.where((tick & jnp.uint32(1)).astype(bool), lax.imag(drawn), lax.real(drawn))
 
 
 def prepare(axes: Axes, length: PerAxis, dtype: DTypeLike) -> dict[str, list[Array]]:

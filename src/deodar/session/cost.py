@@ -248,8 +248,7 @@ def _alone(
     plan, precision = at.program.plan, at.program.precision
     group, count = plan.groups[g], len(plan.groups)
     program = Program(dc.replace(plan, calls=[c for c in plan.calls if c.group == g]), precision)
-    pairs = g in program.paired and at.program.draws_pairs()
-    program.paired = [g] if pairs else []
+    program.kept = [g] if g in at.program.program.kept else []
     alone = Program(Plan([group], [], {}, {}, {}, plan.size, 1), precision)
     arrays = {array_key(0, path): at.values["arrays"][array_key(g, path)] for path in group.arrays}
     sources = sorted({r.source[:2] for port in group.like.reads for r in plan.reads[g, port]})
@@ -273,14 +272,14 @@ def _alone(
             shown = program.observe(ports, chunk, state, tick)
             return program.step(chunk, state, drawn, tick), shown
 
-        def body(_: Array, carry: GroupCarry) -> GroupCarry:
-            tick, state, shown = carry
-            for drawn in program.draw(keys, tick) if pairs else ({},):
-                state, shown = step(tick, state, drawn)
-                tick = tick + jnp.uint32(1)
-            return tick, state, shown
+        def body(_: Array, carry: tuple[GroupCarry, Arrays]) -> tuple[GroupCarry, Arrays]:
+            (tick, state, shown), drawn = carry
+            drawn = program.draw(keys, tick, clock["tick"], drawn)
+            state, shown = step(tick, state, drawn)
+            return (tick + jnp.uint32(1), state, shown), drawn
 
-        return lax.fori_loop(0, n // 2 if pairs else n, body, (clock["tick"], given.state, given.shown))
+        begun = (clock["tick"], given.state, given.shown)
+        return lax.fori_loop(0, n, body, (begun, program.undrawn()))[0]
 
     state: ProgramState = {
         "groups": only(at.state["groups"][g]),
