@@ -33,6 +33,15 @@ def test_every_sensor_reads_its_axes(kind):
 
 
 @pytest.mark.parametrize("kind", WORLDS)
+def test_sensors_read_together_have_the_readings_of_each_alone(kind):
+    world = WORLDS[kind].example()
+    world.reset(3, [0, 5])
+    requests = [(sensor, example_axes(kind, sensor)) for sensor in world.sensors]
+    for (sensor, axes), reading in zip(requests, world.sense_all(requests, 0.0), strict=True):
+        np.testing.assert_allclose(reading, world.sense(sensor, axes, 0.0), rtol=1e-6, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", WORLDS)
 def test_a_sensor_of_the_example_has_a_varying_reading(kind):
     world = WORLDS[kind].example()
     world.reset(3)

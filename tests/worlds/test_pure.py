@@ -70,3 +70,23 @@ def test_a_change_of_a_world_does_not_affect_another_world() -> None:
     assert counted(Counter(4.0), copies=2) == [4.0, 4.0], (
         "another number of copies: traced again, from the stored copy"
     )
+
+
+def test_several_sensors_are_read_by_one_compiled_function() -> None:
+    world = Counter(5.0)
+    counted(world)
+    requests = [("count", ()), ("count", LINE)]
+    before = compiled()
+    seen = world.sense_all(requests, 0.0)
+    assert compiled() == before + 1
+    assert [reading.tolist() for reading in seen] == [[5.0], [[5.0, 5.0, 5.0]]]
+
+
+def test_a_world_with_a_reading_of_its_own_is_read_by_it() -> None:
+    class Doubled(Counter):
+        def sense(self, sensor, axes, time):
+            return 2 * super().sense(sensor, axes, time)
+
+    world = Doubled(6.0)
+    assert counted(world) == [12.0]
+    assert [reading.tolist() for reading in world.sense_all([("count", ())] * 2, 0.0)] == [[12.0], [12.0]]

@@ -140,8 +140,10 @@ class Exchange:
             self._commands = None
             self._last, self._due = now.tick - late, now.tick - late + period
         moment = (now.time - (now.tick - self._last) * dt) * now.unit
-        for ident, sensor in self.sensors.items():
-            sensed[ident] = self._reading(sensor, moment, dtype)
+        requests = [(sensor.sensor, tuple(sensor.axes)) for sensor in self.sensors.values()]
+        readings = self.world.sense_all(requests, moment)
+        for (ident, sensor), given in zip(self.sensors.items(), readings, strict=True):
+            sensed[ident] = self._checked(sensor, given, dtype)
         self.unread = False
 
     def read_motors(self, tick: int, period: int, read: MotorReader) -> None:
@@ -205,10 +207,9 @@ class Exchange:
         known = {} if self.world is None else self.world.sensors  # a user's world may accept any name
         return sensor.sensor in known and known[sensor.sensor].each
 
-    def _reading(self, sensor: Sensor, moment: float, dtype: DTypeLike) -> np.ndarray:
-        assert self.world is not None
+    def _checked(self, sensor: Sensor, given: object, dtype: DTypeLike) -> np.ndarray:
+        """Return a reading for a single copy, if it has the shape of the sensor and is finite."""
         axes = tuple(sensor.axes)
-        given = self.world.sense(sensor.sensor, axes, moment)
         try:
             reading = np.asarray(given, dtype)
         except (TypeError, ValueError):  # not numbers
