@@ -294,7 +294,7 @@ def main() -> None:
         rows: list[steps.Row] = []
         if timed:
             with tempfile.TemporaryDirectory() as folder:
-                rows = steps.measure(timed, *((3, 0.05) if given.quick else (7, 0.08)), Path(folder))
+                rows = steps.measure(timed, *((3, 0.05) if given.quick else (9, 0.08)), Path(folder))
             print("\n".join(workload_table(rows)), flush=True)
         for name in PARTS:
             if name in given.names or not (given.names or given.quick):
