@@ -100,7 +100,7 @@ test("a package that is dropped is opened", async () => {
   });
   await drop(page, "packed.deodar", "", readFileSync(join(folder, "packed.deodar")));
   await observer.until(() => observer.document?.title === "binding" && observer.document.file === "");
-  await expect.poll(() => title().innerText(), "the page has it too").toBe("binding");
+  await expect.poll(() => title().innerText(), { message: "the page has it too" }).toBe("binding");
 });
 
 test("an invalid document is refused with a reason", async () => {
