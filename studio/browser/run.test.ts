@@ -42,9 +42,9 @@ test("play runs, pause stops, and time and factor are visible", async () => {
   await button(page, "Play").waitFor();
   await observer.until(() => !observer.running);
   await expect.poll(() => factor.innerText()).toMatch(/^×–/);
-  const { time } = observer;
   // a paused model is shown as often as requested, without a change
   await observer.ask({ type: "list_folder" });
+  const { time } = observer;
   await observer.ask({ type: "list_folder" });
   expect(observer.time).toBe(time);
   await expect

@@ -4,6 +4,7 @@ import { ActionIcon, Button, Group, NumberInput, Popover, Stack, Tooltip } from 
 import { IconAdjustmentsHorizontal, IconDice5 } from "@tabler/icons-react";
 import { useEffect, useRef, useState } from "react";
 
+import type { Answer } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { unitText } from "./format";
@@ -79,29 +80,34 @@ function Seed() {
   );
 }
 
-function TimeStep() {
-  const dt = useStudio((state) => state.clock?.dt ?? state.document?.dt ?? 1);
-  const unit = useStudio((state) => unitText(state.document?.time_unit ?? ""));
-  const [value, setValue] = useState<number | string>(dt);
-  const asked = useRef(dt);
+// A value that a person types and sends; a refused one goes back. What was typed since stays when an answer
+// arrives: the person is ahead of it.
+function useTyped<T extends number | string>(known: T, ask: (wanted: T) => Promise<Answer>) {
+  const [value, setValue] = useState<number | string>(known);
+  const asked = useRef<T>(known);
   useEffect(() => {
-    // What was typed since stays: the person is ahead of the answer.
-    const known = asked.current;
-    setValue((now) => (now === known ? dt : now));
-    asked.current = dt;
-  }, [dt]);
-  const send = async () => {
-    if (typeof value !== "number") {
-      setValue(dt);
-    } else if (value !== dt && value !== asked.current) {
-      asked.current = value;
-      const answer = await request({ type: "describe", dt: value });
+    const before = asked.current;
+    setValue((now) => (now === before ? known : now));
+    asked.current = known;
+  }, [known]);
+  const send = async (wanted: T) => {
+    if (wanted !== asked.current) {
+      asked.current = wanted;
+      const answer = await ask(wanted);
       if ((answer.problems ?? []).length > 0) {
-        asked.current = dt;
-        setValue(dt);
+        asked.current = known;
+        setValue(known);
       }
     }
   };
+  return { value, setValue, send };
+}
+
+function TimeStep() {
+  const dt = useStudio((state) => state.clock?.dt ?? state.document?.dt ?? 1);
+  const unit = useStudio((state) => unitText(state.document?.time_unit ?? ""));
+  const { value, setValue, send } = useTyped(dt, (wanted) => request({ type: "describe", dt: wanted }));
+  const done = () => (typeof value === "number" ? send(value) : setValue(dt));
   return (
     <div>
       <NumberInput
@@ -109,10 +115,10 @@ function TimeStep() {
         size="xs"
         value={value}
         onChange={setValue}
-        onBlur={() => void send()}
+        onBlur={() => void done()}
         min={0}
         hideControls
-        onKeyDown={(event) => event.key === "Enter" && void send()}
+        onKeyDown={(event) => event.key === "Enter" && void done()}
         suffix={unit === "" ? "" : ` ${unit}`}
       />
       <Hint>Must be small compared with every time constant. The state is kept.</Hint>
@@ -123,17 +129,10 @@ function TimeStep() {
 function LongestStep() {
   const longest = useStudio((state) => state.clock?.longest ?? null);
   const unit = useStudio((state) => unitText(state.document?.time_unit ?? ""));
-  const [value, setValue] = useState<number | string>(longest ?? "");
-  useEffect(() => setValue(longest ?? ""), [longest]);
-  const send = async () => {
-    const wanted = typeof value === "number" ? value : null;
-    if (wanted !== longest) {
-      const answer = await request({ type: "lengthen", longest: wanted });
-      if ((answer.problems ?? []).length > 0) {
-        setValue(longest ?? "");
-      }
-    }
-  };
+  const { value, setValue, send } = useTyped<number | "">(longest ?? "", (wanted) =>
+    request({ type: "lengthen", longest: wanted === "" ? null : wanted }),
+  );
+  const done = () => send(typeof value === "number" ? value : "");
   return (
     <div>
       <NumberInput
@@ -141,11 +140,11 @@ function LongestStep() {
         size="xs"
         value={value}
         onChange={setValue}
-        onBlur={() => void send()}
+        onBlur={() => void done()}
         min={0}
         hideControls
         placeholder="dt stays"
-        onKeyDown={(event) => event.key === "Enter" && void send()}
+        onKeyDown={(event) => event.key === "Enter" && void done()}
         suffix={unit === "" ? "" : ` ${unit}`}
       />
       <Hint>Empty: the step is constant, and a slow computer falls behind.</Hint>
