@@ -167,7 +167,7 @@ def measure(names: Sequence[str], rounds: int, seconds: float, folder: Path) -> 
             if cc and w.shape:
                 c = stack.enter_context(process(str(build(cc, folder, name, w.shape, w.sigmas, w.trials))))
                 askers[name].append(lambda n, c=c: c(f"{n} 1"))
-        counts = {name: [_count(ask, seconds) for ask in both] for name, both in askers.items()}
+        counts = {name: [count(ask, seconds) for ask in both] for name, both in askers.items()}
         if closed:
             ours(f"{CLOSED_LOOP} {CLOSED}")
         times: dict[str, list[list[float]]] = {name: [[] for _ in both] for name, both in askers.items()}
@@ -187,7 +187,7 @@ def measure(names: Sequence[str], rounds: int, seconds: float, folder: Path) -> 
     return rows
 
 
-def _count(ask: Callable[[int], float], seconds: float) -> int:
+def count(ask: Callable[[int], float], seconds: float) -> int:
     """Even number of steps that take about so long beyond what every call takes; the first call compiles."""
     ask(20)
     n, slope = 20, 0.0
