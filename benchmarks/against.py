@@ -11,9 +11,8 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import steps
@@ -40,18 +39,10 @@ def compare(theirs: Callable[[int], float], ours: Callable[[int], float], n: int
     return [(decile(twice) - decile(once)) / n for once, twice in times]
 
 
-@contextlib.contextmanager
-def server(folder: Path) -> Iterator[Callable[[str], float]]:
+def server(folder: Path) -> contextlib.AbstractContextManager[Callable[[str], float]]:
     """The process that times the workloads of a checkout."""
-    before = os.environ.get("PYTHONPATH")
-    os.environ["PYTHONPATH"] = str(folder / "src")
-    try:
-        with steps.process(sys.executable, str(folder / "benchmarks" / "steps.py")) as ask:
-            yield ask
-    finally:
-        os.environ.pop("PYTHONPATH")
-        if before is not None:
-            os.environ["PYTHONPATH"] = before
+    script = folder / "benchmarks" / "steps.py"
+    return steps.process(sys.executable, str(script), PYTHONPATH=str(folder / "src"))
 
 
 def main() -> None:
@@ -65,9 +56,7 @@ def main() -> None:
     )
     parser.add_argument("--rounds", type=int, default=40, help="rounds of each workload (default 40)")
     given = parser.parse_args()
-    unknown = [name for name in given.names if name not in known]
-    if unknown:
-        parser.error(f"unknown: {', '.join(unknown)}; there are {', '.join(known)}")
+    steps.require_known(parser, given.names, known)
     if not (given.folder / "benchmarks" / "steps.py").exists():
         parser.error(f"{given.folder} is no checkout with benchmarks/steps.py")
     with server(given.folder.resolve()) as theirs, server(HERE.parent) as ours:

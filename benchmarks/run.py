@@ -275,9 +275,7 @@ def main() -> None:
     )
     parser.add_argument("--readme", action="store_true", help="write the table into benchmarks/README.md")
     given = parser.parse_args()
-    unknown = [name for name in given.names if name not in known]
-    if unknown:
-        parser.error(f"unknown: {', '.join(unknown)}; there are {', '.join(known)}")
+    steps.require_known(parser, given.names, known)
     os.environ["NPROC"] = "1"
     with contextlib.redirect_stdout(io.StringIO() if given.json else sys.stdout):
         about = machine() | {"load before": load()}

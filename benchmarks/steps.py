@@ -7,6 +7,7 @@ workload and answers in the same way. A step is (T(2n) - T(n)) / n.
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import dataclasses as dc
 import os
@@ -82,6 +83,13 @@ def _closed_loop(session: Any, steps: int) -> None:
         session.read("u3.activation")
 
 
+def require_known(parser: argparse.ArgumentParser, names: Sequence[str], known: Sequence[str]) -> None:
+    """End the command with the known names if it got another one."""
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        parser.error(f"unknown: {', '.join(unknown)}; there are {', '.join(known)}")
+
+
 # ------------------------------------------------------------------------------------ the processes beside it
 
 
@@ -113,10 +121,11 @@ def build(
 
 
 @contextlib.contextmanager
-def process(*command: str) -> Iterator[Callable[[str], float]]:
-    """A process that answers each line with CPU seconds."""
+def process(*command: str, **environment: str) -> Iterator[Callable[[str], float]]:
+    """A process that answers each line with CPU seconds; `environment`: variables that it has besides."""
+    environment = {**os.environ, "NPROC": "1", **environment}
     running = subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=os.environ | {"NPROC": "1"}
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
     )
     to, back = _pipe(running.stdin), _pipe(running.stdout)
 
