@@ -252,23 +252,25 @@ class _Sampler:
         return program.axes(program.port(*self.ports[view]))
 
     def _sensed(self) -> dict[str, np.ndarray]:
-        world, moment, out = (
-            self.session.world,
-            self.session.time * unit_seconds(self.session.document.time_unit) * 1e3,
-            dict[str, np.ndarray](),
-        )
-        for name in self.sensors:
-            assert world is not None
-            signal = world.sensors[name]
-            if signal.shape is None:
+        world, names = self.session.world, sorted(self.sensors)
+        if world is None:
+            return {}
+        requests: list[tuple[str, Axes]] = []
+        for name in names:
+            shape = world.sensors[name].shape
+            if shape is None:
                 raise ParameterError(
                     "is sampled over axes that a model states",
                     where=name,
                     fix="Watch the port of a Sensor that reads it",
                 )
-            reading = world.sense(name, _axes(signal.shape), moment)
-            out[name] = np.array(reading[0] if signal.each else reading)
-        return out
+            requests.append((name, _axes(shape)))
+        moment = self.session.time * unit_seconds(self.session.document.time_unit) * 1e3
+        readings = world.sense_all(requests, moment)
+        return {
+            name: np.array(reading[0] if world.sensors[name].each else reading)
+            for name, reading in zip(names, readings, strict=True)
+        }
 
 
 def _axes(shape: Sequence[int]) -> Axes:
