@@ -1,11 +1,11 @@
 import { defineConfig } from "vitest/config";
 
-/** The page in a real browser before a running studio: one file at a time, because each starts both. */
+/** The page in a real browser before a running studio: two files at a time, because each starts both. */
 export default defineConfig({
   test: {
     include: ["browser/**/*.test.ts"],
     globalSetup: "browser/ready.ts",
-    fileParallelism: false,
+    maxWorkers: 2,
     testTimeout: 120_000,
     hookTimeout: 120_000,
     // a machine that others use too may stall for a moment: what fails is tried once more, and reported

@@ -85,18 +85,20 @@ function Seed() {
 function useTyped<T extends number | string>(known: T, ask: (wanted: T) => Promise<Answer>) {
   const [value, setValue] = useState<number | string>(known);
   const asked = useRef<T>(known);
+  const latest = useRef<T>(known);
   useEffect(() => {
     const before = asked.current;
     setValue((now) => (now === before ? known : now));
-    asked.current = known;
+    asked.current = latest.current = known;
   }, [known]);
   const send = async (wanted: T) => {
     if (wanted !== asked.current) {
       asked.current = wanted;
       const answer = await ask(wanted);
       if ((answer.problems ?? []).length > 0) {
-        asked.current = known;
-        setValue(known);
+        // not the value when it was asked: another one may have arrived since
+        asked.current = latest.current;
+        setValue(latest.current);
       }
     }
   };
