@@ -95,8 +95,8 @@ class Untrusted(DeodarError):
 
 
 class WorldError(DeodarError):
-    """Raised when a world cannot provide the reading of a sensor, or a model reads sensors without a
-    world.
+    """Raised when a world cannot provide the reading of a sensor, a model reads sensors without a world, or a
+    method of a world that a package or script defines raises any other exception.
     """
 
 

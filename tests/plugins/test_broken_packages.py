@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -256,3 +257,61 @@ def test_a_broken_figure_is_an_error_only_of_plots_that_name_it(
     assert main(given) == 0
     assert main([*given, "--force", "--kind", "odd"]) == 1
     assert "'odd' cannot be used: the package odd 0.1.0 raises RuntimeError" in capsys.readouterr().err
+
+
+WORLD = """
+import deodar as dd
+
+class Odd(dd.World):
+    sensors = {"light": dd.Signal("brightness", ())}
+
+    def sense(self, sensor, axes, time):
+        return {}["lamp"]
+
+    @classmethod
+    def open(cls, argument):
+        float(argument)
+        return cls()
+"""
+
+
+@pytest.mark.parametrize(
+    ("argument", "message"),
+    [
+        (
+            "x",
+            "raised ValueError in open (odd.py, line 12): could not convert string to float: 'x'. Check the"
+            " argument 'x'; if it is right, report this to the authors of odd",
+        ),
+        ("1", "raised KeyError in sense (odd.py, line 8): 'lamp'. Report this to the authors of odd"),
+    ],
+    ids=["open", "sense"],
+)
+def test_a_world_that_raises_is_an_error_that_names_it_and_its_package(
+    argument: str, message: str, install: Install, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    install("odd", {"odd": WORLD}, {"deodar.worlds": {"Odd": "odd:Odd"}})
+    model = dd.Model("m")
+    model.add(dd.Sensor("eye", sensor="light"))
+    dd.save(model, tmp_path / "m.json")
+    experiment = {"experiment": 2, "name": "e", "model": "m.json", "limit": 2.0, "world": f"odd:{argument}"}
+    (tmp_path / "e.json").write_text(json.dumps(experiment))
+    calls = [
+        [
+            "run",
+            str(tmp_path / "m.json"),
+            "--duration",
+            "2",
+            "--record",
+            "eye.output",
+            "--world",
+            f"odd:{argument}",
+        ],
+        ["experiment", str(tmp_path / "e.json"), "--out", str(tmp_path / "out"), "--no-progress"],
+    ]
+    for call in calls:
+        assert main(call) == 1
+        assert (
+            capsys.readouterr().err.strip()
+            == f"deodar {call[0]}: the world Odd of the package odd 0.1.0 {message}"
+        )

@@ -16,6 +16,7 @@ from deodar.element import Arrays
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.numerics.pytree import PyTree
+from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
 
 T = TypeVar("T")
@@ -82,7 +83,8 @@ class Body:
             held[name] = jnp.where(listens, command[None].astype(held[name].dtype), held[name])
 
         def advance() -> dict[str, PyTree]:
-            now = self.world.advance(shared, own, _copy(state["now"]), _copy(held))
+            with errors_of(self.world, "advance"):
+                now = self.world.advance(shared, own, _copy(state["now"]), _copy(held))
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
             return _rows({"now": now, "sensed": self._sensed(shared, own, now)})
 
@@ -96,7 +98,8 @@ class Body:
         out: Arrays = {}
         for ident, sensor in self.sensors.items():
             axes = tuple(sensor.axes)
-            read = self.world.read(shared, own, now, sensor.sensor, axes)
+            with errors_of(self.world, "read"):
+                read = self.world.read(shared, own, now, sensor.sensor, axes)
             out[ident] = jnp.broadcast_to(jnp.asarray(read, dtype), tuple(a.samples for a in axes))
         return out
 

@@ -38,6 +38,7 @@ from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
 
 Result = TypeVar("Result")
@@ -160,7 +161,8 @@ class Executable:
         self._prepare, constants = self.compile(self.program.prepare, values, options=RARELY)
         self._init, (state, keys) = self.compile(self._start, values, seed, trials, options=RARELY)
         if body is not None:
-            body.world.reset(0, [0] * batch.size, precision)
+            with errors_of(body.world, "reset"):
+                body.world.reset(0, [0] * batch.size, precision)
             shared, state, keys = self.embodied(body.world, state, keys)
             values = {**values, "world": shared}
         example = (values, constants, state, keys, self.blind(), *packed({"period": 1}, self.program.dtype))

@@ -100,8 +100,13 @@ def _about(setup: Setup, workers: int | None, folder: Path) -> JsonObject:
     digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
     made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
     unit = setup.model.document.time_unit
-    world = None if setup.world is None else setup.world.describe()
-    return {**_plan(setup), "model": digest, "world": world, "time_unit": unit, "made_by": made_by}
+    return {
+        **_plan(setup),
+        "model": digest,
+        "world": provenance.described(setup.world),
+        "time_unit": unit,
+        "made_by": made_by,
+    }
 
 
 def _of_today(made: JsonObject, about: Mapping[str, Any], doc: Document) -> JsonObject:

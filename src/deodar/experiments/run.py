@@ -31,6 +31,7 @@ from deodar.session.run import whole
 from deodar.session.session import Session, require_model
 from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 
 
 def run_trial(
@@ -174,8 +175,14 @@ def _schedule(running: RunningTrial, actions: Sequence[Action]) -> list[tuple[in
         if action.when:
             waiting.append((moment, action))
         else:
-            running.later(moment, lambda action=action: action.apply(running))
+            running.later(moment, lambda action=action: _apply(action, running))
     return waiting
+
+
+def _apply(action: Action, running: RunningTrial) -> None:
+    world, method = running.session.world, action.world_method
+    with errors_of(world, method) if world is not None and method else contextlib.nullcontext():
+        action.apply(running)
 
 
 def _schedule_after(
@@ -184,7 +191,7 @@ def _schedule_after(
     """Schedule the actions whose event has occurred, and return the others."""
     for moment, action in waiting:
         if happened[action.when] is not None:
-            running.later(moment, lambda action=action: action.apply(running))
+            running.later(moment, lambda action=action: _apply(action, running))
     return [w for w in waiting if happened[w[1].when] is None]
 
 
@@ -266,7 +273,8 @@ class _Sampler:
                 )
             requests.append((name, _axes(shape)))
         moment = self.session.time * unit_seconds(self.session.document.time_unit) * 1e3
-        readings = world.sense_all(requests, moment)
+        with errors_of(world, "sense"):
+            readings = world.sense_all(requests, moment)
         return {
             name: np.array(reading[0] if world.sensors[name].each else reading)
             for name, reading in zip(names, readings, strict=True)
@@ -283,11 +291,13 @@ def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]
     if world is None or not any(a.world_method for a in actions):
         yield
         return
-    before = world.arrangement()
+    with errors_of(world, "arrangement"):
+        before = world.arrangement()
     try:
         yield
     finally:
-        world.arrange(before)
+        with errors_of(world, "arrange"):
+            world.arrange(before)
 
 
 if not TYPE_CHECKING:

@@ -12,6 +12,7 @@ from deodar.codec import Json
 from deodar.errors import WorldError, did_you_mean
 from deodar.recording import files
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 from deodar.worlds.recording import Recording
 
 
@@ -19,14 +20,16 @@ def opened(kind: type[World], argument: str) -> World:
     """Return a world of a kind, from the argument after the colon of `--world KIND:ARGUMENT`."""
     if issubclass(kind, Recording):
         return kind(files.load_record(Path(argument)), argument)
-    return kind.open(argument)
+    with errors_of(kind, "open", argument):
+        return kind.open(argument)
 
 
 def again(kind: type[World], described: Mapping[str, Json]) -> World:
     """Return the world that a record describes."""
-    return (
-        opened(kind, str(described.get("file", ""))) if issubclass(kind, Recording) else kind.again(described)
-    )
+    if issubclass(kind, Recording):
+        return opened(kind, str(described.get("file", "")))
+    with errors_of(kind, "again"):
+        return kind.again(described)
 
 
 def named(text: str, where: str) -> World:

@@ -8,13 +8,23 @@ import platform
 from collections.abc import Mapping
 from typing import Any
 
-from deodar.codec import JsonObject
+from deodar.codec import Json, JsonObject
 from deodar.compiler.device import cores
 from deodar.model import files
 from deodar.model.document import Document
+from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 
 KEY = "deodar"
 """Name of the attribute of a record that holds its provenance, as JSON text."""
+
+
+def described(world: World | None) -> dict[str, Json] | None:
+    """Return the description of a world that records store; None without a world."""
+    if world is None:
+        return None
+    with errors_of(world, "describe"):
+        return world.describe()
 
 
 def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
@@ -26,7 +36,7 @@ def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
         "arrays": packed,
         "dt": run.clock.dt,
         "precision": run.program.precision,
-        "world": run.world.describe() if run.world is not None else None,
+        "world": described(run.world),
         **settings,
         "made_by": made_by(run.program.device),
     }

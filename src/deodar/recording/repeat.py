@@ -221,8 +221,8 @@ def _world(described: Mapping[str, Any] | None) -> World | None:
             f"the record was made with the world {_shown(described)}, and it cannot be opened:"
             f" {error.problems[0]}",
             fix=give,
-        ) from None
-    if _identity(world.describe()) != _identity(described):
+        ) from error.__cause__
+    if _identity(provenance.described(world)) != _identity(described):
         raise WorldError(
             f"the record was made with the world {_shown(described)}, and this file now holds something else",
             fix=(

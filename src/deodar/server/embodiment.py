@@ -13,7 +13,9 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError, did_you_mean
 from deodar.model.document import Document
 from deodar.recording.opened import opened
+from deodar.recording.provenance import described
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 
 MOST_BYTES = 32 * 2**20
 
@@ -32,7 +34,9 @@ class Embodiment:
         self.chosen = chosen
         self.label = ""
         self._name = (
-            "" if chosen is None else _named(type(chosen).__name__, str(chosen.describe().get("file", "")))
+            ""
+            if chosen is None
+            else _named(type(chosen).__name__, str((described(chosen) or {}).get("file", "")))
         )
 
     def world(self, doc: Document) -> World | None:
@@ -53,7 +57,8 @@ class Embodiment:
             ]
             if fitting:
                 self.label = _named(fitting[0].__name__, "an example")
-                return fitting[0].example()
+                with errors_of(fitting[0], "example"):
+                    return fitting[0].example()
         self.label = self._name
         return self.chosen
 
@@ -65,7 +70,9 @@ class Embodiment:
         try:
             self.chosen = opened(kinds[kind], str(path))
         except WorldError as error:
-            raise WorldError(error.problems[0].what, where=name, fix=error.problems[0].fix) from None
+            raise WorldError(
+                error.problems[0].what, where=name, fix=error.problems[0].fix
+            ) from error.__cause__
         self.label = self._name = _named(kind, name)
         return self.chosen
 

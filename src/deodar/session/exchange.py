@@ -20,6 +20,7 @@ from deodar.model.document import Document
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import show
 from deodar.worlds._base import Signal, World, fitting
+from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
 
 NEVER = 2**62
@@ -106,7 +107,8 @@ class Exchange:
                     f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot"
                     " be run in this world"
                 )
-            self.world.reset(seed, copies, precision)
+            with errors_of(self.world, "reset"):
+                self.world.reset(seed, copies, precision)
         self.unread, self._commands = True, None
         self._last = 0
         self._due = self._origin = 0
@@ -136,12 +138,14 @@ class Exchange:
         if period and (back or now.tick >= self._due):
             late = (now.tick - self._origin) % period
             if not back and self._commands is not None:
-                self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
+                with errors_of(self.world, "act"):
+                    self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
             self._commands = None
             self._last, self._due = now.tick - late, now.tick - late + period
         moment = (now.time - (now.tick - self._last) * dt) * now.unit
         requests = [(sensor.sensor, tuple(sensor.axes)) for sensor in self.sensors.values()]
-        readings = self.world.sense_all(requests, moment)
+        with errors_of(self.world, "sense"):
+            readings = self.world.sense_all(requests, moment)
         for (ident, sensor), given in zip(self.sensors.items(), readings, strict=True):
             sensed[ident] = self._checked(sensor, given, dtype)
         self.unread = False
@@ -178,24 +182,24 @@ class Exchange:
 
     def keep(self) -> WorldState | None:
         """Return the present state, as an argument for `put`."""
-        return (
-            None
-            if self.world is None
-            else WorldState(
-                type(self.world), self.world.keep(), self._last, self._due, self._origin, self._commands
-            )
-        )
+        if self.world is None:
+            return None
+        with errors_of(self.world, "keep"):
+            kept = self.world.keep()
+        return WorldState(type(self.world), kept, self._last, self._due, self._origin, self._commands)
 
     def put_now(self, now: Any) -> None:
         """Set the state of a world that was computed inside the step: all copies, with an axis of one row."""
         if self.world is not None:
-            self.world.put(jax.tree.map(lambda a: a[:, 0], now))
+            with errors_of(self.world, "put"):
+                self.world.put(jax.tree.map(lambda a: a[:, 0], now))
 
     def put(self, kept: WorldState | None) -> None:
         """Restore a state that `keep` returned; the sensors are read again."""
         self.unread = True
         if kept is not None and self.world is not None and isinstance(self.world, kept.kind):
-            self.world.put(kept.world)
+            with errors_of(self.world, "put"):
+                self.world.put(kept.world)
             self._last, self._due, self._origin, self._commands = (
                 kept.last,
                 kept.due,

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from deodar.errors import WorldError
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 from deodar.worlds._scene import Scene, SceneBox
 
 
@@ -18,7 +19,8 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
     """
     item = scene.entry(name)
     scene.require_room(name, center, item.size if isinstance(item, SceneBox) else None)
-    world.move(name, center)
+    with errors_of(world, "move"):
+        world.move(name, center)
     return f"world.move {name}", tuple(center)
 
 
@@ -33,7 +35,8 @@ def place(
     scene.require_room(name, center, size)
     if name in [mark.name for mark in scene.marks]:
         raise WorldError("is the name of a mark", where=name, fix="Choose another name")
-    world.place(name, center, size)
+    with errors_of(world, "place"):
+        world.place(name, center, size)
     return f"world.place {name}", (tuple(center), tuple(size))
 
 
@@ -46,5 +49,6 @@ def remove(world: World, scene: Scene, name: str) -> tuple[str, None]:
     """
     if not isinstance(scene.entry(name), SceneBox):
         raise WorldError("is a mark; it can be moved, not removed", where=name)
-    world.remove(name)
+    with errors_of(world, "remove"):
+        world.remove(name)
     return f"world.remove {name}", None

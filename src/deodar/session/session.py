@@ -24,6 +24,7 @@ from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
+from deodar.recording.provenance import described
 from deodar.session import memory, rearrange
 from deodar.session.changes import LeafChange, changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
@@ -34,6 +35,7 @@ from deodar.session.run import Run, require_duration, require_step, whole
 from deodar.session.run_live import run_live
 from deodar.session.snapshot import SessionSnapshot, fill, rows
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 from deodar.worlds._scene import Scene
 
 LARGEST_SEED = 2**32 - 1
@@ -330,7 +332,8 @@ class Session:
         if self.world is None:
             return None
         self._run.sense()  # the world advances to the present, whether or not it was read before
-        return self.world.scene()
+        with errors_of(self.world, "scene"):
+            return self.world.scene()
 
     def move(self, name: str, center: Sequence[float]) -> None:
         """Move an object of the world, or its goal; `center` is the new x and y of its middle.
@@ -382,7 +385,7 @@ class Session:
     @world.setter
     def world(self, world: World | None) -> None:
         self._run.see(world)
-        self.journal.append(Change(self.tick, "world", None if world is None else world.describe()))
+        self.journal.append(Change(self.tick, "world", described(world)))
 
     @property
     def document(self) -> Document:
