@@ -21,7 +21,7 @@ from deodar.architectures.spa import STEP_MS, maze, spa
 from deodar.compiler.device import available
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Within
-from deodar.experiments.jobs import Job, carry_out
+from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.rows import Rows
 from deodar.papers.spa.cases import LIMIT, RADIUS, STAY
 from deodar.papers.spa.pairs import pairs
@@ -81,7 +81,7 @@ def hundred() -> None:
         with tempfile.TemporaryDirectory() as folder:
             rows = Rows(Path(folder) / "rows.jsonl", {})
             began = time.perf_counter()
-            carry_out(jobs, rows, workers=cores)
+            run_jobs(jobs, rows, workers=cores)
             wall = time.perf_counter() - began
         taken = [row["steps"] for row in rows.found.values()]
         each = (

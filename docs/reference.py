@@ -143,7 +143,7 @@ MEASURES = [
     ),
     *_derived(dd.Event),
     *_derived(dd.Action),
-    *("dd.carry_out", "dd.Job", "dd.Rows"),
+    *("dd.run_jobs", "dd.Job", "dd.Rows"),
     *(
         "deodar.session.run_live.run_live",
         "deodar.session.meter.Meter",

@@ -114,7 +114,7 @@ from deodar.experiments.events import Within as Within
 from deodar.experiments.experiment import Experiment as Experiment
 from deodar.experiments.factor import Factor as Factor
 from deodar.experiments.jobs import Job as Job
-from deodar.experiments.jobs import carry_out as carry_out
+from deodar.experiments.jobs import run_jobs as run_jobs
 from deodar.experiments.measures import BaseMeasure as BaseMeasure
 from deodar.experiments.measures import Measure as Measure
 from deodar.experiments.results import load_results as load_results

@@ -64,6 +64,7 @@ RENAMED = {
     "dd.architectures.two_layer_field(tau_inhibition=...)": (
         "dd.architectures.two_layer_field(inhibitory=Layer(tau=...))"
     ),
+    "dd.carry_out": "dd.run_jobs",
     "dd.demos": "dd.papers",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",
@@ -76,6 +77,7 @@ RENAMED = {
     "deodar.architectures.serial_order.end": "dd.architectures.lesson_end",
     "deodar.architectures.serial_order.production": "dd.architectures.production_start",
     "deodar.demos": "dd.papers",
+    "deodar.experiments.jobs.carry_out": "dd.run_jobs",
     "deodar.experiments.results.load": "dd.load_results",
     "deodar.experiments.run.run": "dd.run_trial",
     "deodar.figures.path.animate": "dd.animate_path",

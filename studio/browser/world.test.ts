@@ -93,7 +93,7 @@ test("a crate dragged in front of the running robot stops it, and dragged away r
   await shot(studio.page, "studio-world");
   await drag({ x: object("crate")?.x ?? 0, y: object("crate")?.y ?? 0 }, { x: 1.0, y: 0.3 });
   await observer.until(() => robot() > 1.8);
-  expect(observer.world.now.way.length).toBeGreaterThan(20);
+  expect(observer.world.now.path.length).toBeGreaterThan(20);
   await button(studio.page, "Pause").click();
   await observer.until(() => !observer.running);
 });

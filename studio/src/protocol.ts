@@ -91,12 +91,13 @@ export type AxisView = {
 
 // The bodies now, and the new part of their path.
 //
-// Each row of `way` has x and y of each body; `fresh`: the path starts again, and the page drops the old one.
+// Each row of `path` has x and y of each body; `fresh`: the path starts again, and the page drops the old
+// one.
 export type Bodies = {
   type: "bodies";
   bodies: BodyView[];
   fresh: boolean;
-  way: number[][];
+  path: number[][];
 };
 
 // A round body that moves by itself; `heading` is in rad, 0 along x, counter-clockwise.

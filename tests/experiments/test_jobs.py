@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from deodar.experiments.jobs import Job, carry_out
+from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.rows import Rows
 from tests.experiments import decisions
 
@@ -31,7 +31,7 @@ def rows():
 def test_all_jobs_are_run_and_progress_reaches_the_end(tmp_path, rows):
     seen = []
     kept = Rows(tmp_path / "runs.jsonl", {})
-    carry_out(jobs(), kept, seen.append)
+    run_jobs(jobs(), kept, seen.append)
     assert list(kept.found.values()) == rows
     assert [s.rows for s in seen] == list(range(7)) and {s.of for s in seen} == {6}
     assert seen[0].left is None and seen[-1].left == 0 and seen[-1].share == 1
@@ -41,23 +41,23 @@ def test_all_jobs_are_run_and_progress_reaches_the_end(tmp_path, rows):
 def test_only_missing_jobs_are_run(tmp_path, rows):
     kept = Rows(tmp_path / "runs.jsonl", {})
     kept.append([row | {"outcome": "kept"} for row in rows[:2]])
-    carry_out(jobs(), kept)
+    run_jobs(jobs(), kept)
     assert [r["outcome"] for r in kept.found.values()][:2] == ["kept"] * 2
     assert list(kept.found.values())[2:] == rows[2:]
 
 
 def test_workers_give_the_same_rows(tmp_path, rows):
     kept = Rows(tmp_path / "runs.jsonl", {})
-    carry_out(jobs(), kept, workers=2)
+    run_jobs(jobs(), kept, workers=2)
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows
 
 
 def test_a_killed_run_resumes_with_the_same_rows(tmp_path, rows):
     file = tmp_path / "runs.jsonl"
     code = (
-        "from pathlib import Path; from deodar.experiments.jobs import carry_out; from"
+        "from pathlib import Path; from deodar.experiments.jobs import run_jobs; from"
         " deodar.experiments.rows import Rows\nfrom tests.experiments.test_jobs import jobs;"
-        f" carry_out(jobs(), Rows(Path({str(file)!r}), {{}}))"
+        f" run_jobs(jobs(), Rows(Path({str(file)!r}), {{}}))"
     )
     process = subprocess.Popen(
         [sys.executable, "-c", code], cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}
@@ -68,7 +68,7 @@ def test_a_killed_run_resumes_with_the_same_rows(tmp_path, rows):
     process.wait()
     assert file.read_bytes().count(b"\n") >= 3
     kept = Rows(file, {})
-    carry_out(jobs(), kept)
+    run_jobs(jobs(), kept)
     assert list(kept.found.values()) == rows
 
 
@@ -81,7 +81,7 @@ def test_ctrl_c_keeps_the_rows_of_the_jobs_that_run(tmp_path, rows):
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        carry_out(jobs()[:3], kept, told, workers=2)
+        run_jobs(jobs()[:3], kept, told, workers=2)
     assert len(kept.found) > pressed[0], "the other worker's job was ended, and its rows were kept"
-    carry_out(jobs(), kept)
+    run_jobs(jobs(), kept)
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows

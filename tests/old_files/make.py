@@ -27,7 +27,7 @@ from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.recording import files
-from deodar.server.keeper import Keeper
+from deodar.server.state_store import StateStore
 
 
 def choice(version: int) -> dd.Model:
@@ -90,7 +90,7 @@ def main(version: int, folder: Path) -> None:
     except KeyboardInterrupt:
         rows = folder / "stopped" / "trials.jsonl"
         rows.write_bytes(rows.read_bytes()[:-40])
-    Keeper(folder / "state").keep("0123456789abcdef", model.document, "choice.json")
+    StateStore(folder / "state").keep("0123456789abcdef", model.document, "choice.json")
 
 
 if __name__ == "__main__":

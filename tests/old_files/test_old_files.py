@@ -18,7 +18,7 @@ from deodar.errors import OutputExists
 from deodar.model import document
 from deodar.recording.provenance import made_by
 from deodar.recording.repeat import repeat
-from deodar.server.keeper import Keeper
+from deodar.server.state_store import StateStore
 
 OLD = Path(__file__).parent / "version_1"
 X = dd.Axis("x", 0, 20, samples=21)
@@ -94,9 +94,9 @@ def test_an_old_preset_sets_its_values(old: Path) -> None:
 @both
 def test_unsaved_edits_of_the_studio_are_offered_and_open(old: Path, tmp_path: Path) -> None:
     shutil.copytree(old / "state", tmp_path / "state")
-    keeper = Keeper(tmp_path / "state")
-    (offered,) = keeper.kept()
-    found, file = keeper.read(offered.name)
+    store = StateStore(tmp_path / "state")
+    (offered,) = store.kept()
+    found, file = store.read(offered.name)
     assert file == "choice.json" and migrated(dd.Model(document=found), old)
 
 

@@ -19,7 +19,7 @@ import deodar as dd
 from deodar.live import engine
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.server import hub
-from deodar.server.keeper import Keeper
+from deodar.server.state_store import StateStore
 from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 
@@ -609,7 +609,7 @@ def test_the_state_folder_is_accessed_outside_of_the_event_loop(
 
     names = ("keep", "forget", "kept", "read", "opened", "recent")
     for name in names:
-        monkeypatch.setattr(Keeper, name, beside(name, getattr(Keeper, name)))
+        monkeypatch.setattr(StateStore, name, beside(name, getattr(StateStore, name)))
     monkeypatch.setattr(hub, "KEEP_SECONDS", 0.02)
 
     async def scene(p: Page) -> None:

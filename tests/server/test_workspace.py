@@ -14,7 +14,7 @@ import pytest
 import deodar as dd
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.server import content
-from deodar.server.keeper import Keeper, state_folder
+from deodar.server.state_store import StateStore, state_folder
 from deodar.server.workspace import UNREADABLE, Workspace
 from tests.server.models import weighted
 
@@ -197,47 +197,47 @@ def test_a_document_is_saved_with_its_arrays_and_previous_ones_are_removed(tmp_p
 
 
 def test_unsaved_edits_are_kept_until_they_are_discarded(tmp_path: Path) -> None:
-    keeper = Keeper(tmp_path)
+    store = StateStore(tmp_path)
     model = dd.Model("mine")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)], kernel=[dd.Gaussian(1, 2)]))
-    name = keeper.new_name()
-    keeper.keep(name, model.document, "/somewhere/mine.json")
-    assert keeper.kept() == [], "this process still holds them"
+    name = store.new_name()
+    store.keep(name, model.document, "/somewhere/mine.json")
+    assert store.kept() == [], "this process still holds them"
     note = next((tmp_path / "unsaved").glob("*.note"))
     note.write_text(json.dumps(json.loads(note.read_text()) | {"process": [os.getpid(), 1.0]}))
-    assert [(r.name, r.title, r.file) for r in keeper.kept()] == [(name, "mine", "/somewhere/mine.json")]
-    document, file = keeper.read(name)
+    assert [(r.name, r.title, r.file) for r in store.kept()] == [(name, "mine", "/somewhere/mine.json")]
+    document, file = store.read(name)
     assert document == model.document and file == "/somewhere/mine.json"
-    keeper.forget(name)
-    assert keeper.kept() == [] and not list((tmp_path / "unsaved").iterdir())
+    store.forget(name)
+    assert store.kept() == [] and not list((tmp_path / "unsaved").iterdir())
 
 
 @pytest.mark.parametrize("name", ["", "..", "../../etc", "0123456789abcde", "0123456789abcdeg", "*"])
 def test_names_of_unsaved_edits_are_not_paths(tmp_path: Path, name: str) -> None:
-    for what in (Keeper(tmp_path).forget, Keeper(tmp_path).read):
+    for what in (StateStore(tmp_path).forget, StateStore(tmp_path).read):
         with pytest.raises(DeodarError, match="no unsaved edits"):
             what(name)
 
 
 def test_recent_files_are_the_last_ones_that_exist(tmp_path: Path) -> None:
-    keeper = Keeper(tmp_path / "state")
+    store = StateStore(tmp_path / "state")
     for k in range(20):
         (tmp_path / f"{k}.json").touch()
-        keeper.opened(tmp_path / f"{k}.json")
-    keeper.opened(tmp_path / "12.json")
+        store.opened(tmp_path / f"{k}.json")
+    store.opened(tmp_path / "12.json")
     (tmp_path / "19.json").unlink()
-    names = [p.stem for p in keeper.recent()]
+    names = [p.stem for p in store.recent()]
     assert names[:3] == ["12", "18", "17"] and len(names) == 11
 
 
 def test_an_unusable_state_folder_is_ignored(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    keeper = Keeper(tmp_path / "file")
-    keeper.keep(keeper.new_name(), dd.Model("m").document, "")
-    keeper.opened(tmp_path / "x.json")
-    assert keeper.kept() == [] and keeper.recent() == []
+    store = StateStore(tmp_path / "file")
+    store.keep(store.new_name(), dd.Model("m").document, "")
+    store.opened(tmp_path / "x.json")
+    assert store.kept() == [] and store.recent() == []
     (tmp_path / "recent.json").write_text("{broken")
-    assert Keeper(tmp_path).recent() == []
+    assert StateStore(tmp_path).recent() == []
 
 
 def test_the_state_folder_is_set_by_the_environment(own_state: Path, monkeypatch: pytest.MonkeyPatch) -> None:

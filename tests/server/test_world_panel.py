@@ -40,12 +40,12 @@ def box(one: Page, name: str) -> dict[str, Any]:
     return next((b for b in scene(one)["boxes"] if b["name"] == name), {})
 
 
-def way(one: Page) -> list[list[float]]:
+def path(one: Page) -> list[list[float]]:
     """All positions that the page received, as a page stores them."""
     out: list[list[float]] = []
     for message in one.all:
         if message["type"] == "bodies":
-            out = ([] if message["fresh"] else out) + message["way"]
+            out = ([] if message["fresh"] else out) + message["path"]
     return out
 
 
@@ -75,19 +75,19 @@ def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> No
         await one.until(lambda: one.clock["tick"] == 60 and one.said["bodies"]["bodies"][0]["x"] > 0.5)
         body = one.said["bodies"]["bodies"][0]
         assert body["name"] == "e-puck" and body["radius"] == pytest.approx(0.037)
-        gaps = [math.dist(a, b) for a, b in zip(way(one), way(one)[1:], strict=False)]
+        gaps = [math.dist(a, b) for a, b in zip(path(one), path(one)[1:], strict=False)]
         assert (
-            way(one)[0] == pytest.approx([0.2, 1.0])
+            path(one)[0] == pytest.approx([0.2, 1.0])
             and len(gaps) > 5
-            and math.dist(way(one)[-1], (body["x"], body["y"])) < 0.02
+            and math.dist(path(one)[-1], (body["x"], body["y"])) < 0.02
         )
         scenes = [m for m in one.all if m["type"] == "scene" and m["scene"]]
         assert len(scenes) == 1, "a scene without motion is sent once"
         async with page_of(one) as late:
             await late.do("watch_world", on=True)
-            await late.until(lambda: way(late) == way(one))
+            await late.until(lambda: path(late) == path(one))
         await one.do("reset")
-        await one.until(lambda: way(one) == [pytest.approx([0.2, 1.0])])
+        await one.until(lambda: path(one) == [pytest.approx([0.2, 1.0])])
 
     with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         page_of.address = address  # type: ignore[attr-defined]

@@ -14,7 +14,7 @@ from deodar.cli import _options, _rescue
 from deodar.cli._bar import Bar
 from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, did_you_mean
-from deodar.experiments.jobs import carry_out
+from deodar.experiments.jobs import run_jobs
 from deodar.experiments.rows import Rows, claim
 from deodar.model import output
 from deodar.recording import places
@@ -81,7 +81,7 @@ def run(args: argparse.Namespace) -> int:
     rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())}, paper.BY_CONDITION)
     try:
         with Bar(args.no_progress or args.json, "runs") as bar:
-            carry_out(jobs, rows, bar.show, args.workers or None)
+            run_jobs(jobs, rows, bar.show, args.workers or None)
     except KeyboardInterrupt:
         print(
             f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",

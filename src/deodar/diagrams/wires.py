@@ -26,14 +26,14 @@ ARROW, DOT = 5.0, 2.3
 def path(runs: Sequence[Segment], backwards: bool, sign: Sign) -> list[Shape]:
     """Return a connection along its horizontal segments, with the mark at its target."""
     points = [p for run in runs for p in ((run.x0, run.y), (run.x1, run.y))]
-    points, way = (points[::-1], -1.0) if backwards else (points, 1.0)
+    points, direction = (points[::-1], -1.0) if backwards else (points, 1.0)
     x, y = points[-1]
-    tip = (x - way * _length(sign), y)
-    level = tip[0] - way * STRAIGHT
-    between = [(min(px, level) if way > 0 else max(px, level), py) for px, py in points[1:-1]]
+    tip = (x - direction * _length(sign), y)
+    level = tip[0] - direction * STRAIGHT
+    between = [(min(px, level) if direction > 0 else max(px, level), py) for px, py in points[1:-1]]
     return [
         Shape(_curve([points[0], *between, (level, y), tip]), COLORS[sign], width=WIDTH),
-        *mark((x, y), (way, 0.0), sign),
+        *mark((x, y), (direction, 0.0), sign),
     ]
 
 
@@ -48,11 +48,9 @@ def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Sh
     return [Shape(curve, COLORS[sign], width=WIDTH), *mark((right, y), (0.0, 1.0), sign)]
 
 
-def mark(tip: Point, way: Point, sign: Sign) -> list[Shape]:
-    """Return an arrow for excitation, a dot for inhibition, or both; `way` is the direction in which it
-    points.
-    """
-    (x, y), (dx, dy), color = tip, way, COLORS[sign]
+def mark(tip: Point, direction: Point, sign: Sign) -> list[Shape]:
+    """Return an arrow for excitation, a dot for inhibition, or both; the arrow points in `direction`."""
+    (x, y), (dx, dy), color = tip, direction, COLORS[sign]
     if sign == "-":
         return [Shape(circle(x - dx * DOT, y - dy * DOT, DOT), color, color, 0.3)]
     arrow = Shape(_arrow(x, y, dx, dy), color, color, 0.3)

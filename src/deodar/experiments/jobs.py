@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from deodar import renamed
 from deodar.batch.pool import Pool
 from deodar.experiments.rows import Row, Rows
 from deodar.session.interrupt import stoppable
@@ -52,7 +53,7 @@ class Progress:
     left: float | None
 
 
-def carry_out(
+def run_jobs(
     jobs: Sequence[Job],
     rows: Rows,
     progress: Callable[[Progress], None] | None = None,
@@ -124,3 +125,7 @@ def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequen
                 waiting.clear()
     if stopped:
         raise KeyboardInterrupt
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed.left(__name__)

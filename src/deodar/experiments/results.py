@@ -19,7 +19,7 @@ from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, RecordError
 from deodar.experiments import packed
-from deodar.experiments.jobs import Job, Progress, carry_out
+from deodar.experiments.jobs import Job, Progress, run_jobs
 from deodar.experiments.migrations import migrate
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
@@ -78,7 +78,7 @@ def _carry(
         if setup.experiment.record or any(type(a).__name__ == "Snapshot" for a in setup.experiment.actions)
         else None
     )
-    carry_out(list(_jobs(setup, workers, records)), rows, progress, workers)
+    run_jobs(list(_jobs(setup, workers, records)), rows, progress, workers)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)

@@ -36,7 +36,7 @@ class Track:
 
     Attributes:
         scene: the last scene; None: the world has no view from above.
-        way: path of the bodies.
+        trail: path of the bodies.
     """
 
     def __init__(self) -> None:

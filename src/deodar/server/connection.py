@@ -202,7 +202,7 @@ class PageConnection:
         self._new("costs", self._hub.costs(), out)
         track = self._hub.engine.track
         self._new("scene", scene.scene(track.scene), out)
-        moved = None if self.page.follower is None else self.page.follower.news(track)
+        moved = None if self.page.sent_bodies is None else self.page.sent_bodies.news(track)
         return out if moved is None else [*out, moved]
 
     def _new(

@@ -12,9 +12,9 @@ from deodar.live.engine import Engine
 from deodar.server import gallery, plots, view
 from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import try_in_file_thread
-from deodar.server.keeper import Keeper, state_folder
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
+from deodar.server.state_store import StateStore, state_folder
 from deodar.server.to_page import Costs, CostView, Gallery, RunClock, Welcome
 from deodar.server.workspace import Workspace
 from deodar.session.meter import Meter
@@ -38,11 +38,11 @@ class Hub:
         self.pages: set[Page] = set()
         self._connected = 0
         self.workspace = Workspace(root)
-        self.keeper = Keeper(state_folder())
+        self.store = StateStore(state_folder())
         self.embodiment = Embodiment(world)
         self.engine = Engine(self._from_engine)
         self.project = OpenProject(
-            self.workspace, self.keeper, self.engine, self.embodiment, trust, self.notify
+            self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
         )
         self.welcome = Welcome(
             version=__version__,
@@ -72,8 +72,8 @@ class Hub:
         """Return recent files and unsaved edits; the last result if the state folder does not answer."""
 
         def read() -> None:
-            recent = [self.workspace.shown(p) for p in self.keeper.recent() if self.workspace.holds(p)]
-            self._gallery = Gallery(recent=recent, recoveries=self.keeper.kept())
+            recent = [self.workspace.shown(p) for p in self.store.recent() if self.workspace.holds(p)]
+            self._gallery = Gallery(recent=recent, recoveries=self.store.kept())
 
         await try_in_file_thread(read)
         return self._gallery

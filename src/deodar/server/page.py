@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
-from deodar.server.scene import Follower
+from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
 
 
@@ -15,7 +15,7 @@ class Page:
         number: unique among all pages of this studio, also those that have left.
         streams: the streams that the page watches, by the numbers that the page chose.
         pushes: whether this page made the present injection of input.
-        follower: the bodies of the world that the page has received; None: the page does not show them.
+        sent_bodies: the bodies of the world that the page has received; None: the page does not show them.
         news: set when there may be something to send.
     """
 
@@ -23,7 +23,7 @@ class Page:
         self.number = number
         self.streams: dict[int, Stream] = {}
         self.pushes = False
-        self.follower: Follower | None = None
+        self.sent_bodies: SentBodies | None = None
         self.news = asyncio.Event()
 
     def wake(self) -> None:

@@ -25,8 +25,8 @@ from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
-from deodar.server.keeper import Keeper
 from deodar.server.recent_changes import RecentChanges
+from deodar.server.state_store import StateStore
 from deodar.server.to_page import Changed, DocumentView, ListedProblem
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
@@ -62,13 +62,13 @@ class OpenProject:
     def __init__(
         self,
         workspace: Workspace,
-        keeper: Keeper,
+        store: StateStore,
         engine: Engine,
         embodiment: Embodiment,
         trust: bool,
         changed: Callable[[], None],
     ) -> None:
-        self.workspace, self.keeper, self.engine, self.embodiment = workspace, keeper, engine, embodiment
+        self.workspace, self.store, self.engine, self.embodiment = workspace, store, engine, embodiment
         self._trust, self._changed = trust, changed
         self.queue = ChangeQueue()
         self.version = 0
@@ -148,7 +148,7 @@ class OpenProject:
     async def recover(self, name: str, discard: bool) -> None:
         """Open stored unsaved edits."""
         self._ask_unsaved(discard)
-        doc, file = await in_file_thread(lambda: self.keeper.read(name), name)
+        doc, file = await in_file_thread(lambda: self.store.read(name), name)
         path = Path(file) if file else None
         if path is not None and not self.workspace.holds(path):
             path = None
@@ -178,16 +178,16 @@ class OpenProject:
         await self._leave()
         self.model = Model(document=doc, trusted=self._trust)
         self.file, self._saved, self._digest = file, view.plain(doc), await self._hash(file)
-        self._name, self._kept = self.keeper.new_name(), doc
+        self._name, self._kept = self.store.new_name(), doc
         if file is not None:
-            await try_in_file_thread(lambda: self.keeper.opened(file))
+            await try_in_file_thread(lambda: self.store.opened(file))
         self.busy = "compiling"  # set before pages receive the document, so that no page considers it ready
         self._moved()
         self.queue.start_task(self._start())
 
     async def _leave(self) -> None:
         if self._name:
-            await try_in_file_thread(lambda: self.keeper.forget(self._name))
+            await try_in_file_thread(lambda: self.store.forget(self._name))
         self.queue.session += 1
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
@@ -267,8 +267,8 @@ class OpenProject:
             await self._hash(place),
             doc,
         )
-        await try_in_file_thread(lambda: self.keeper.forget(self._name))
-        await try_in_file_thread(lambda: self.keeper.opened(place))
+        await try_in_file_thread(lambda: self.store.forget(self._name))
+        await try_in_file_thread(lambda: self.store.opened(place))
         self._moved()
         return place
 
@@ -279,7 +279,7 @@ class OpenProject:
         """Store unsaved edits, if they are new."""
         if self.model is not None and self.unsaved and self._kept is not self.model.document:
             doc, name, file = self.model.document, self._name, "" if self.file is None else str(self.file)
-            await try_in_file_thread(lambda: self.keeper.keep(name, doc, file))
+            await try_in_file_thread(lambda: self.store.keep(name, doc, file))
             self._kept = doc
 
     # ------------------------------------------------------------------------------------------------ editing

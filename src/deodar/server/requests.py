@@ -22,7 +22,7 @@ from deodar.server import content, gallery, to_server
 from deodar.server.file_thread import in_file_thread
 from deodar.server.hub import Hub
 from deodar.server.page import Page
-from deodar.server.scene import Follower
+from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
 from deodar.session.session import Session
@@ -110,7 +110,7 @@ async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
 
 @handles(to_server.Forget)
 async def _forget(hub: Hub, page: Page, m: to_server.Forget) -> None:
-    await in_file_thread(lambda: hub.keeper.forget(m.name), m.name)
+    await in_file_thread(lambda: hub.store.forget(m.name), m.name)
     hub.project.touch()
 
 
@@ -320,7 +320,7 @@ async def _use_world_content(hub: Hub, page: Page, m: to_server.UseWorldContent)
 
 @handles(to_server.WatchWorld)
 async def _watch_world(hub: Hub, page: Page, m: to_server.WatchWorld) -> None:
-    page.follower = Follower() if m.on else None
+    page.sent_bodies = SentBodies() if m.on else None
 
 
 @handles(to_server.MoveObject)

@@ -30,28 +30,28 @@ def scene(seen: _scene.Scene | None) -> WorldScene:
     return WorldScene(scene=SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks))
 
 
-class Follower:
+class SentBodies:
     """The bodies and the part of their path that one page has received."""
 
     def __init__(self) -> None:
-        self._way: Trail | None = None
+        self._path: Trail | None = None
         self._taken = 0
         self._bodies: list[BodyView] = []
 
     def news(self, track: Track) -> Bodies | None:
         """Return the bodies and the part of their path that the page does not have; None if nothing moved."""
-        seen, way = track.scene, track.trail
+        seen, path = track.scene, track.trail
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
-        fresh = way is not self._way
+        fresh = path is not self._path
         taken = 0 if fresh else self._taken
-        count = len(way.places)  # the engine's thread may add positions meanwhile
+        count = len(path.places)  # the engine's thread may add positions meanwhile
         if not fresh and count == taken and bodies == self._bodies:
             return None
-        self._way, self._taken, self._bodies = way, count, bodies
+        self._path, self._taken, self._bodies = path, count, bodies
         return Bodies(
             bodies=bodies,
             fresh=fresh,
-            way=[[round(v, DIGITS) for v in place] for place in way.places[taken:count]],
+            path=[[round(v, DIGITS) for v in place] for place in path.places[taken:count]],
         )
 
 

@@ -16,9 +16,9 @@ from deodar.errors import OutputError
 from deodar.server import token as tokens
 from deodar.server.app import Studio
 from deodar.server.guard import is_local
-from deodar.server.keeper import state_folder
 from deodar.server.redirect_file import RedirectFile
 from deodar.server.service import Service
+from deodar.server.state_store import state_folder
 
 PORT = 8430
 """First port that is tried; if it is in use, the next free one is taken."""

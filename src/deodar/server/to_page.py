@@ -358,13 +358,13 @@ class WorldScene(Message, frozen=True, tag="scene"):
 class Bodies(Message, frozen=True, tag="bodies"):
     """The bodies now, and the new part of their path.
 
-    Each row of `way` has x and y of each body; `fresh`: the path starts again, and the page drops the old
+    Each row of `path` has x and y of each body; `fresh`: the path starts again, and the page drops the old
     one.
     """
 
     bodies: list[BodyView]
     fresh: bool
-    way: list[list[float]]
+    path: list[list[float]]
 
 
 @MESSAGES.register

@@ -20,7 +20,7 @@ export type Picked = { hovered: string | null; selected: string | null; held: He
 export function draw(
   ctx: CanvasRenderingContext2D,
   frame: PlanFrame,
-  { scene, bodies, way }: Seen,
+  { scene, bodies, path }: Seen,
   picked: Picked,
   look: Look,
 ): void {
@@ -41,7 +41,7 @@ export function draw(
   for (const box of scene.boxes) {
     drawBox(ctx, frame, box, box.name === picked.selected || box.name === picked.hovered);
   }
-  bodies.forEach((_, n) => drawWay(ctx, frame, way, n, bodies[n] as BodyView));
+  bodies.forEach((_, n) => drawPath(ctx, frame, path, n, bodies[n] as BodyView));
   for (const mark of scene.marks) {
     drawMark(ctx, frame, mark, mark.name === picked.selected || mark.name === picked.hovered);
   }
@@ -116,10 +116,10 @@ function drawGhost(
   ctx.setLineDash([]);
 }
 
-function drawWay(
+function drawPath(
   ctx: CanvasRenderingContext2D,
   frame: PlanFrame,
-  way: number[][],
+  path: number[][],
   n: number,
   body: BodyView,
 ): void {
@@ -128,7 +128,7 @@ function drawWay(
   ctx.lineJoin = "round";
   ctx.beginPath();
   for (const places of [
-    ...way.map((row) => ({ x: row[2 * n] as number, y: row[2 * n + 1] as number })),
+    ...path.map((row) => ({ x: row[2 * n] as number, y: row[2 * n + 1] as number })),
     body,
   ]) {
     const at = toPixels(frame, places);

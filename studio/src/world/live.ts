@@ -3,10 +3,10 @@
 
 import type { Bodies, BodyView, WorldScene, SceneView } from "../protocol";
 
-export type Seen = { scene: SceneView | null; bodies: BodyView[]; way: number[][] };
+export type Seen = { scene: SceneView | null; bodies: BodyView[]; path: number[][] };
 
 export class LiveWorld {
-  private seen: Seen = { scene: null, bodies: [], way: [] };
+  private seen: Seen = { scene: null, bodies: [], path: [] };
   private listeners = new Set<() => void>();
 
   get now(): Seen {
@@ -25,8 +25,8 @@ export class LiveWorld {
     if (message.type === "scene") {
       this.seen = { ...this.seen, scene: message.scene };
     } else {
-      const { bodies, fresh, way } = message;
-      this.seen = { ...this.seen, bodies, way: fresh ? way : [...this.seen.way, ...way] };
+      const { bodies, fresh, path } = message;
+      this.seen = { ...this.seen, bodies, path: fresh ? path : [...this.seen.path, ...path] };
     }
     this.listeners.forEach((listener) => listener());
   }

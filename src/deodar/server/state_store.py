@@ -32,7 +32,7 @@ def state_folder() -> Path:
     return Path(platformdirs.user_state_dir("deodar")) / "studio"
 
 
-class Keeper:
+class StateStore:
     """Stores unsaved edits and recent files. Errors of writing are ignored."""
 
     def __init__(self, folder: Path) -> None:
