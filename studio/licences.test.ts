@@ -10,7 +10,7 @@ test("a module belongs to the innermost package around it", () => {
   expect(packageFolder("C:\\a\\node_modules\\react\\index.js")).toBe("C:\\a\\node_modules\\react");
 });
 
-test("modules of our own belong to none", () => {
+test("modules of the studio belong to no package", () => {
   expect(packageFolder("/a/src/main.tsx")).toBeUndefined();
 });
 

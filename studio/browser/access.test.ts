@@ -24,7 +24,7 @@ async function nameless(page: Page): Promise<string[]> {
   });
 }
 
-/** What has the focus, and whether that can be seen. */
+/** The element that has the focus, and whether the focus is visible. */
 function focused(page: Page): Promise<{ name: string; where: string; seen: boolean }> {
   return page.evaluate(() => {
     const element = document.activeElement ?? document.body;
@@ -49,8 +49,8 @@ function focused(page: Page): Promise<{ name: string; where: string; seen: boole
 }
 
 /**
- * The contrast between the colour of a text and what lies below it, as the guidelines for accessible content
- * measure it.
+ * The contrast between the colour of a text and its background, as the guidelines for accessible content
+ * define it.
  */
 function contrast(page: Page, selector: string): Promise<number> {
   return page
@@ -90,7 +90,7 @@ test("every control of the gallery has a name", async () => {
   await page.keyboard.press("Escape");
 });
 
-test("the gallery is used by keyboard alone", async () => {
+test("the gallery works by keyboard alone", async () => {
   const { page } = studio;
   await page.getByRole("button", { name: /^Selection / }).focus();
   await page.keyboard.press("Enter");
@@ -98,7 +98,7 @@ test("the gallery is used by keyboard alone", async () => {
   await choose(page, "File menu", /^Close/);
 });
 
-test("every control of an open document has a name, also in its menus", async () => {
+test("every control of an open document, also in its menus, has a name", async () => {
   const { page } = studio;
   await openExample(page, "Selection");
   expect(await nameless(page)).toEqual([]);
@@ -125,7 +125,7 @@ test("every control of an open document has a name, also in its menus", async ()
   expect(await nameless(page)).toEqual([]);
 });
 
-test("the tab key reaches the run, the boxes, and the inspector, and the focus is seen", async () => {
+test("the tab key reaches the run, the boxes and the inspector, and the focus is visible", async () => {
   const { page } = studio;
   await select(page, "u");
   await page.getByRole("button", { name: "File menu" }).focus();
@@ -157,7 +157,7 @@ test("the tab key reaches the run, the boxes, and the inspector, and the focus i
   await panel(page, "Inspector").getByRole("heading", { name: "left", exact: true }).waitFor();
 });
 
-test("light and dark follow the system until they are chosen, and text is read well in both", async () => {
+test("the colours follow the system until the user chooses, and text has contrast in both", async () => {
   const { page } = studio;
   const scheme = () =>
     page.evaluate(() => document.documentElement.getAttribute("data-mantine-color-scheme"));

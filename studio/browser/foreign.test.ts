@@ -1,4 +1,4 @@
-/** A file of another tool in the studio: opened, run, tuned, given the values of a second file. */
+/** The studio opens, runs and tunes a file of another tool, and applies the values of a second file. */
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -9,7 +9,7 @@ import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
 const SCENE = "presetSceneRepresentation.json";
-const ELEMENTS = 180; // the 168 of the file, with kernels, equal inputs and sums as the importer makes them
+const ELEMENTS = 180; // the 168 of the file, and the kernels, equal inputs and sums that the importer makes
 const CONTENT = readFileSync(join(import.meta.dirname, "../../tests/importers/cosivina", SCENE), "utf8");
 
 interface Part {
@@ -69,7 +69,7 @@ async function choosePreset(name: string): Promise<void> {
     .click();
 }
 
-test("a file of another tool opens by its name, and says what became of it", async () => {
+test("a file of another tool opens by its name, and the report lists what was imported", async () => {
   const { page } = studio;
   await button(page, "Open a file").click();
   await page.getByRole("dialog", { name: "Open a file" }).getByRole("button", { name: SCENE }).click();
@@ -91,7 +91,7 @@ test("a file of another tool opens by its name, and says what became of it", asy
   await page.keyboard.press("Escape");
 });
 
-test("it runs, and the plot of a field shows it", async () => {
+test("the imported model runs, and the plot of a field shows it", async () => {
   const { page } = studio;
   await observer.runs();
   const drawing = page
@@ -111,7 +111,7 @@ test("it runs, and the plot of a field shows it", async () => {
   await shot(page, "foreign-runs");
 });
 
-test("elements with spaces and arrows in their names are tuned like any other", async () => {
+test("elements with spaces and arrows in their names are tuned like others", async () => {
   const { page } = studio;
   await find("cos -> cos");
   await type(page, "factor", "3.5");
@@ -184,7 +184,7 @@ test("a preset may come from another folder, and an invalid document is refused 
   expect(observer.value("atn_sr", "resting_level")).toBe(-5);
 });
 
-test("it opens by drop", async () => {
+test("a dropped file of another tool opens", async () => {
   const { page } = studio;
   await observer.ask({ type: "close", discard: true });
   await page.getByRole("heading", { name: "Examples" }).waitFor();

@@ -16,7 +16,7 @@ beforeAll(async () => {
   await observer.runs();
 });
 
-// Nothing selected, everything visible.
+// Nothing is selected, and everything is visible.
 beforeEach(async () => {
   await button(studio.page, "Show everything").click();
 });
@@ -31,7 +31,7 @@ const place = (path: string) => boxes()[observer.element(path).id];
 const inspected = (name: string) =>
   panel(studio.page, "Inspector").getByRole("heading", { name, exact: true });
 
-/** How much larger than one to one the canvas is drawn. */
+/** The zoom factor of the canvas. */
 const zoom = () =>
   canvas()
     .locator(".react-flow__viewport")
@@ -86,7 +86,7 @@ test("a group folds into one box, stays folded when the page is reloaded, and un
   await folded.waitFor({ state: "detached" });
 });
 
-test("a box that is dragged stays where it is put, also in the file", async () => {
+test("a dragged box keeps its position, also in the file", async () => {
   const { page, folder } = studio;
   await box(page, "start").hover({ trial: true, position: { x: 20, y: 10 } });
   const before = await box(page, "start").boundingBox();
@@ -112,7 +112,7 @@ test("a box that is dragged stays where it is put, also in the file", async () =
   await observer.until(() => place("start") !== undefined);
 });
 
-test("search finds an element, selects it and brings it into sight", async () => {
+test("search finds an element, selects it and scrolls to it", async () => {
   const { page } = studio;
   await page.keyboard.press("/");
   const field = page.getByRole("textbox", { name: "Search for an element" });
@@ -138,7 +138,7 @@ test("search finds an element, selects it and brings it into sight", async () =>
 test("the card of an element shows its equation and its values", async () => {
   const { page } = studio;
   const card = page.getByRole("tooltip").filter({ hasText: "grasp.intention" });
-  // a canvas that still moves puts the card away
+  // a canvas that still moves hides the card
   await expect
     .poll(
       async () => {
@@ -160,7 +160,7 @@ test("the card of an element shows its equation and its values", async () => {
   await card.waitFor({ state: "detached" });
 });
 
-test("the canvas is enlarged, made smaller, and shown whole; a map shows all of it", async () => {
+test("the canvas zooms in, out and to the whole graph; a map shows the whole graph", async () => {
   const { page } = studio;
   await expect.poll(() => box(page, "lift done").count()).toBe(1);
   const whole = await zoom();

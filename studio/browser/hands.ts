@@ -1,4 +1,4 @@
-/** What a person does on the page, by the names that its controls have. */
+/** Actions of a user on the page, by the names of its controls. */
 import type { Locator, Page } from "playwright-core";
 
 import type { Observer } from "./observer";
@@ -15,7 +15,7 @@ export const box = (page: Page, path: string): Locator =>
 export const slider = (page: Page, path: string, where = "Inspector"): Locator =>
   panel(page, where).getByRole("slider", { name: path, exact: true });
 
-/** The number beside it. */
+/** The number beside the slider. */
 export const number = (page: Page, path: string, where = "Inspector"): Locator =>
   panel(page, where).getByRole("textbox", { name: path, exact: true });
 
@@ -28,7 +28,7 @@ export async function openExample(page: Page, title: string): Promise<void> {
 }
 
 /**
- * Open a file afresh, without asking, and by way of the gallery: what the page shows afterwards is not of the
+ * Open a file again by way of the gallery, without confirmation, so that nothing on the page is of the
  * document before.
  */
 export async function reopen(page: Page, observer: Observer, path: string): Promise<void> {
@@ -48,21 +48,21 @@ export async function select(page: Page, path: string): Promise<void> {
     .waitFor();
 }
 
-/** Type a number into its field and take it with Enter. */
+/** Type a number into its field and confirm it with Enter. */
 export async function type(page: Page, path: string, text: string, where?: string): Promise<void> {
   const field = number(page, path, where);
   await field.fill(text);
   await field.press("Enter");
 }
 
-/** Choose from a menu behind a button. */
+/** Choose an entry of the menu of a button. */
 export async function choose(page: Page, name: string, item: string | RegExp): Promise<void> {
   await button(page, name).click();
   await page.getByRole("menuitem", { name: item, exact: typeof item === "string" }).click();
   await page.getByRole("menu").waitFor({ state: "detached" });
 }
 
-/** What opens beside a button, used and closed again. */
+/** Open the area beside a button, use it and close it. */
 export async function beside(
   page: Page,
   name: string,
@@ -75,11 +75,11 @@ export async function beside(
   await opened.waitFor({ state: "detached" });
 }
 
-/** Choose from the menu of files. */
+/** Choose an entry of the menu of files. */
 export const file = (page: Page, item: string | RegExp): Promise<void> => choose(page, "File menu", item);
 
 /**
- * A measure of the layout, once two of them agree: the inspector grows above its sliders while equations and
+ * Measure the layout until two results agree: the inspector grows above its sliders while equations and
  * their fonts are loaded.
  */
 async function settled<T>(page: Page, measure: () => Promise<T>): Promise<T> {
@@ -93,7 +93,7 @@ async function settled<T>(page: Page, measure: () => Promise<T>): Promise<T> {
   return now;
 }
 
-/** Move the hand to a slider's place, a share of its length, and let go. */
+/** Drag a slider to a position, a share of its length, and release it. */
 export async function drag(page: Page, thumb: Locator, share: number): Promise<void> {
   const track = thumb.locator("xpath=ancestor::*[contains(@class, 'Slider-trackContainer')]");
   const [from, along] = await settled(page, () => Promise.all([thumb.boundingBox(), track.boundingBox()]));
@@ -104,7 +104,7 @@ export async function drag(page: Page, thumb: Locator, share: number): Promise<v
   await page.mouse.up();
 }
 
-/** How many different colours a canvas shows; one is an empty one. */
+/** The number of different colours on a canvas; an empty canvas has one. */
 export function colours(canvas: Locator): Promise<number> {
   return canvas.evaluate((element) => {
     const found = (
@@ -116,11 +116,11 @@ export function colours(canvas: Locator): Promise<number> {
   });
 }
 
-/** What a canvas shows, to compare with what it shows later. */
+/** The content of a canvas, to compare with a later one. */
 export const drawn = (canvas: Locator): Promise<string> =>
   canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
 
-/** Drop a file of the person's own anywhere on the page. */
+/** Drop a file of the user's own on the page. */
 export async function drop(page: Page, name: string, type: string, content: Uint8Array): Promise<void> {
   const carried = await page.evaluateHandle(
     ([bytes, called, sort]) => {

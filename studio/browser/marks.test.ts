@@ -39,7 +39,7 @@ beforeAll(async () => {
 
 beforeEach(async () => {
   await reopen(studio.page, observer, "weak.json");
-  await studio.page.mouse.move(0, 0); // no card of an element lies over another
+  await studio.page.mouse.move(0, 0); // no card of an element covers a box
 });
 
 afterAll(() => studio.stop());
@@ -78,7 +78,7 @@ test("a warning appears and disappears on its box while a slider moves and the m
   await weak.waitFor({ state: "detached" });
 });
 
-test("a problem has another shape than a warning, and comes before it", async () => {
+test("a problem has another shape than a warning, and is shown before it", async () => {
   const { page } = studio;
   await select(page, "left");
   await type(page, "amplitude", "3");

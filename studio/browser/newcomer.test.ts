@@ -19,7 +19,7 @@ import {
 } from "./hands";
 import { shot, startStudio } from "./studio";
 
-test("from the gallery to a peak, its decay, and back, and to a file that is opened again", async () => {
+test("a new user makes a peak, lets it decay and return, saves the file and opens it again", async () => {
   const { page, folder, observe, stop } = await startStudio();
   onTestFinished(stop);
   await openExample(page, "Selection");

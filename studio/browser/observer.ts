@@ -1,5 +1,5 @@
 /**
- * A second page without a browser, before the same server: it uses the studio's protocol, so that a test
+ * A second page without a browser at the same server. It uses the studio's protocol, so that a test
  * reads exact numbers.
  */
 import { decode, type Frame } from "../src/frames";
@@ -17,7 +17,7 @@ import type {
 import { replaced, valueAt } from "../src/values";
 import { LiveWorld } from "../src/world/live";
 
-/** Longest time that anything may take; a failure, not a measure. */
+/** Time after which a wait fails; it is not a measurement. */
 const PATIENCE = 60_000;
 
 interface Stream {
@@ -27,7 +27,7 @@ interface Stream {
   frame?: Frame;
 }
 
-/** Where the socket of a studio is, with the token of the address that it printed. */
+/** The address of a studio's socket, with the token of the address that it printed. */
 export function socketOf(url: string): string {
   const there = new URL(url);
   return new URL(`/ws${there.search}`, there).href.replace(/^http/, "ws");
@@ -36,7 +36,7 @@ export function socketOf(url: string): string {
 export class Observer {
   document: DocumentView | null = null;
   clock: RunClock | undefined;
-  /** The world from above; where its bodies are after `watch_world`. */
+  /** The world from above, with its bodies after `watch_world`. */
   readonly world = new LiveWorld();
   private session = 0;
   private last = 0;
@@ -71,7 +71,7 @@ export class Observer {
     this.socket.close();
   }
 
-  /** Wait until something holds. It is evaluated after each message, and has to hold within a minute. */
+  /** Wait until a condition holds. It is evaluated after each message, and fails after a minute. */
   until(condition: () => unknown): Promise<void> {
     return new Promise((resolve, reject) => {
       const done = (how: () => void) => {
@@ -95,7 +95,7 @@ export class Observer {
     });
   }
 
-  /** Ask for something and wait for the answer. */
+  /** Send a request and wait for the answer. */
   async ask(message: ToServer): Promise<Answer> {
     const request = ++this.last;
     this.say({ ...message, request } as ToServer);
@@ -128,12 +128,12 @@ export class Observer {
     return found;
   }
 
-  /** A parameter of an element as the document has it, such as kernel.0.sigma. */
+  /** A parameter of an element in the document, such as kernel.0.sigma. */
   value(path: string, parameter: string): unknown {
     return valueAt(this.element(path).values, parameter);
   }
 
-  /** The values at a port in the newest frame; none until the first one came. */
+  /** The values of a port in the newest frame; none before the first frame. */
   values(path: string, port: string): Float32Array {
     const key = `${path}.${port}`;
     let stream = this.streams.get(key);
@@ -145,18 +145,18 @@ export class Observer {
     return stream.frame?.values ?? new Float32Array();
   }
 
-  /** The simulated time of that frame. */
+  /** The simulated time of the newest frame. */
   moment(path: string, port: string): number {
     return this.streams.get(`${path}.${port}`)?.frame?.time ?? Number.NaN;
   }
 
-  /** The largest of them; NaN until the first frame came, so that no comparison holds. */
+  /** The largest value; NaN before the first frame, so that no comparison holds. */
   max(path: string, port: string): number {
     const values = this.values(path, port);
     return values.length === 0 ? Number.NaN : values.reduce((most, value) => Math.max(most, value));
   }
 
-  /** The index of the largest. */
+  /** The index of the largest value. */
   peak(path: string, port: string): number {
     return this.values(path, port).indexOf(this.max(path, port));
   }
@@ -172,7 +172,7 @@ export class Observer {
         if (message.session !== this.session) {
           for (const { number } of this.streams.values()) this.say({ type: "unwatch", stream: number });
           this.streams.clear();
-          this.clock = undefined; // that of the document before
+          this.clock = undefined; // the clock of the document before
         }
         this.session = message.session;
         break;

@@ -61,7 +61,7 @@ test("a file is found by its name, through the folders", async () => {
   await page.getByRole("banner").getByText("models/deep.json").waitFor();
 });
 
-test("what was open is offered again", async () => {
+test("recent files are offered", async () => {
   const { page } = studio;
   await file(page, /^Close/);
   await page.getByRole("list", { name: "Recent files" }).getByRole("button", { name: "deep.json" }).click();
@@ -73,7 +73,7 @@ test("what was open is offered again", async () => {
   await dialog.waitFor({ state: "detached" });
 });
 
-test("a document that is dropped is opened, and asks first where there are unsaved edits", async () => {
+test("a dropped document is opened, after a question if there are unsaved edits", async () => {
   const { page } = studio;
   await select(page, "u");
   await type(page, "tau", "33");
@@ -93,7 +93,7 @@ test("a document that is dropped is opened, and asks first where there are unsav
   await page.getByRole("banner").getByText("not in a file yet").waitFor();
 });
 
-test("a package that is dropped is opened", async () => {
+test("a dropped package is opened", async () => {
   const { page, folder } = studio;
   execFileSync(python(), ["-m", "deodar", "pack", "example:binding", "--out", "packed.deodar"], {
     cwd: folder,
@@ -114,7 +114,7 @@ test("an invalid document is refused with a reason", async () => {
   await message.waitFor({ state: "detached" });
 });
 
-test("a file with errors is a page that lists every problem with its path", async () => {
+test("a file with errors opens as a page that lists every problem with its path", async () => {
   const { page, folder } = studio;
   const data = JSON.parse(readFileSync(SELECTION, "utf8")) as {
     elements: Record<string, Record<string, unknown>>;
@@ -140,7 +140,7 @@ test("a file with errors is a page that lists every problem with its path", asyn
   await title().waitFor();
 });
 
-test("a file on the command line is opened, may vanish, and is there again when it is saved", async () => {
+test("a file on the command line is opened; if it is deleted, saving writes it again", async () => {
   const second = await startStudio({ copies: ["examples/node.json"], file: "node.json" });
   onTestFinished(second.stop);
   const { page, folder } = second;

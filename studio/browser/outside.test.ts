@@ -3,7 +3,7 @@ import { expect, onTestFinished, test } from "vitest";
 import { button, colours, drag, number, panel, select, slider, type } from "./hands";
 import { shot, startStudio } from "./studio";
 
-/** What a person writes who needs an element that deodar does not have. */
+/** An element that a user writes because deodar does not have it. */
 const MODULE = `
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

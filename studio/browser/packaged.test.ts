@@ -9,7 +9,7 @@ import { shot, startStudio, type Studio } from "./studio";
 
 const PACKAGE = join(import.meta.dirname, "..", "..", "examples", "package");
 
-/** A plot that draws nothing, and says why. */
+/** A plot that raises an exception instead of drawing. */
 const FAILING = 'export function draw() { throw new RangeError("no radius"); }';
 const ABOUT = 'TITLE = "Failing plot"\nFILE = "failing.js"\nAXES = 1\n';
 
@@ -53,7 +53,7 @@ async function step(n: number): Promise<void> {
   await observer.until(() => observer.clock?.tick === n);
 }
 
-test("a plot of a package is shown, follows the values and the size, and is exported", async () => {
+test("a plot of a package is drawn again with new values and sizes, and is exported", async () => {
   const { page } = studio;
   await choose(page, "Menu of this plot", "Polar plot");
   const plot = page.getByRole("region", { name: "Polar plot of target", exact: true });
@@ -80,7 +80,7 @@ test("a plot of a package is shown, follows the values and the size, and is expo
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
-test("a plot that raises an exception says so with its package, and the page works on", async () => {
+test("a plot that raises an exception shows it with its package, and the page continues", async () => {
   const { page } = studio;
   await choose(page, "Menu of this plot", "Failing plot");
   const plot = page.getByRole("region", { name: "Failing plot of target", exact: true });

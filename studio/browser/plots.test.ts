@@ -51,7 +51,7 @@ test("the first field is plotted from the start, with threshold and resting leve
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
-test("input, interaction and resting level are curves of their own, chosen one by one", async () => {
+test("input, interaction and resting level are separate curves, chosen one by one", async () => {
   await step(300);
   const curves = plot("Curves of u");
   for (const name of ["input", "interaction"]) {
@@ -68,7 +68,7 @@ test("input, interaction and resting level are curves of their own, chosen one b
   await observer.until(() => panels().includes('"shown":["activation","input","interaction"]'));
 });
 
-test("the largest value of a field over time", async () => {
+test("a plot shows the largest value of a field over time", async () => {
   const { page } = studio;
   await choose(page, "Menu of this plot", "Time course");
   const drawing = chart("Time course of u", "max of activation over time");
@@ -81,7 +81,7 @@ test("the largest value of a field over time", async () => {
   await button(page, "Pause").click();
 });
 
-test("the time course of a node, and of another element in the same plot", async () => {
+test("a plot shows the time courses of a node and of another element", async () => {
   const { page } = studio;
   await reopen(page, observer, "node.json");
   const course = plot("Time course of u");
@@ -117,7 +117,7 @@ test("a field over two dimensions is a heat map with a scale; a sensor shows its
   await shot(page, "plot-heat");
 });
 
-test("the arrangement of panels is kept when the page is reloaded, and in the file", async () => {
+test("the arrangement of panels is kept in a reload and in the file", async () => {
   const { page, folder } = studio;
   const original = readFileSync(join(folder, "selection.json"), "utf8");
   expect(original).not.toContain("panels");
@@ -162,7 +162,7 @@ test("a plot is exported as a picture file", async () => {
   expect(png.length).toBeGreaterThan(5000);
 });
 
-test("a hand makes a peak while the right button is held, or the key I", async () => {
+test("the right button and the key I make a peak while they are held", async () => {
   const { page } = studio;
   for (const path of ["left", "right"]) {
     await observer.ask({ type: "set", element: observer.element(path).id, parameter: "amplitude", value: 0 });
@@ -173,7 +173,7 @@ test("a hand makes a peak while the right button is held, or the key I", async (
   const place = await over.boundingBox();
   if (place === null) throw new Error("The plot is not visible.");
   const pushing = () => observer.clock?.pushing === observer.element("u").id;
-  // Panels stop moving a moment after a document is opened: as a person would, press again where a press
+  // Panels still move for a moment after a document is opened: press again, as a user would, if a press
   // went beside the plot.
   for (let tries = 0; tries < 20 && !pushing(); tries++) {
     await page.mouse.up({ button: "right" });

@@ -1,4 +1,4 @@
-/** Before the first test: can a browser start? If not, that is said once, not by every test. */
+/** Start a browser before the first test, so that a failure is reported once, not by every test. */
 import { launch } from "./chromium";
 
 export default async function setup(): Promise<void> {

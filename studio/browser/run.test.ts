@@ -13,7 +13,7 @@ beforeAll(async () => {
   await observer.runs();
 });
 
-// Each test begins at the start, standing still, at real time.
+// Each test begins at the start of a paused run in real time.
 beforeEach(async () => {
   await observer.ask({ type: "pause" });
   await observer.ask({ type: "speed", factor: 1 });
@@ -42,7 +42,7 @@ test("play runs, pause stops, and time and factor are visible", async () => {
   await button(page, "Play").waitFor();
   await observer.until(() => !observer.running);
   await expect.poll(() => factor.innerText()).toMatch(/^×–/);
-  // a paused model is shown as often as requested, without a change
+  // requests during a pause change nothing
   await observer.ask({ type: "list_folder" });
   const { time } = observer;
   await observer.ask({ type: "list_folder" });
@@ -52,7 +52,7 @@ test("play runs, pause stops, and time and factor are visible", async () => {
     .toMatch(new RegExp(`step ${observer.clock?.tick}$`));
 });
 
-test("single steps, and several at a time", async () => {
+test("the buttons take single steps and several steps", async () => {
   const { page } = studio;
   await button(page, "Step").click();
   await observer.until(() => observer.clock?.tick === 1);
@@ -71,7 +71,7 @@ test("single steps, and several at a time", async () => {
   await button(page, "Step").waitFor();
 });
 
-test("reset goes back to the start; another seed is another run, the same seed the same", async () => {
+test("reset returns to the start; another seed gives another run, the same seed the same run", async () => {
   const { page } = studio;
   const run = async (): Promise<number[]> => {
     await observer.ask({ type: "step", n: 60 });
@@ -101,7 +101,7 @@ test("reset goes back to the start; another seed is another run, the same seed t
   expect(await run()).toEqual(first);
 });
 
-test("from slow motion to as fast as possible", async () => {
+test("the speed ranges from slow motion to full speed", async () => {
   const { page } = studio;
   await beside(page, "Speed: 1×", (speed) => speed.getByRole("slider", { name: "Speed" }).press("Home"));
   await observer.until(() => observer.clock?.speed === 0.01);
@@ -116,7 +116,7 @@ test("from slow motion to as fast as possible", async () => {
   await expect.poll(() => page.getByLabel("Speed measured").innerText()).toMatch(/^×(?!0\.00)\d/);
 });
 
-test("another time step belongs to the document and keeps the state", async () => {
+test("another time step is stored in the document and keeps the state", async () => {
   const { page } = studio;
   await observer.ask({ type: "step", n: 20 });
   await observer.until(() => observer.time === 20);
@@ -137,7 +137,7 @@ test("another time step belongs to the document and keeps the state", async () =
   await observer.until(() => observer.clock?.dt === 1 && observer.document?.dt === null);
 });
 
-test("the keys of the run, listed in the help", async () => {
+test("the keys of the run work, and the help lists them", async () => {
   const { page } = studio;
   await page.keyboard.press("?");
   const help = page.getByRole("dialog", { name: "Keys and mouse" });

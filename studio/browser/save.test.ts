@@ -15,7 +15,7 @@ beforeAll(async () => {
   observer = await studio.observe();
 });
 
-// Each test begins with the same file, freshly opened.
+// Each test opens the same file again.
 beforeEach(async () => {
   writeFileSync(
     join(studio.folder, "node.json"),
@@ -36,7 +36,7 @@ async function edit(tau: number): Promise<void> {
 const onDisk = (name: string) => readFileSync(join(studio.folder, name), "utf8");
 const question = (title: string) => studio.page.getByRole("dialog", { name: title });
 
-test("a dot in the title stands for unsaved edits, and goes when they are saved or taken back", async () => {
+test("a dot in the title marks unsaved edits, until they are saved or undone", async () => {
   const { page } = studio;
   await expect.poll(() => page.title()).toBe("node – deodar studio");
   await edit(31);
@@ -50,7 +50,7 @@ test("a dot in the title stands for unsaved edits, and goes when they are saved 
   await expect.poll(() => page.title()).toBe("node – deodar studio");
 });
 
-test("save as asks for a name, refuses what is none, and warns of a file that is there", async () => {
+test("save as asks for a name, refuses an invalid one, and warns of an existing file", async () => {
   const { page } = studio;
   await edit(41);
   await page.keyboard.press("Control+Shift+S");
@@ -75,7 +75,7 @@ test("save as asks for a name, refuses what is none, and warns of a file that is
   expect(onDisk("node.json")).not.toContain('"tau": 41');
 });
 
-test("saving over a file that changed on disk asks", async () => {
+test("saving asks if the file changed on disk", async () => {
   const { page, folder } = studio;
   await edit(51);
   writeFileSync(join(folder, "node.json"), `${onDisk("node.json")}\n`);
@@ -91,7 +91,7 @@ test("saving over a file that changed on disk asks", async () => {
   expect(onDisk("node.json")).toContain('"tau": 51');
 });
 
-test("closing with unsaved edits asks: cancel, discard, save", async () => {
+test("closing asks whether to cancel, discard or save unsaved edits", async () => {
   const { page } = studio;
   const dialog = question("Keep the unsaved edits?");
   const gallery = page.getByRole("heading", { name: "Examples" });
@@ -116,7 +116,7 @@ test("closing with unsaved edits asks: cancel, discard, save", async () => {
   expect(onDisk("node.json")).toContain('"tau": 62');
 });
 
-test("an example with edits is asked for a name before it is left", async () => {
+test("closing an edited example asks for a name", async () => {
   const { page, folder } = studio;
   await file(page, /^Close/);
   await openExample(page, "Node");
@@ -131,7 +131,7 @@ test("an example with edits is asked for a name before it is left", async () => 
   expect(existsSync(join(folder, "from example.json"))).toBe(true);
 });
 
-test("the browser asks before a page with unsaved edits is left", async () => {
+test("the browser asks before it leaves a page with unsaved edits", async () => {
   const { another } = studio;
   await edit(81);
   const page = await another();

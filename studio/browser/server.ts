@@ -1,4 +1,4 @@
-/** `deodar studio` as a person starts it, in folders of its own. */
+/** `deodar studio` in folders of its own, as a user starts it. */
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
@@ -9,22 +9,22 @@ const PATIENCE = 60_000;
 const GRACE = 10_000;
 
 export interface ServerOptions {
-  /** The document to open, as typed in the working folder; without one, the gallery. */
+  /** The document to open, relative to the working folder; without one, the gallery. */
   file?: string;
   /** Python modules in the working folder that are imported first. */
   imports?: string[];
-  /** Further words of the command line. */
+  /** Further arguments of the command line. */
   words?: string[];
 }
 
 export interface Server {
   url: string;
-  /** What it has printed so far. */
+  /** The output so far. */
   said: () => string;
   stop: (signal?: NodeJS.Signals) => Promise<void>;
 }
 
-/** The Python that has deodar: the one that runs the tests, else the one of the environment in .venv. */
+/** The Python that has deodar: the one that runs the tests, or the one of the environment in .venv. */
 export function python(): string {
   const named = process.env["DEODAR_PYTHON"];
   if (named) return named;
@@ -38,7 +38,7 @@ export function python(): string {
   return found;
 }
 
-/** A server that listens. It works in `folder` and keeps what is unsaved in `state`. */
+/** Start a server and wait until it listens. It works in `folder` and stores unsaved edits in `state`. */
 export async function startServer(
   folder: string,
   state: string,
@@ -58,7 +58,7 @@ export async function startServer(
     ...(options.words ?? []),
   ];
   const env = {
-    // programs that earlier tests compiled are compiled once
+    // tests share compiled programs
     DEODAR_CACHE: join(ROOT, ".pytest_cache", "programs"),
     ...process.env,
     DEODAR_STATE: state,

@@ -12,7 +12,7 @@ import { type Server, type ServerOptions, startServer } from "./server";
 const ROOT = join(import.meta.dirname, "..", "..");
 const SIZE = { width: 1280, height: 800 };
 
-/** Longest time that a person would wait for something; a failure, not a measure. */
+/** Time after which a wait fails; it is not a measurement. */
 const PATIENCE = 60_000;
 
 export interface StudioOptions extends ServerOptions {
@@ -21,9 +21,9 @@ export interface StudioOptions extends ServerOptions {
    * examples/selection.json.
    */
   copies?: string[];
-  /** Further files in it: their names and what they hold. */
+  /** Further files in it, by name, with their content. */
   files?: Record<string, string>;
-  /** Folders in it: their names, and for each the names of its files and what they hold. */
+  /** Folders in it, by name, with their files by name and content. */
   folders?: Record<string, Record<string, string>>;
   colours?: "light" | "dark";
   /** Messages of the browser's console that belong to the test, such as those of a lost connection. */
@@ -33,21 +33,21 @@ export interface StudioOptions extends ServerOptions {
 export interface Studio {
   page: Page;
   url: string;
-  /** The working folder: FILE is looked for here. */
+  /** The working folder, which contains FILE. */
   folder: string;
-  /** Where unsaved edits are kept. */
+  /** The folder of unsaved edits. */
   state: string;
   browser: Browser;
   context: BrowserContext;
-  /** The server that runs now. */
+  /** The running server. */
   readonly server: Server;
-  /** Ends the server, as told by the signal, and starts it again at the same address. */
+  /** End the server by a signal, and start it again at the same address. */
   restart: (signal?: NodeJS.Signals) => Promise<void>;
-  /** A further page before the same server. */
+  /** Open a further page at the same server. */
   another: () => Promise<Page>;
-  /** A page without a browser, which reads exact numbers. */
+  /** Connect a page without a browser, which reads exact numbers. */
   observe: () => Promise<Observer>;
-  /** Ends browser and server, and fails where a page reported an error. */
+  /** End browser and server; fail if a page reported an error. */
   stop: () => Promise<void>;
 }
 
@@ -136,7 +136,7 @@ export async function startStudio(options: StudioOptions = {}): Promise<Studio> 
   }
 }
 
-/** A picture of the page as NAME.png in the folder that DEODAR_SHOTS names; without the variable, none. */
+/** Write a picture of the page as NAME.png into the folder that DEODAR_SHOTS names, if it is set. */
 export async function shot(page: Page, name: string): Promise<void> {
   const folder = process.env["DEODAR_SHOTS"];
   if (folder) await page.screenshot({ path: join(folder, `${name}.png`) });

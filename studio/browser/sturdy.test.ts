@@ -6,7 +6,7 @@ import { expect, onTestFinished, test } from "vitest";
 import { box, button, choose, drag, number, panel, select, slider, type } from "./hands";
 import { shot, startStudio, type Studio, type StudioOptions } from "./studio";
 
-/** What a browser says of a server that is gone for a while. */
+/** The browser's message for a server that does not run. */
 const GONE = [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/];
 
 const NODE = { axes: [], sigmoid: { kind: "Logistic" }, kernel: [] };
@@ -34,7 +34,7 @@ async function start(options: StudioOptions = {}): Promise<Studio> {
   return studio;
 }
 
-test("the run continues without a page; pages that open show it, and stay in step", async () => {
+test("the run continues without a page, and all open pages show the same state", async () => {
   const { page, another, observe } = await start();
   const observer = await observe();
   await observer.runs();
@@ -86,7 +86,7 @@ test("a page reports a lost connection, reconnects by itself and shows the prese
     .waitFor({ state: "detached" });
 });
 
-test("edits that no file holds are offered after a crash", async () => {
+test("unsaved edits are offered after a crash", async () => {
   const { page, state, restart, observe } = await start({ expected: GONE });
   await select(page, "u");
   await type(page, "tau", "44");
@@ -114,7 +114,7 @@ test("edits that no file holds are offered after a crash", async () => {
   await expect.poll(() => readdirSync(kept)).toEqual([]);
 });
 
-test("an element that fails stops the run, is named, and leaves the rest intact", async () => {
+test("an element that fails stops the run, is named, and does not affect the rest", async () => {
   const { page, observe } = await start({
     files: { "runaway.json": JSON.stringify(RUNAWAY) },
     file: "runaway.json",

@@ -8,7 +8,7 @@ import { box } from "./hands";
 import { python } from "./server";
 import { startStudio, type Studio } from "./studio";
 
-/** What a browser says of a server that is gone for a while, or that wants another token. */
+/** The browser's messages for a server that does not run, or that requires another token. */
 const GONE = [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/, /status of 401/];
 
 async function start(): Promise<Studio> {
@@ -21,7 +21,7 @@ async function start(): Promise<Studio> {
   return studio;
 }
 
-test("the address bar does not keep the token, and a person without it is asked for it", async () => {
+test("the address bar does not show the token, and a page without it asks for it", async () => {
   const { page, url, browser } = await start();
   await box(page, "u").waitFor();
   expect(page.url()).toBe(new URL("/", url).href);
@@ -37,7 +37,7 @@ test("the address bar does not keep the token, and a person without it is asked 
   expect(stranger.url()).toBe(page.url());
 });
 
-test("the file with which the studio starts the browser leads to the page", async () => {
+test("the file that the studio opens in the browser leads to the page", async () => {
   const { url, browser } = await start();
   const code =
     "import sys; from deodar.server.redirect_file import RedirectFile; " +

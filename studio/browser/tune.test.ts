@@ -31,7 +31,7 @@ beforeAll(async () => {
   observer = await studio.observe();
 });
 
-// Each test begins with the file as it is on disk.
+// Each test opens the file on disk again.
 beforeEach(async () => {
   await reopen(studio.page, observer, "selection.json");
   await select(studio.page, "u");
@@ -47,7 +47,7 @@ const kinds = () => (observer.value("u", "kernel") as { kind: string }[]).map(({
 const shows = (path: string, text: string) =>
   expect.poll(() => number(studio.page, path).inputValue()).toBe(text);
 
-/** Back and forth again: everything can be undone, and redone, with the same key. */
+/** Undo all edits, and redo them, by the keys. */
 async function undoRedo(parameter: string, before: unknown, after: unknown): Promise<void> {
   await comes("u", parameter, after);
   await studio.page.keyboard.press("Control+z");
@@ -56,7 +56,7 @@ async function undoRedo(parameter: string, before: unknown, after: unknown): Pro
   await comes("u", parameter, after);
 }
 
-test("a number is dragged, stepped by keys, and typed; it has a unit and a sensible range", async () => {
+test("a number is dragged, stepped by keys and typed; it has a unit and a range", async () => {
   const { page } = studio;
   expect(await group("tau").innerText()).toContain("ms");
   expect(await group("kernel.0.sigma").innerText()).toContain("deg");
@@ -89,7 +89,7 @@ test("a number is dragged, stepped by keys, and typed; it has a unit and a sensi
   await comes("u", "tau", 30);
 });
 
-test("a value that cannot be says why, changes nothing, and goes back", async () => {
+test("an invalid value shows the reason, changes nothing, and is restored", async () => {
   const { page } = studio;
   await type(page, "tau", "soon");
   await group("tau").getByText("needs a number, not soon").waitFor();
@@ -146,7 +146,7 @@ test("kernels are added, moved, replaced and removed", async () => {
   await observer.until(() => observer.clock?.busy === "");
 });
 
-test("a number for all axes, or one for each", async () => {
+test("a parameter has one number for all axes, or one for each", async () => {
   const { page } = studio;
   await reopen(page, observer, "plane.json");
   await select(page, "spot");
@@ -162,7 +162,7 @@ test("a number for all axes, or one for each", async () => {
   await comes("spot", "sigma", 3);
 });
 
-test("windows of a stimulus", async () => {
+test("windows of a stimulus are added and removed", async () => {
   const { page } = studio;
   await select(page, "left");
   await type(page, "windows.0.start", "50");
@@ -173,7 +173,7 @@ test("windows of a stimulus", async () => {
   await observer.until(() => (observer.value("left", "windows") as unknown[]).length === 1);
 });
 
-test("back to the default", async () => {
+test("a parameter returns to its default", async () => {
   const { page } = studio;
   await group("noise").getByRole("img", { name: "not the default" }).waitFor();
   await choose(page, "More for noise", /^Reset to default/);
@@ -181,7 +181,7 @@ test("back to the default", async () => {
   await group("noise").getByRole("img", { name: "not the default" }).waitFor({ state: "detached" });
 });
 
-test("a parameter is pinned to the sliders, which are kept with the document", async () => {
+test("a parameter is pinned to the sliders, which are stored in the document", async () => {
   const { page, folder } = studio;
   await choose(page, "More for resting_level", "Pin to Sliders");
   const pinned = slider(page, "u.resting_level", "Sliders");
@@ -210,7 +210,7 @@ test("a parameter is pinned to the sliders, which are kept with the document", a
   await pinned.waitFor();
 });
 
-test("one slider drives two elements through a document parameter", async () => {
+test("one slider sets a document parameter that drives two elements", async () => {
   const { page } = studio;
   await select(page, "left");
   await choose(page, "More for amplitude", /^New document parameter/);

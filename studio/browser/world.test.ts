@@ -52,7 +52,7 @@ const object = (name: string) =>
   );
 const robot = () => observer.world.now.bodies[0]?.x ?? Number.NaN;
 
-/** Where a place in the world is on the page. */
+/** The pixel on the page of a position in the world. */
 async function onPage(place: PlanPoint): Promise<PlanPoint> {
   const area = await canvas().boundingBox();
   if (area === null) throw new Error("The world is not visible.");
@@ -77,7 +77,7 @@ test("the world opens by itself, and a tooltip shows the name and position of an
   await expect.poll(() => told().textContent()).toBe("crate: 0.80, 1.50 m");
 });
 
-test("a crate dragged in front of the running robot stops it, and dragged away releases it", async () => {
+test("a crate that is dragged in front of the robot stops it until it is dragged away", async () => {
   await observer.ask({ type: "speed", factor: 1 });
   await button(studio.page, "Play").click();
   await observer.until(() => observer.running);
@@ -98,7 +98,7 @@ test("a crate dragged in front of the running robot stops it, and dragged away r
   await observer.until(() => !observer.running);
 });
 
-test("a goal moves too; what does not fit is refused with its reason, and stays", async () => {
+test("a goal can be moved; a position that does not fit is refused with its reason", async () => {
   await drag({ x: 2.7, y: 0.5 }, { x: 2.5, y: 0.2 });
   await observer.until(() => Math.abs((object("goal")?.x ?? 0) - 2.5) < 0.02);
   const before = object("goal");
@@ -115,7 +115,7 @@ test("a goal moves too; what does not fit is refused with its reason, and stays"
   expect(object("goal")).toEqual(before);
 });
 
-test("a double click places a box, arrow keys move it, Delete takes it away", async () => {
+test("a double click places a box, arrow keys move it, Delete removes it", async () => {
   const { x, y } = await onPage({ x: 0.4, y: 0.4 });
   await studio.page.mouse.dblclick(x, y);
   await observer.until(() => object("box 1"));

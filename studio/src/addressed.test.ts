@@ -11,7 +11,7 @@ test("edits name the document that they are meant for", () => {
   expect(addressed({ type: "save" }, 7)).toMatchObject({ session: 7 });
 });
 
-test("what opens another document, or changes none, names none", () => {
+test("messages that open another document or edit none name no document", () => {
   for (const type of ["play", "measure_costs"] as const) expect(addressed({ type }, 7)).toEqual({ type });
   expect(addressed({ type: "open_file", path: "a.json" }, 7)).toEqual({ type: "open_file", path: "a.json" });
 });

@@ -30,7 +30,7 @@ test("each gesture has its own number, never 0", () => {
   expect(first).toBeGreaterThan(0);
 });
 
-test("one message for each frame, with the newest value", () => {
+test("each frame sends one message, with the newest value", () => {
   const { sent, gesture, draw } = setup();
   gesture.move(1);
   gesture.move(2);
@@ -40,7 +40,7 @@ test("one message for each frame, with the newest value", () => {
   expect(sent.map((s) => s.value)).toEqual([3]);
 });
 
-test("one message on its way, what comes meanwhile is sent after the answer, the newest only", async () => {
+test("while a message is unanswered, only the newest value waits, and is sent after the answer", async () => {
   const { sent, gesture, draw, answer } = setup();
   gesture.move(1);
   draw();
@@ -54,7 +54,7 @@ test("one message on its way, what comes meanwhile is sent after the answer, the
   expect(sent[1]?.gesture).toBe(sent[0]?.gesture);
 });
 
-test("the last value of a drag is sent, and the drag is over once it is answered", async () => {
+test("the last value of a drag is sent, and the drag ends with its answer", async () => {
   const { sent, settled, gesture, draw, answer } = setup();
   gesture.move(1);
   draw();
@@ -68,7 +68,7 @@ test("the last value of a drag is sent, and the drag is over once it is answered
   expect(settled).toHaveBeenCalledTimes(1);
 });
 
-test("a slider that is held still is not over", async () => {
+test("the gesture of a slider that is held still does not end", async () => {
   const { settled, gesture, draw, answer } = setup();
   gesture.move(1);
   draw();
@@ -78,7 +78,7 @@ test("a slider that is held still is not over", async () => {
   expect(settled).toHaveBeenCalledTimes(1);
 });
 
-test("keys in quick succession are one gesture, after a pause another one", async () => {
+test("keys in quick succession are one gesture; a key after a pause starts another", async () => {
   const { sent, gesture, draw, answer } = setup();
   for (const [value, pause] of [
     [1, 100],

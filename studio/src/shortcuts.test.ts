@@ -11,7 +11,7 @@ const press = (key: string, held: string = "") => ({
 });
 
 describe("a key press", () => {
-  it("differs from others", () => {
+  it("differs from other keys", () => {
     expect(isPressed("Ctrl+Z", press("z", "c"))).toBe(true);
     expect(isPressed("Ctrl+Z", press("z", "m"))).toBe(true);
     expect(isPressed("Ctrl+Z", press("Z", "cs"))).toBe(false);
@@ -24,20 +24,20 @@ describe("a key press", () => {
     expect(isPressed("Shift+R", press("r"))).toBe(false);
   });
 
-  it("of a sign may need Shift", () => {
+  it("of a sign may include Shift", () => {
     expect(isPressed("?", press("?", "s"))).toBe(true);
     expect(isPressed(".", press("."))).toBe(true);
     expect(isPressed(".", press(".", "s"))).toBe(true);
     expect(isPressed(".", press(".", "c"))).toBe(false);
   });
 
-  it("is at most one shortcut", () => {
+  it("triggers at most one shortcut", () => {
     const all = SHORTCUTS.flatMap((s) => s.keys);
     expect(new Set(all).size).toBe(all.length);
   });
 });
 
-it("keys are called as on the computer", () => {
+it("keys have the names that the operating system shows", () => {
   expect(keysText("Ctrl+Shift+Z", false)).toBe("Ctrl+Shift+Z");
   expect(keysText("Ctrl+Shift+Z", true)).toBe("⌘⇧Z");
 });

@@ -1,4 +1,4 @@
-/** The documents that are measured. */
+/** The documents of the benchmark. */
 import { createHash } from "node:crypto";
 
 const NODE = { kind: "Field", axes: [], tau: 20, resting_level: -2, noise: 0.5 };
@@ -35,7 +35,7 @@ const spot = (...center: number[]) => ({
   amplitude: 6,
 });
 
-/** Selection, as in the examples: two stimuli, one field of 101 samples. */
+/** Selection, as in the examples: two stimuli and one field of 101 samples. */
 export const selection = {
   ...GENERAL,
   name: "selection",
@@ -43,7 +43,7 @@ export const selection = {
   connections: [wire("left", "u"), wire("right", "u")],
 };
 
-/** The same with `count` curves of the field in as many plots. */
+/** The same with `count` plots of the field. */
 export function curves(count: number): object {
   const plots = Array.from({ length: count }, () => plot("u", "curve", "activation"));
   return {
@@ -96,7 +96,7 @@ export const ten = {
   },
 };
 
-/** Two hundred elements in five chains of fields over one axis, without a place of their own. */
+/** Two hundred elements in five chains of fields over one axis, without stored positions. */
 export function many(count: number): object {
   const names = Array.from({ length: count }, (_, i) => `u${i}`);
   return {
@@ -125,7 +125,7 @@ function plot(element: string, kind: string, port: string): Plot {
   return { element: ident(element), kind, port, settings: {} };
 }
 
-/** Rows of panels over the whole page. */
+/** Rows of panels that fill the page. */
 function panels(rows: (Plot | "graph")[][]): object {
   const all: Record<string, object> = {};
   const [width, height] = [1280, 740];

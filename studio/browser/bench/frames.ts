@@ -1,26 +1,26 @@
-/** How smoothly a page draws, and what that costs. */
+/** The frame rate of a page, and its processor time. */
 import type { Browser, Page } from "playwright-core";
 
 import "./probe";
 import { quantile } from "./figures";
 
 export interface Smoothness {
-  /** Pictures of the browser in a second. */
+  /** Frames of the browser per second. */
   rate: number;
-  /** 95 of 100 pictures came within this time, in ms. */
+  /** The 95th percentile of the time between two frames, in ms. */
   p95: number;
-  /** How often a second the least drawn canvas was drawn; 0 where none was. */
+  /** Drawings per second of the canvas that was drawn least; 0 without canvases. */
   least: number;
   /**
-   * Processor time for each picture in ms: the page's own script, the page's process as a whole, and the
-   * process that puts pictures together.
+   * Processor time per frame in ms: the page's own script, the whole process of the page, and the
+   * process that composes frames.
    */
   script: number;
   renderer: number;
   gpu: number;
 }
 
-/** Watch a page for some seconds. Only canvases that a selector names count for `least`. */
+/** Measure a page for some seconds. Only canvases that a selector names count for `least`. */
 export async function smoothness(
   browser: Browser,
   page: Page,

@@ -1,4 +1,4 @@
-/** What is measured, one function for each promise. */
+/** The measurements, one function for each target. */
 import type { Page } from "playwright-core";
 
 import { many, selection, ten } from "./documents";
@@ -14,7 +14,7 @@ const CONTEXTS = 5;
 const SECONDS = 8;
 const PLOTS = ".plot-host > .uplot > .u-wrap > canvas, .plot-heat";
 
-/** From the address to the first picture, each time in a browser that never was there. */
+/** From the address to the first picture, each time with a new browser profile. */
 export async function firstPaint(name: string, document: object | null, stands: string): Promise<void> {
   await onStage(document, async ({ open }) => {
     const first: number[] = [];
@@ -36,7 +36,7 @@ export async function firstPaint(name: string, document: object | null, stands: 
   });
 }
 
-/** From a key on a slider to the field that answered, drawn. */
+/** From a key on a slider to the drawing of the field's response. */
 export async function sliderToPlot(times: number): Promise<void> {
   await onStage(selection, async ({ open }) => {
     const page = await open(SCRIPT);
@@ -48,7 +48,7 @@ export async function sliderToPlot(times: number): Promise<void> {
   });
 }
 
-/** Ten plots at real time. */
+/** Ten plots in real time. */
 export async function tenPlots(): Promise<void> {
   await onStage(ten, async ({ open, browser }) => {
     const page = await open(SCRIPT);
@@ -68,13 +68,13 @@ export async function tenPlots(): Promise<void> {
   });
 }
 
-/** Many elements on the canvas: standing still while all boxes are live, and moved. */
+/** Many elements on the canvas, all boxes live: a still view, and a moved view. */
 export async function manyElements(count: number): Promise<void> {
   await onStage(many(count), async ({ open, browser }) => {
     const page = await open(SCRIPT);
     await running(page);
     await settled(page);
-    await panned(page, 4); // graphics in software compile what they need when they first do
+    await panned(page, 4); // graphics in software compile at the first use
     await page.waitForTimeout(3000);
     const still = await smoothness(browser, page, SECONDS, ".graph-live canvas");
     showLoad();
@@ -92,7 +92,7 @@ export async function manyElements(count: number): Promise<void> {
   });
 }
 
-/** A real browser before an engine that runs as fast as it can. */
+/** A real browser, connected to an engine that runs at full speed. */
 export async function slowdown(rounds: number): Promise<void> {
   const { free, percent } = await slowed(rounds);
   showLoad();
@@ -111,7 +111,7 @@ async function running(page: Page): Promise<void> {
   await page.waitForFunction(() => window.probe.clock?.running === true);
 }
 
-/** Programs are compiled, plots stand, and the first wave of garbage is gone. */
+/** Wait until programs are compiled, plots are laid out, and the first garbage is collected. */
 async function settled(page: Page): Promise<void> {
   await page.waitForFunction(() => window.probe.draws > 200, undefined, { timeout: 120_000 });
   await page.waitForTimeout(3000);

@@ -1,6 +1,6 @@
 /**
- * What runs in the page before the page: it records when canvases are drawn and what arrives over the
- * socket.
+ * A script that runs in the page before the page's own. It records when canvases are drawn, and what arrives
+ * over the socket.
  */
 
 /** A function of the page as a script for `open`. */
@@ -9,13 +9,13 @@ export function asScript(probe: () => void): string {
 }
 
 export interface Probe {
-  /** When each canvas was last cleared to be drawn, in ms, and how often. */
+  /** For each canvas the time at which it was last cleared, in ms, and how often. */
   drawn: Map<HTMLCanvasElement, { at: number; times: number }>;
-  /** How often a picture of pixels was put on a canvas, or one was cleared. */
+  /** Number of images drawn on canvases and of canvases cleared. */
   draws: number;
   /** Called with each binary message. */
   heard: (data: ArrayBuffer) => void;
-  /** What the page asked for, by number of stream. */
+  /** The requests of the page by number of stream. */
   watched: Map<number, { type: string; element: string; port: string; most?: number }>;
   /** The newest clock. */
   clock: { factor: number; steps: number; time: number; running: boolean } | null;

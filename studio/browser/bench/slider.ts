@@ -1,11 +1,11 @@
-/** From a key on a slider to the drawing of the answer of a field. */
+/** From a key on a slider to the drawing of a field's response. */
 import type { Page } from "playwright-core";
 
 import { ident } from "./documents";
 import "./probe";
 
 const FIELD = "activation";
-/** A step of the mean larger than this multiple of the largest former step is not noise. */
+/** A step of the mean is not noise if it exceeds the largest earlier step by this factor. */
 const CLEAR = 3;
 const FORMER = 40;
 
@@ -69,7 +69,7 @@ function watch({
     "keydown",
     (event) => {
       pressed = event.timeStamp;
-      // What a frame may differ from the last one and still be noise.
+      // The largest difference between two frames that is still noise.
       bound = clear * Math.max(...means.slice(1).map((mean, i) => Math.abs(mean - (means[i] ?? mean))));
     },
     true,
@@ -84,7 +84,7 @@ function watch({
       const began = pressed;
       const came = performance.now();
       bound = 0;
-      // In the picture in which the plot is drawn after this frame came; it is done with when the next task
+      // The browser's frame in which the plot is drawn after this message; it is complete when the next task
       // begins.
       const look = () => {
         if ((probe.drawn.get(canvas)?.at ?? 0) >= came) {
@@ -101,7 +101,7 @@ function watch({
       };
       requestAnimationFrame(look);
     }
-    // Noise is measured at rest: a frame far from the ones before starts a new measurement.
+    // Noise is measured at rest: a frame that differs much from earlier ones restarts the measurement.
     if (pressed === null) {
       means.push(mean);
       if (means.length > former) {

@@ -1,4 +1,4 @@
-/** How much a page in a real browser slows an engine that runs as fast as it can. */
+/** How much a page in a real browser slows down an engine that runs at full speed. */
 import { curves } from "./documents";
 import { socketOf } from "../observer";
 import { median } from "./figures";
@@ -9,7 +9,7 @@ const CLOCKS = 5;
 const PAUSE_MS = 600;
 
 /**
- * Steps a second without an open page, and by how many percent less with four plots in a browser, in
+ * Steps per second without an open page, and the loss in percent with four plots in a browser, in
  * alternation.
  */
 export async function slowed(rounds: number): Promise<{ free: number; percent: number }> {
@@ -37,8 +37,8 @@ interface Observer {
 }
 
 /**
- * A page without a screen, which reads the clock only when it is asked for; the engine runs free from now
- * on.
+ * A page without a screen, which reads the clock only on request; from now on the engine runs at full
+ * speed.
  */
 async function connected({ server }: Stage): Promise<Observer> {
   const socket = new WebSocket(socketOf(server.url));
@@ -79,7 +79,7 @@ async function connected({ server }: Stage): Promise<Observer> {
 async function steps(observer: Observer): Promise<number> {
   await pause(SETTLE_MS);
   const found: number[] = [];
-  await observer.clock(); // an old one
+  await observer.clock(); // a message from before
   for (let i = 0; i < CLOCKS; i++) {
     await pause(PAUSE_MS);
     found.push(await observer.clock());

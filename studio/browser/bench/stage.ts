@@ -1,6 +1,6 @@
 /**
- * A server with a document, and browsers before it: what is measured is the page, so nothing else of the
- * tests' harness runs.
+ * A server with a document, and browsers that are connected to it. Nothing else of the tests' harness runs,
+ * because the page is measured.
  */
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -17,13 +17,13 @@ export interface Stage {
   server: Server;
   browser: Browser;
   /**
-   * A page of a fresh browser profile at the address of the server, with a script that runs before those of
+   * A page of a new browser profile at the address of the server, with a script that runs before those of
    * the page.
    */
   open: (before?: string) => Promise<Page>;
 }
 
-/** Do something on a stage with this document open; without one, with the gallery. */
+/** Call a function with a stage on which this document is open, or the gallery. */
 export async function onStage(document: object | null, act: (stage: Stage) => Promise<void>): Promise<void> {
   const home = mkdtempSync(join(tmpdir(), "deodar-bench-"));
   const folder = join(home, "folder");

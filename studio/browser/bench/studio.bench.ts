@@ -5,7 +5,7 @@ import { firstPaint, manyElements, sliderToPlot, slowdown, tenPlots } from "./me
 
 test("first paint of the gallery", () => firstPaint("the gallery", null, "img"));
 test("first paint of a document", () => firstPaint("a document", selection, ".plot-host canvas"));
-test("slider", () => sliderToPlot(20));
+test("response of a plot to a slider", () => sliderToPlot(20));
 test("ten plots", tenPlots);
-test("canvas", () => manyElements(200));
-test("slowdown", () => slowdown(5));
+test("canvas with two hundred elements", () => manyElements(200));
+test("slowdown of the engine", () => slowdown(5));

@@ -1,5 +1,5 @@
 /**
- * Every picture of the manual's chapter on the studio, in light and in dark, 1280 x 800, into the folder that
+ * Write every picture of the manual's chapter on the studio, light and dark, 1280 x 800, into the folder that
  * DEODAR_SHOTS names.
  */
 import { readdirSync, writeFileSync } from "node:fs";
@@ -26,7 +26,7 @@ async function run(page: Page, milliseconds: number): Promise<void> {
   await expect.poll(async () => tick(page), { ...PATIENCE, interval: 100 }).toBeGreaterThan(milliseconds);
   await page.getByRole("button", { name: /^pause/i }).click();
   await page.mouse.move(3, 400);
-  await page.waitForTimeout(500); // the last frames are drawn
+  await page.waitForTimeout(500); // until the last frames are drawn
 }
 
 async function tick(page: Page): Promise<number> {
@@ -40,7 +40,7 @@ async function tick(page: Page): Promise<number> {
 async function select(page: Page, name: string): Promise<void> {
   await page.locator(".react-flow__node", { hasText: name }).first().click();
   await page.mouse.move(3, 400);
-  await page.waitForTimeout(500); // the hover card goes
+  await page.waitForTimeout(500); // until the hover card is closed
 }
 
 for (const colours of COLOURS) {
@@ -126,7 +126,7 @@ for (const colours of COLOURS) {
     const confirm = page.getByRole("dialog").getByRole("button", { name: /^open$/i });
     if (await confirm.count()) await confirm.click();
     await page.getByText("GausianStimulus").first().waitFor(PATIENCE);
-    await page.waitForTimeout(400); // the dialog goes
+    await page.waitForTimeout(400); // until the dialog is closed
     await shot(page, name("problems"));
   });
 }

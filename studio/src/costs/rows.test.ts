@@ -20,7 +20,7 @@ const costs: Costs = {
   problems: [],
 };
 
-it("a row has the name that its element has now, its time, its share and a bar", () => {
+it("a row shows the current path of its element, its time, its share and a bar", () => {
   const u = { ...fakeElement("u"), id: "u", path: "group.u" };
   const rows = costRows(costs, new Map([["u", u]]));
   expect(sumOf(costs)).toBe(4);
@@ -39,7 +39,7 @@ it("a row has the name that its element has now, its time, its share and a bar",
   expect(new Set(rows.map((row) => row.key)).size).toBe(3);
 });
 
-it("nothing measured, and nothing that costs, is shown without a division by nothing", () => {
+it("an empty measurement and a cost of zero cause no division by zero", () => {
   expect(costRows({ ...costs, elements: [] }, new Map())).toEqual([]);
   expect(costRows({ ...costs, elements: [cost("u", 0)] }, new Map())[0]).toMatchObject({
     share: "",
@@ -48,7 +48,7 @@ it("nothing measured, and nothing that costs, is shown without a division by not
   });
 });
 
-it("times have three digits that matter", () => {
+it("times have three significant digits", () => {
   expect([0.0312, 1.234, 9.996, 45.62, 1234.4].map(microsecondsText)).toEqual([
     "0.03",
     "1.23",

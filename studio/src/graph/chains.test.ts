@@ -38,7 +38,7 @@ test("a coupling from a node to itself is drawn on a loop", () => {
   expect(of(["a"], "u a u").edges).toMatchObject([{ source: "u", target: "u", couplings: ["a"] }]);
 });
 
-test("a coupling that is not one-in one-out is a node", () => {
+test("a coupling with more than one input or output is a node", () => {
   expect(of(["a"], "u a v", "u a").couplings.size).toBe(0);
   expect(of(["a"], "u a v", "a u").couplings.size).toBe(0);
   expect(of(["a"], "u a").couplings.size).toBe(0);
@@ -63,13 +63,13 @@ test("a coupling with two input ports is a node", () => {
   expect(found.couplings.size).toBe(0);
 });
 
-test("a ring of couplings alone has nowhere to stand, so they are nodes", () => {
+test("the couplings of a cycle without other elements are nodes", () => {
   const { edges, couplings } = of(["a", "b"], "a b a");
   expect(couplings.size).toBe(0);
   expect(edges).toHaveLength(2);
 });
 
-test("kinds of outside packages are couplings if there is nothing of their own to see", () => {
+test("kinds of packages are couplings if they have no state to show", () => {
   const drawn = (kind: string) =>
     chains(
       fakeDocument([fakeElement("u"), gain("a", kind), fakeElement("v")], fakeConnections("u a v")),

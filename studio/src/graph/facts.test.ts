@@ -24,12 +24,12 @@ const ELEMENT = fakeElement("u", "Field", {
 });
 const AXES = [{ key: "x", name: "x", lower: 0, upper: 1, samples: 5, periodic: false, unit: "deg" }];
 
-test("the main values of an element, numbers first, with units", () => {
+test("an element shows its main values with units, numbers first", () => {
   const said = facts(ELEMENT, KIND, KINDS, fakeDocument([ELEMENT], [], { axes: AXES }));
   expect(said.map((fact) => fact.value)).toEqual(["20 ms", "1, −2.5 deg", "max", "Gaussian kernel, Own"]);
 });
 
-test("what a document parameter drives has its value", () => {
+test("a number that a document parameter drives shows its value", () => {
   const document = fakeDocument([ELEMENT], [], {
     axes: AXES,
     parameters: [{ name: "tempo", value: 35, links: [{ element: "u", parameter: "tau" }] }],
@@ -37,12 +37,12 @@ test("what a document parameter drives has its value", () => {
   expect(mainNumber(ELEMENT, KIND, document)).toBe("35 ms");
 });
 
-test("a coupling without a number has none", () => {
+test("a coupling without numbers has no main number", () => {
   expect(mainNumber(ELEMENT, fakeKind("Sum", "couplings"), fakeDocument([]))).toBe("");
   expect(mainNumber(ELEMENT, undefined, fakeDocument([]))).toBe("");
 });
 
-test("numbers are short", () => {
+test("numbers are shortened to three digits", () => {
   expect([0, 1, -2.5, 0.1 + 0.2, 1234567, 0.00012].map(short)).toEqual([
     "0",
     "1",

@@ -15,18 +15,18 @@ const ELEMENTS = [
 
 const paths = (text: string) => find(text, ELEMENTS, KINDS).map((found) => found.path);
 
-test("by name, by path, by kind", () => {
+test("the search finds elements by name, path and kind", () => {
   expect(paths("grip")).toEqual(["arm.hand.grip"]);
   expect(paths("arm")).toEqual(["arm.field", "arm.hand.grip"]);
   expect(paths("gain")).toEqual(["k"]);
 });
 
-test("every word counts, the name most", () => {
+test("every word must match, and matches of the name come first", () => {
   expect(paths("neural ARM")).toEqual(["arm.field", "arm.hand.grip"]);
   expect(paths("field")).toEqual(["arm.field", "field", "arm.hand.grip"]);
   expect(paths("nothing")).toEqual([]);
 });
 
-test("nothing typed shows everything", () => {
+test("an empty search shows all elements", () => {
   expect(paths(" ")).toHaveLength(4);
 });

@@ -32,7 +32,7 @@ function meet(a: Rect, b: Rect): boolean {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-test("connected elements stand from left to right", () => {
+test("connected elements are placed from left to right", () => {
   const { at } = laid(
     ["b", "a", "c"],
     [
@@ -44,7 +44,7 @@ test("connected elements stand from left to right", () => {
   expect(at("b").x + SIZE.width).toBeLessThan(at("c").x);
 });
 
-test("boxes stay where the document has them, the others are placed beside them", () => {
+test("boxes keep the positions of the document, and the others are placed beside them", () => {
   const boxes = { a: { x: 1000, y: 500 }, b: { x: 1200, y: 500 } };
   const { at } = laid(
     ["a", "b", "c"],
@@ -59,13 +59,13 @@ test("boxes stay where the document has them, the others are placed beside them"
   expect(Math.abs(at("c").y - 500)).toBeLessThan(100);
 });
 
-test("what has no place is not put onto what has one", () => {
+test("a box without a position never overlaps a box with one", () => {
   const { at } = laid(["a", "b", "c"], [], { a: { x: 0, y: 0 }, b: { x: 0, y: 60 } });
   const rects = ["a", "b", "c"].map((id) => ({ ...at(id), ...SIZE }));
   expect(rects.some((one, i) => rects.some((other, j) => i < j && meet(one, other)))).toBe(false);
 });
 
-test("a group holds what is in it", () => {
+test("the frame of a group contains its elements", () => {
   const { at, groups } = laid(
     ["g.a", "g.h.b", "c"],
     [
@@ -80,7 +80,7 @@ test("a group holds what is in it", () => {
   expect(at("c").x).toBeGreaterThan(outer.x + outer.width);
 });
 
-test("a folded group is as large as a box; what is in it keeps places for later", () => {
+test("a folded group has the size of a box, and its elements keep their positions", () => {
   const { at, groups } = laid(
     ["g.a", "g.b", "c"],
     [
@@ -94,14 +94,14 @@ test("a folded group is as large as a box; what is in it keeps places for later"
   expect(at("g.b").x - at("g.a").x).toBeGreaterThan(SIZE.width);
 });
 
-test("a group that is unfolded pushes away what it would cover", () => {
+test("an unfolded group moves the boxes that it would cover", () => {
   const boxes = { "g.a": { x: 100, y: 100 }, "g.b": { x: 400, y: 100 }, c: { x: 320, y: 100 } };
   const open = laid(["g.a", "g.b", "c"], [], boxes);
   expect(meet(open.groups.get("g") as Rect, { ...open.at("c"), ...SIZE })).toBe(false);
   expect(laid(["g.a", "g.b", "c"], [], boxes, ["g"]).at("c")).toEqual(boxes.c);
 });
 
-test("rings are laid out too", () => {
+test("cycles are laid out too", () => {
   const { at } = laid(
     ["a", "b"],
     [

@@ -56,7 +56,7 @@ function stage() {
   return { layer, canvas, drawn };
 }
 
-test("pictures are shown where their boxes stand, those out of sight are not", () => {
+test("pictures are drawn at the positions of their boxes, unless they are out of sight", () => {
   const { layer, canvas, drawn } = stage();
   const near = picture();
   layer.add(slot(110, 70), near);
@@ -66,14 +66,14 @@ test("pictures are shown where their boxes stand, those out of sight are not", (
   expect([canvas.width, canvas.height]).toEqual([400, 300]);
 });
 
-test("a picture that keeps its shape is centred", () => {
+test("a picture that keeps its aspect ratio is centred", () => {
   const { layer, drawn } = stage();
   layer.add(slot(10, 20), picture({ objectFit: "contain" }));
   next();
   expect(drawn[0]?.slice(1)).toEqual([25, 0, 50, 50]);
 });
 
-test("who left is not shown", () => {
+test("a removed picture is not drawn", () => {
   const { layer, drawn } = stage();
   const place = slot(110, 70);
   layer.add(place, picture());
@@ -82,7 +82,7 @@ test("who left is not shown", () => {
   expect(drawn).toEqual([]);
 });
 
-test("while the view is moved the layer moves as it is, and is painted again when the view rests", () => {
+test("a moved view moves the layer unchanged; the layer is painted again at the end of the move", () => {
   const { layer, canvas, drawn } = stage();
   layer.add(slot(110, 70), picture());
   layer.move({ x: 0, y: 0, zoom: 1 });
@@ -90,7 +90,7 @@ test("while the view is moved the layer moves as it is, and is painted again whe
   next();
   expect(drawn).toEqual([]);
   expect(canvas.style.transform).toBe("translate(30px, -10px) scale(2)");
-  vi.runAllTimers(); // no message said that it ended
+  vi.runAllTimers(); // no message reported the end
   next();
   expect(canvas.style.transform).toBe("");
   expect(drawn).toHaveLength(1);

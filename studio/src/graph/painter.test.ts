@@ -21,7 +21,7 @@ test("only the last request of an owner is drawn", () => {
   expect(drawn).toEqual(["new"]);
 });
 
-test("nothing is drawn while it is held, and the newest afterwards", () => {
+test("nothing is drawn while the painter is held; the newest request is drawn afterwards", () => {
   const painter = new Painter();
   const drawn: number[] = [];
   painter.wish({}, () => drawn.push(1));
@@ -33,7 +33,7 @@ test("nothing is drawn while it is held, and the newest afterwards", () => {
   expect(drawn).toEqual([1]);
 });
 
-test("who left is not drawn", () => {
+test("a removed owner is not drawn", () => {
   const painter = new Painter();
   const owner = {};
   const draw = vi.fn();
@@ -43,7 +43,7 @@ test("who left is not drawn", () => {
   expect(draw).not.toHaveBeenCalled();
 });
 
-test("many owners take turns, and all come to their turn even when the browser is slow", () => {
+test("all of many owners are drawn equally often, even in a slow browser", () => {
   const painter = new Painter();
   const owners = Array.from({ length: 30 }, () => ({}));
   const times = owners.map(() => 0);

@@ -12,14 +12,14 @@ test("the failure of the run comes before the problems of the document", () => {
   expect(problemOf("v", { document, clock })).toBe("");
 });
 
-test("a warning marks no element as broken", () => {
+test("a warning is not a problem of its element", () => {
   const document = fakeDocument([], [], {
     problems: [{ what: "never on", element: "u", severity: "warning" }],
   });
   expect(problemOf("u", { document, clock: null })).toBe("");
 });
 
-test("all warnings of an element are said, with what to type, and problems are none of them", () => {
+test("all warnings of an element are listed with their fixes, and problems are not among them", () => {
   const warning = { element: "u", severity: "warning" } as const;
   const document = fakeDocument([], [], {
     problems: [
@@ -34,7 +34,7 @@ test("all warnings of an element are said, with what to type, and problems are n
   expect(warningOf("w", { document: null, clock: null })).toBe("");
 });
 
-test("the kind replaces a name made from a connection", () => {
+test("the kind replaces a name that was made from a connection", () => {
   expect(labelOf("colour>Convolve", "Convolve", "Convolution")).toBe("Convolution");
   expect(labelOf("colour>Gain2", "Gain", "Gain")).toBe("Gain");
   expect(labelOf("strength", "Gain", "Gain")).toBe("strength");

@@ -10,11 +10,11 @@ test("the span grows at once and shrinks slowly", () => {
   expect(next.lower).toBeGreaterThan(-5);
 });
 
-test("0 is always in it, and what is not finite never", () => {
+test("the span always contains 0, and ignores values that are not finite", () => {
   expect(follow(null, [3, NaN, Infinity, 4])).toEqual({ lower: 0, upper: 4 });
   expect(follow(null, [-3, -Infinity])).toEqual({ lower: -3, upper: 0 });
 });
 
-test("an empty span is drawn open", () => {
+test("an empty span is widened for drawing", () => {
   expect(open(follow(null, [0, 0]))).toEqual({ lower: -1, upper: 1 });
 });

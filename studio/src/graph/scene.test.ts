@@ -35,7 +35,7 @@ test("an open group is a frame before its elements; couplings are on edges", () 
   expect([...pills.keys()]).toEqual(["g.k"]);
 });
 
-test("edges end at a folded group, and those that run together are one", () => {
+test("edges end at a folded group, and parallel edges become one", () => {
   const { nodes, wires } = made(["g"]);
   expect(nodes.map((n) => n.type)).toEqual(["folded", "box", "box"]);
   expect(wires.map((w) => [w.source, w.target, w.data?.count])).toEqual([
@@ -44,7 +44,7 @@ test("edges end at a folded group, and those that run together are one", () => {
   ]);
 });
 
-test("edges back take courses that differ", () => {
+test("backward edges have different lanes", () => {
   const elements = [fakeElement("a"), fakeElement("b")];
   const { wires } = scene(fakeDocument(elements, fakeConnections("a b", "b b", "b a", "a a")), KINDS);
   const back = wires.filter((w) => w.source === w.target || w.target === "a").map((w) => w.data?.lane);
@@ -60,17 +60,17 @@ test("an invalid layout is ignored", () => {
   ).toHaveLength(5);
 });
 
-test("what hides an element is known", () => {
+test("the folded groups around an element are found", () => {
   expect(foldedAround(made(["g"]).tree, "g.k")).toEqual(["g"]);
   expect(foldedAround(made([]).tree, "g.k")).toEqual([]);
 });
 
-test("nothing moved is nothing to tell", () => {
+test("unmoved boxes do not differ", () => {
   const { nodes, tree, places } = made([]);
   expect(differ(moved(nodes, tree, places), places)).toBe(false);
 });
 
-test("a frame that is moved takes its elements along", () => {
+test("a moved frame moves its elements", () => {
   const { nodes, tree, places } = made([]);
   const shifted = nodes.map((n) =>
     n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 50, y: n.position.y } } : n,
@@ -81,7 +81,7 @@ test("a frame that is moved takes its elements along", () => {
   expect(differ(boxes, places)).toBe(true);
 });
 
-test("a folded group that is moved takes along what it hides, and opens there", () => {
+test("a moved folded group moves its elements, and unfolds at the new position", () => {
   const { nodes, tree, places } = made(["g"]);
   const shifted = nodes.map((n) =>
     n.id === groupNode("g") ? { ...n, position: { x: n.position.x + 300, y: n.position.y - 20 } } : n,

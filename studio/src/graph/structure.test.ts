@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { fakeConnections, fakeDocument, fakeElement } from "./fakes";
 import { selector } from "./structure";
 
-test("values that change leave the structure the same object", () => {
+test("changed values leave the structure the same object", () => {
   const select = selector();
   const document = fakeDocument([fakeElement("u"), fakeElement("v")], fakeConnections("u v"));
   const first = select({ document });
@@ -10,7 +10,7 @@ test("values that change leave the structure the same object", () => {
   expect(select({ document: { ...document, unsaved: true, elements } })).toBe(first);
 });
 
-test("every other change makes it again", () => {
+test("every other change makes a new structure", () => {
   const select = selector();
   const document = fakeDocument([fakeElement("u")]);
   const first = select({ document });

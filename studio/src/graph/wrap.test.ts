@@ -11,12 +11,12 @@ function chain(n: number): [Map<string, Point>, Map<string, Size>] {
 }
 
 describe("lines", () => {
-  it("leave what is not wide as it is", () => {
+  it("leave a narrow graph unchanged", () => {
     const [places, sizes] = chain(3);
     expect(wrapped(places, sizes)).toBe(places);
   });
 
-  it("break a long chain, in order, without boxes that cover each other", () => {
+  it("break a long chain, in order, without overlapping boxes", () => {
     const [places, sizes] = chain(24);
     const out = [...wrapped(places, sizes)];
     expect(out).toHaveLength(24);

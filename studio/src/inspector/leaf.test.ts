@@ -63,7 +63,7 @@ const values = {
   count: 2,
 };
 
-describe("a parameter by its path", () => {
+describe("the form of a parameter path", () => {
   test.each([
     ["tau", "tau"],
     ["output", "output"],
@@ -82,13 +82,13 @@ describe("a parameter by its path", () => {
     "extra.speed",
     "extent.0",
     "output.nothing",
-  ])("%s is nowhere", (path) => expect(formAt(kinds, "Sheet", values, path)).toBe(undefined));
+  ])("%s has no form", (path) => expect(formAt(kinds, "Sheet", values, path)).toBe(undefined));
 
-  test("nor is anything of a kind that is not known", () =>
+  test("parameters of an unknown kind have no form", () =>
     expect(formAt(kinds, "Stranger", values, "tau")).toBe(undefined));
 });
 
-test("the numbers that can be driven", () => {
+test("the numbers that a document parameter can drive are listed", () => {
   const paths = leavesOf(kinds, "Sheet", values).map((leaf) => leaf.path);
   expect(paths).toEqual([
     "tau",
@@ -107,7 +107,7 @@ test("whole numbers and numbers that recompile cannot be driven", () => {
   expect(linkable(form("n", "per_axis", "rebuild"))).toBe(true);
 });
 
-test("the document parameter that drives a number", () => {
+test("the document parameter that drives a number is found", () => {
   const parameters = [{ name: "tempo", value: 3, links: [{ element: "1", parameter: "tau" }] }];
   const document = { parameters } as unknown as DocumentView;
   expect(driver(document, "1", "tau")?.name).toBe("tempo");
@@ -115,7 +115,7 @@ test("the document parameter that drives a number", () => {
   expect(driver(null, "1", "tau")).toBe(undefined);
 });
 
-test("the axes of an element are its own, or those of its ports", () => {
+test("an element has axes of its own, or those of its ports", () => {
   const axes = ["x", "y"].map((key): AxisView => ({
     key,
     name: key,

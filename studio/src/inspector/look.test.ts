@@ -35,7 +35,7 @@ const element = {
 } as unknown as ElementView;
 const around = { kinds: new Map([["Spot", kind]]), axes, timeUnit: "ms" };
 
-test("a number away from its form keeps range, unit, symbol and cost", () => {
+test("a number outside the inspector has the range, unit, symbol and cost of its form", () => {
   const look = lookOf(around, element, "place.1", 5);
   expect(look).toMatchObject({
     unit: "cm",
@@ -47,7 +47,7 @@ test("a number away from its form keeps range, unit, symbol and cost", () => {
   expect(look?.range).toMatchObject({ lower: -20, upper: 20 });
 });
 
-test("where nothing stands, there is nothing to show", () => {
+test("a path without a number has no look", () => {
   expect(lookOf(around, element, "place.2", 5)).toBe(undefined);
   expect(lookOf(around, undefined, "place", 5)).toBe(undefined);
 });

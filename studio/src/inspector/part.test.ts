@@ -27,18 +27,18 @@ const kinds: Kinds = new Map([
   }),
 ]);
 
-describe("a part in one line", () => {
-  test("its first numbers", () =>
+describe("the summary of a part", () => {
+  test("contains its first numbers", () =>
     expect(summary(kinds, { kind: "Hill", height: 12, full_width: [5, 3], flat: true })).toBe(
       "height 12, full width 5 × 3",
     ));
-  test("nothing of what is not known", () =>
+  test("is empty for an unknown kind", () =>
     expect(summary(kinds, { kind: "Stranger", height: 1 })).toBe(""));
-  test("nor of nothing", () => expect(summary(kinds, null)).toBe(""));
+  test("is empty without a part", () => expect(summary(kinds, null)).toBe(""));
 });
 
-describe("another kind in the place of a part", () => {
-  test("what both have keeps its value, if it has the same form", () => {
+describe("another kind for a part", () => {
+  test("parameters of both kinds keep their values if their forms are equal", () => {
     expect(recast(kinds, "Valley", { kind: "Hill", height: 7, full_width: [1, 2], flat: true })).toEqual({
       kind: "Valley",
       height: 7,
@@ -46,11 +46,11 @@ describe("another kind in the place of a part", () => {
       slope: 2,
     });
   });
-  test("in the place of none: the example", () =>
+  test("without a part it starts from the example", () =>
     expect(recast(kinds, "Hill", null)).toEqual({ kind: "Hill", height: 1, full_width: 5, flat: false }));
 });
 
-test("items of a list", () => {
+test("items of a list are removed and moved", () => {
   expect(without(["a", "b", "c"], 1)).toEqual(["a", "c"]);
   expect(moved(["a", "b", "c"], 0, 2)).toEqual(["b", "c", "a"]);
   expect(moved(["a", "b", "c"], 2, 0)).toEqual(["c", "a", "b"]);
@@ -58,7 +58,7 @@ test("items of a list", () => {
   expect(moved(["a", "b"], 1, 2)).toEqual(["a", "b"]);
 });
 
-test("a name that is not taken", () => {
+test("a new name differs from the names in use", () => {
   expect(fresh([])).toBe("name");
   expect(fresh(["name", "name2"])).toBe("name3");
 });
@@ -73,7 +73,7 @@ test.each([
   [{ height: 1 }, { width: 1 }, false],
 ])("%j and %j are the same: %s", (a, b, answer) => expect(same(a, b)).toBe(answer));
 
-test("names in words", () => expect(words("resting_level")).toBe("resting level"));
+test("names are shown as words", () => expect(words("resting_level")).toBe("resting level"));
 
 test.each([
   ["tau", "\\tau", "\\tau"],

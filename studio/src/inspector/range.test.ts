@@ -38,15 +38,15 @@ const ends = (given: Partial<ParameterForm>, value: unknown, place = standing())
 };
 
 describe("a range from declared bounds", () => {
-  test("both bounds are the range", () =>
+  test("two bounds are the range", () =>
     expect(ends({ lower: 0, upper: 1, default: 0.15 }, 0.15)).toEqual([0, 1]));
 
-  test("bounds that are far apart are limits only", () => {
+  test("bounds that are far apart only limit the range", () => {
     const range = sliderRange(form({ lower: 1e-6, upper: 1e6, default: 4 }), 4, standing());
     expect(range).toMatchObject({ lower: 0.1, upper: 100, logarithmic: true });
   });
 
-  test("one bound cuts the range off", () => {
+  test("one bound ends the range", () => {
     expect(ends({ lower: 0, default: 1 }, 1)).toEqual([0, 2]);
     expect(ends({ lower: -3, default: 5 }, 5)).toEqual([-3, 10]);
     expect(ends({ upper: 0, default: -5 }, -5)).toEqual([-10, 0]);
@@ -67,7 +67,7 @@ describe("a range from the size of default and value", () => {
     expect(ends({ default: byDefault }, value)).toEqual(range),
   );
 
-  test("it is two to four times the size", () => {
+  test("the range is two to four times the size", () => {
     for (let value = 0.013; value < 1000; value *= 1.37) {
       const [, upper = 0] = ends({ default: 0 }, value);
       expect(upper / value).toBeGreaterThanOrEqual(2 - 1e-9);
@@ -75,14 +75,14 @@ describe("a range from the size of default and value", () => {
     }
   });
 
-  test("nothing but zeros: what is usual in the unit", () => {
+  test("zeros have the usual range of their unit", () => {
     expect(ends({ unit: "activation" }, 0)).toEqual([-10, 10]);
     expect(ends({ unit: "activation", lower: 0 }, 0)).toEqual([0, 10]);
     expect(ends({ unit: "time" }, 0)).toEqual([0, 1000]);
     expect(ends({}, 0)).toEqual([-1, 1]);
   });
 
-  test("moments are not negative, unless they are", () => {
+  test("times are positive, unless the value is negative", () => {
     expect(ends({ unit: "time", default: 0 }, 100)).toEqual([0, 200]);
     expect(ends({ unit: "time", default: 0 }, -100)).toEqual([-200, 200]);
   });
@@ -92,7 +92,7 @@ describe("a range from the size of default and value", () => {
     expect(ends({ unit: "time", default: 1e30 }, 1e30)).toEqual([0, 1000]);
   });
 
-  test("a missing value does no harm", () => expect(ends({ default: null }, null)).toEqual([-1, 1]));
+  test("a missing value has the usual range", () => expect(ends({ default: null }, null)).toEqual([-1, 1]));
 });
 
 describe("logarithmic ranges", () => {
@@ -113,12 +113,12 @@ describe("ranges along axes", () => {
   const place = form({ form: "per_axis", unit: "axis" });
   const width = form({ form: "per_axis", unit: "axis", lower: 0, default: 5 });
 
-  test("a place lies on its axis", () => {
+  test("a position lies on its axis", () => {
     expect(sliderRange(place, 30, standing("p", axes.slice(0, 1)))).toMatchObject({ lower: 0, upper: 100 });
     expect(sliderRange(place, 3, standing("p.1", axes))).toMatchObject({ lower: -20, upper: 20 });
   });
 
-  test("one number for several axes: on any of them", () =>
+  test("one number for several axes lies on any of them", () =>
     expect(sliderRange(place, 3, standing("p", axes))).toMatchObject({ lower: -20, upper: 100 }));
 
   test("a width is at most half the axis", () => {
@@ -127,7 +127,7 @@ describe("ranges along axes", () => {
     expect(sliderRange(width, 5, standing("kernel.0.p", axes))).toMatchObject({ lower: 0, upper: 50 });
   });
 
-  test("a distance goes both ways", () => {
+  test("a distance is positive or negative", () => {
     expect(sliderRange(place, 3, standing("kernel.0.p", axes.slice(0, 1)))).toMatchObject({
       lower: -50,
       upper: 50,
@@ -138,16 +138,16 @@ describe("ranges along axes", () => {
     });
   });
 
-  test("without axes the size counts", () =>
+  test("without axes the size decides", () =>
     expect(sliderRange(width, 5, standing())).toMatchObject({ lower: 0, upper: 10 }));
 });
 
 describe("ranges that grow", () => {
   const range = sliderRange(form({ default: 5, lower: 0 }), 5, standing());
 
-  test("a value inside changes nothing", () => expect(including(range, 7)).toBe(range));
+  test("a value inside leaves the range unchanged", () => expect(including(range, 7)).toBe(range));
 
-  test("a value outside moves the end that it beats", () => {
+  test("a value outside moves the end that it exceeds", () => {
     expect(including(range, 45)).toMatchObject({ lower: 0, upper: 50 });
     expect(including(range, -3)).toMatchObject({ lower: -3, upper: 10 });
     expect(
@@ -155,12 +155,12 @@ describe("ranges that grow", () => {
     ).toMatchObject({ lower: 0, upper: 200 });
   });
 
-  test("by decades where it is logarithmic", () => {
+  test("a logarithmic range grows by decades", () => {
     const tau = sliderRange(form({ unit: "time", lower: 1e-6, default: 20 }), 20, standing());
     expect(including(tau, 3000)).toMatchObject({ lower: 1, upper: 10000, logarithmic: true });
   });
 
-  test("a person's own range", () => {
+  test("a user sets an own range", () => {
     expect(chosen(range, 2, 4)).toMatchObject({ lower: 2, upper: 4, step: 0.01 });
     expect(chosen(range, undefined, 4)).toMatchObject({ lower: 0, upper: 4 });
     expect(chosen(range, 4, 2)).toBe(range);
@@ -168,19 +168,19 @@ describe("ranges that grow", () => {
 });
 
 describe("steps", () => {
-  test("some two hundred round ones", () => {
+  test("a range has about two hundred round steps", () => {
     expect(sliderRange(form({ default: 5, lower: 0 }), 5, standing()).step).toBe(0.05);
     expect(sliderRange(form({ lower: 0, upper: 100, default: 5 }), 5, standing()).step).toBe(0.5);
   });
 
-  test("whole for whole numbers", () => {
+  test("whole numbers have whole steps", () => {
     expect(sliderRange(form({ form: "integer", lower: 1, upper: 10, default: 5 }), 5, standing()).step).toBe(
       1,
     );
     expect(sliderRange(form({ form: "integer", default: 500, lower: 0 }), 500, standing()).step).toBe(5);
   });
 
-  test("a slider is at round values, inside its range", () => {
+  test("a slider takes round values inside its range", () => {
     const range = sliderRange(form({ default: 5, lower: 0 }), 5, standing());
     expect(snapped(3.1415, range)).toBe(3.15);
     expect(snapped(99, range)).toBe(10);
@@ -188,7 +188,7 @@ describe("steps", () => {
     expect(snapped(31.41592, tau)).toBe(31.4);
   });
 
-  test("keys: fine and coarse, never beyond the ends", () => {
+  test("keys make fine or coarse steps, never beyond the ends", () => {
     const range = sliderRange(form({ default: 5, lower: 0 }), 5, standing());
     expect(nudged(5, 1, false, range)).toBe(5.05);
     expect(nudged(5, -1, true, range)).toBe(4.5);
@@ -199,7 +199,7 @@ describe("steps", () => {
   });
 });
 
-test("defaults of numbers inside a parameter", () => {
+test("numbers inside a parameter have defaults", () => {
   expect(defaultAt(form({ default: 5 }), "kernel.0.p")).toBe(5);
   expect(defaultAt(form({ form: "per_axis", default: 5 }), "p.1")).toBe(5);
   expect(defaultAt(form({ form: "per_axis", default: [1, 2] }), "p.1")).toBe(2);

@@ -13,7 +13,7 @@ const axis = (unit: string): AxisView => ({
   unit,
 });
 
-describe("units as they are read", () => {
+describe("units as they are shown", () => {
   test.each([
     ["time", "ms", "ms"],
     ["time", "us", "µs"],
@@ -31,7 +31,7 @@ describe("units as they are read", () => {
     ["", "ms", ""],
   ])("%s in %s", (unit, time, text) => expect(unitText(unit, time, [axis("deg")])).toBe(text));
 
-  test("axes that differ have no unit in common", () => {
+  test("axes of different units have no common unit", () => {
     expect(unitText("axis", "ms", [axis("deg"), axis("deg")])).toBe("deg");
     expect(unitText("axis", "ms", [axis("deg"), axis("cm")])).toBe("");
     expect(unitText("motor/axis", "ms", [])).toBe("motor");

@@ -41,7 +41,7 @@ function given(state: Partial<DocumentView>): void {
 beforeEach(fresh);
 
 describe("leaving a document", () => {
-  it("asks nothing where all is saved", async () => {
+  it("asks nothing if all edits are saved", async () => {
     server({});
     const questions = person();
     expect(await leave({ type: "open_example", name: "selection" })).toBe(true);
@@ -49,7 +49,7 @@ describe("leaving a document", () => {
     expect(sent).toEqual([{ type: "open_example", name: "selection" }]);
   });
 
-  it("continues without the unsaved edits", async () => {
+  it("discards unsaved edits if the user chooses so", async () => {
     given({});
     server({ ask: "unsaved" }, {});
     const questions = person("discard");
@@ -58,7 +58,7 @@ describe("leaving a document", () => {
     expect(sent).toEqual([{ type: "close" }, { type: "close", discard: true }]);
   });
 
-  it("stays", async () => {
+  it("is cancelled by the user", async () => {
     given({});
     server({ ask: "unsaved" });
     person("cancel");
@@ -66,7 +66,7 @@ describe("leaving a document", () => {
     expect(sent).toHaveLength(1);
   });
 
-  it("saves first, where it has to ask for a name", async () => {
+  it("saves first, and asks for a name if there is none", async () => {
     given({});
     server({ ask: "unsaved" }, {}, {});
     const questions = person("save", "models/mine.json");
@@ -75,7 +75,7 @@ describe("leaving a document", () => {
     expect(sent.map((m) => m.type)).toEqual(["close", "save", "close"]);
   });
 
-  it("stays where saving was given up", async () => {
+  it("is cancelled if the user cancels saving", async () => {
     given({});
     server({ ask: "unsaved" });
     person("save", null);
@@ -83,7 +83,7 @@ describe("leaving a document", () => {
     expect(sent).toHaveLength(1);
   });
 
-  it("shows what the server refuses", async () => {
+  it("shows the reason if the server refuses", async () => {
     server({ problems: [{ what: "lies outside" }] });
     expect(await leave({ type: "open_file", path: "../a.json" })).toBe(false);
     expect(notices()).toEqual(["error: lies outside"]);
@@ -91,28 +91,28 @@ describe("leaving a document", () => {
 });
 
 describe("opening", () => {
-  it("takes a file below the root by its path", async () => {
+  it("sends the path of a file below the root", async () => {
     server({});
     person("models/a.json");
     expect(await open()).toBe(true);
     expect(sent).toEqual([{ type: "open_file", path: "models/a.json" }]);
   });
 
-  it("takes a file of the person's own as text", async () => {
+  it("sends a file of the user's own as text", async () => {
     server({});
     person(new File(['{"deodar": 1}'], "a.json"));
     expect(await open()).toBe(true);
     expect(sent).toEqual([{ type: "open_text", name: "a.json", text: '{"deodar": 1}' }]);
   });
 
-  it("takes a package as its bytes", async () => {
+  it("sends a package as its bytes", async () => {
     server({});
     person(new File(["PK\u0003\u0004"], "a.deodar"));
     expect(await open()).toBe(true);
     expect(sent).toEqual([{ type: "open_package", name: "a.deodar", content: "UEsDBA==" }]);
   });
 
-  it("says what became of a file of another tool, and offers the report", async () => {
+  it("shows the summary of an imported file, and offers the report", async () => {
     server({ imported: "Imported from a.json (another tool): 1 element." });
     expect(await takeFile(new File(["{}"], "a.json"))).toBe(true);
     expect(notices()).toEqual(["info: Imported from a.json (another tool): 1 element."]);
@@ -121,7 +121,7 @@ describe("opening", () => {
     expect(questions.map((q) => q.name)).toEqual(["notes"]);
   });
 
-  it("may be given up", async () => {
+  it("can be cancelled", async () => {
     server();
     person(null);
     expect(await open()).toBe(false);
@@ -130,7 +130,7 @@ describe("opening", () => {
 });
 
 describe("saving", () => {
-  it("writes to its own file and says so", async () => {
+  it("writes to the file of the document and shows a notice", async () => {
     given({ file: "a.json" });
     server({});
     expect(await save()).toBe(true);
@@ -138,7 +138,7 @@ describe("saving", () => {
     expect(notices()).toEqual(["info: Saved as a.json"]);
   });
 
-  it("asks before it writes over another file", async () => {
+  it("asks before it overwrites another file", async () => {
     given({ file: "a.json" });
     server({ ask: "replace" }, {}, { ask: "replace" }, { file: "models/b.json" });
     const questions = person("replace", "replace");
@@ -153,7 +153,7 @@ describe("saving", () => {
     expect(notices()).toEqual(["info: Saved as a.json", "info: Saved as models/b.json"]);
   });
 
-  it("goes elsewhere instead", async () => {
+  it("writes to another file if the user chooses so", async () => {
     given({ file: "a.json" });
     server({ ask: "replace" }, {});
     const questions = person("elsewhere", "b.json");
@@ -162,7 +162,7 @@ describe("saving", () => {
     expect(sent[1]).toEqual({ type: "save", path: "b.json", replace: false });
   });
 
-  it("proposes the title without a file", async () => {
+  it("proposes the title if the document has no file", async () => {
     given({});
     server({});
     const questions = person("selection.json");
@@ -170,7 +170,7 @@ describe("saving", () => {
     expect(questions[0]?.question).toEqual({ path: "selection" });
   });
 
-  it("that fails is a notice", async () => {
+  it("shows a notice if it fails", async () => {
     given({ file: "a.json" });
     server({ problems: [{ what: "The disk is full" }] });
     expect(await save()).toBe(false);
@@ -178,10 +178,10 @@ describe("saving", () => {
   });
 });
 
-describe("a file that was dropped", () => {
+describe("a dropped file", () => {
   const senses = { type: "clock", senses: true } as never;
 
-  it("is a picture for what senses", async () => {
+  it("is used as a picture if the model has a sensor", async () => {
     useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
     server({});
     expect(await takeFile(new File([new Uint8Array([0, 255, 7])], "a.png", { type: "image/png" }))).toBe(
@@ -190,7 +190,7 @@ describe("a file that was dropped", () => {
     expect(sent).toEqual([{ type: "use_world_content", kind: "Picture", name: "a.png", content: "AP8H" }]);
   });
 
-  it("is refused where nothing senses, and where it is neither", async () => {
+  it("is refused without a sensor, or if its type is unknown", async () => {
     server();
     expect(await takeFile(new File([], "a.png", { type: "image/png" }))).toBe(false);
     expect(await takeFile(new File([], "a.txt", { type: "text/plain" }))).toBe(false);
@@ -201,7 +201,7 @@ describe("a file that was dropped", () => {
     expect(notices()).toHaveLength(3);
   });
 
-  it("may lie below the root instead", async () => {
+  it("can be chosen below the root instead", async () => {
     useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
     server({});
     person("pictures/a.png");

@@ -14,7 +14,7 @@ import {
 } from "./paths";
 
 describe("paths", () => {
-  it("go up and down", () => {
+  it("lead to the parent folder and to entries", () => {
     expect(parent("a/b/c.json")).toBe("a/b");
     expect(parent("c.json")).toBe("");
     expect(lastPart("a/b/c.json")).toBe("c.json");
@@ -22,7 +22,7 @@ describe("paths", () => {
     expect(joined("a/b", "c.json")).toBe("a/b/c.json");
   });
 
-  it("have folders on the way", () => {
+  it("list the folders that lead to them", () => {
     expect(steps("")).toEqual([]);
     expect(steps("a/b")).toEqual([
       { name: "a", path: "a" },
@@ -49,14 +49,14 @@ describe("paths", () => {
 });
 
 describe("names of documents", () => {
-  it("end in .json once", () => {
+  it("get the ending .json once", () => {
     expect(withEnding(" selection ")).toBe("selection.json");
     expect(withEnding("selection.JSON")).toBe("selection.JSON");
     expect(withEnding("a.b")).toBe("a.b.json");
     expect(withEnding("a.deodar")).toBe("a.deodar");
   });
 
-  it("stay in their folder", () => {
+  it("are refused if they are empty, hidden or contain a folder", () => {
     expect(nameProblem("selection")).toBe("");
     expect(nameProblem("my model 2.json")).toBe("");
     for (const name of ["", "  ", ".json", "../up", "a/b", "a\\b", ".hidden", "..", "C:x", "a\nb"]) {

@@ -4,13 +4,13 @@ import { countText, isWarning } from "./problems";
 const problem = { what: "a loop without a state" };
 const warning = { what: "the stimulus is never on", severity: "warning" as const };
 
-test("only what says so is a warning", () => {
+test("only entries of severity warning are warnings", () => {
   expect(isWarning(warning)).toBe(true);
   expect(isWarning(problem)).toBe(false);
   expect(isWarning({ what: "", severity: "problem" })).toBe(false);
 });
 
-test("problems and warnings are counted apart", () => {
+test("problems and warnings are counted separately", () => {
   expect(countText([])).toBe("");
   expect(countText([problem])).toBe("1 problem");
   expect(countText([warning])).toBe("1 warning");

@@ -5,8 +5,8 @@ import { takeValues, takenText } from "./values";
 
 beforeEach(fresh);
 
-describe("taking over the values of a file", () => {
-  it("says how many there were, where everything matched", async () => {
+describe("applying the values of a file", () => {
+  it("shows the number of values if all matched", async () => {
     server({ carried: 3 });
     const questions = person("models/preset.json");
     expect(await takeValues()).toBe(true);
@@ -15,7 +15,7 @@ describe("taking over the values of a file", () => {
     expect(notices()).toEqual(["info: 3 values were taken over from preset.json."]);
   });
 
-  it("shows what did not match", async () => {
+  it("lists the values without a match", async () => {
     server({ carried: 1, unmatched: ["k: element Convolve: dropped"] });
     const questions = person("preset.json", "keep");
     expect(await takeValues()).toBe(true);
@@ -28,14 +28,14 @@ describe("taking over the values of a file", () => {
     expect(notices()).toEqual([]);
   });
 
-  it("is one step back from there", async () => {
+  it("is undone in one step from the list", async () => {
     server({ carried: 1, unmatched: ["k: element Convolve: dropped"] });
     person("preset.json", "undo");
     expect(await takeValues()).toBe(false);
     expect(sent.map((m) => m.type)).toEqual(["apply_preset", "undo"]);
   });
 
-  it("takes a file of the person's own as text", async () => {
+  it("sends a file of the user's own as text", async () => {
     server({});
     person(new File(["{}"], "preset.json"));
     expect(await takeValues()).toBe(false);
@@ -43,7 +43,7 @@ describe("taking over the values of a file", () => {
     expect(notices()).toEqual(["info: No value of preset.json differs from what is open."]);
   });
 
-  it("may be given up, and is refused where the file is too large or broken", async () => {
+  it("can be cancelled, and is refused if the file is too large or invalid", async () => {
     server({ problems: [{ what: "is no JSON" }] });
     const large = new File([], "preset.json");
     Object.defineProperty(large, "size", { value: 2 ** 30 });
@@ -53,7 +53,7 @@ describe("taking over the values of a file", () => {
     expect(notices()).toEqual([expect.stringContaining("preset.json is larger than"), "error: is no JSON"]);
   });
 
-  it("counts in words", () => {
+  it("states the number in words", () => {
     expect(takenText(0, "a.json")).toBe("No value of a.json differs from what is open.");
     expect(takenText(1, "a.json")).toBe("1 value was taken over from a.json.");
   });

@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 
 import { whenText } from "./when";
 
-it("moments are written in words", () => {
+it("times of the past are written in words", () => {
   const now = new Date(2026, 4, 12, 18, 0);
   expect(whenText("2026-05-12T14:05:00", now)).toBe("today at 14:05");
   expect(whenText("2026-05-11T09:30:59", now)).toBe("yesterday at 9:30");

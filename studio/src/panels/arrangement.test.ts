@@ -23,7 +23,7 @@ const arrangement = (width: number, left: number, active = "a", title = "A") =>
     activeGroup: active,
   }) as unknown as SerializedDockview;
 
-it("only arrangements of panels that there are can be used", () => {
+it("only arrangements of known panels are valid", () => {
   expect(isArrangement(arrangement(1000, 600))).toBe(true);
   expect(isArrangement(undefined)).toBe(false);
   expect(isArrangement({ grid: 1, panels: {} })).toBe(false);
@@ -33,11 +33,11 @@ it("only arrangements of panels that there are can be used", () => {
   expect(isArrangement({ grid: {}, panels: { a: { id: "b", contentComponent: "graph" } } })).toBe(false);
 });
 
-it("the size of the window, the focus and titles are no change", () => {
+it("the size of the window, the focus and titles do not change the signature", () => {
   expect(signature(arrangement(1000, 600))).toBe(signature(arrangement(800, 480, "b", "B")));
 });
 
-it("a border that was moved is a change, and so is a setting", () => {
+it("a moved border and a changed setting change the signature", () => {
   expect(signature(arrangement(1000, 600))).not.toBe(signature(arrangement(1000, 500)));
   const other = arrangement(1000, 600);
   (other.panels["b"]!.params as Record<string, unknown>)["port"] = "output";

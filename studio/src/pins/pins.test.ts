@@ -5,24 +5,24 @@ import { changedPin, pinsOf, withoutPin, withPin, type Pin } from "./pins";
 const tau: Pin = { element: "1", parameter: "tau" };
 const tempo: Pin = { element: "", parameter: "tempo", lower: 0, upper: 5, label: "pace" };
 
-describe("pins as they are kept", () => {
-  test("none", () => {
+describe("pins in a document", () => {
+  test("are none without a valid list", () => {
     expect(pinsOf(undefined)).toEqual([]);
     expect(pinsOf({})).toEqual([]);
     expect(pinsOf({ pins: "nonsense" })).toEqual([]);
   });
 
-  test("what cannot be read is left out", () => {
+  test("invalid entries are skipped", () => {
     expect(
       pinsOf({ pins: [tau, null, 3, { element: 1, parameter: "tau" }, { element: "1" }, tempo] }),
     ).toEqual([tau, tempo]);
     expect(pinsOf({ pins: [{ ...tau, lower: "low", upper: null, label: "", color: "red" }] })).toEqual([tau]);
   });
 
-  test("of equal ones the first", () =>
+  test("the first of two equal pins is used", () =>
     expect(pinsOf({ pins: [tempo, { ...tempo, label: "other" }] })).toEqual([tempo]));
 
-  test("the same list for the same layout, so that nothing is drawn in vain", () => {
+  test("the same layout gives the same list, so that nothing is drawn again", () => {
     const layout = { pins: [tau] };
     expect(pinsOf(layout)).toBe(pinsOf({ ...layout }));
   });
@@ -35,7 +35,7 @@ test("a parameter is pinned once", () => {
   expect(withoutPin([tau, tempo], "1", "tau")).toEqual([tempo]);
 });
 
-test("range and label of one pin", () => {
+test("range and label of one pin are changed", () => {
   expect(changedPin([tau, tempo], tau, { lower: 1, upper: 9 })).toEqual([
     { ...tau, lower: 1, upper: 9 },
     tempo,

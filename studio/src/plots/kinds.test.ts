@@ -97,7 +97,7 @@ describe("kinds of plots", () => {
     expect(isOwn("heat") && !isOwn("polar") && !isOwn("toString")).toBe(true);
   });
 
-  it("know no axes where the document does not", () => {
+  it("have no axes if the document states none", () => {
     const one = element("a", "k", { output: ["x", "lost"] });
     expect(portAxes(documentOf(one), one, "output")).toBeNull();
     expect(portAxes(documentOf(one), one, "other")).toBeNull();
@@ -110,14 +110,14 @@ describe("kinds of plots", () => {
   });
 });
 
-describe("what is plotted first", () => {
-  it("is the port with levels", () => {
+describe("the first plot", () => {
+  it("shows the port with levels", () => {
     expect(mainPort(element("a", "k", { output: [], charge: [] }), LEVELLED)).toBe("charge");
     expect(mainPort(element("a", "k", { output: [], other: [] }), undefined)).toBe("output");
     expect(mainPort(element("a", "k", {}), undefined)).toBe("");
   });
 
-  it("is the element with levels and the most axes up to two", () => {
+  it("shows the element with levels and most axes, at most two", () => {
     const kinds = new Map([["cell", LEVELLED]]);
     const plain = element("plain", "source", { output: ["x", "y"] });
     const node = element("node", "cell", { output: [], charge: [] });
@@ -129,7 +129,7 @@ describe("what is plotted first", () => {
 });
 
 describe("axes", () => {
-  it("have their samples where the server has them", () => {
+  it("have the sample positions of the server", () => {
     expect([...points(axis("x", 3))]).toEqual([0, 5, 10]);
     expect([...points(axis("x", 4, { periodic: true, upper: 8 }))]).toEqual([0, 2, 4, 6]);
     expect(stepOf(axis("x", 1, { periodic: true }))).toBe(10);
@@ -140,7 +140,7 @@ describe("axes", () => {
     expect(axisLabel(axis("x", 3, { unit: "deg" }))).toBe("x (deg)");
   });
 
-  it("run down where they are rows of a picture", () => {
+  it("run downwards if they are rows of a picture", () => {
     const eye = element("eye", "k", { output: ["x", "y", "channel"] });
     expect(runsDown(documentOf(eye), axis("y", 5))).toBe(true);
     expect(runsDown(documentOf(eye), axis("x"))).toBe(false);

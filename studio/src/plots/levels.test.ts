@@ -15,12 +15,12 @@ it("levels have the values of their parameters", () => {
   expect(levelsOf(documentOf([]), element, undefined, "charge")).toEqual([]);
 });
 
-it("a document parameter that drives a level counts", () => {
+it("a document parameter that drives a level gives its value", () => {
   const all = { name: "all", value: -7, links: [{ element: "a", parameter: "rest" }] };
   expect(levelsOf(documentOf([all]), element, kind, "charge")[1]).toEqual({ label: "rest", value: -7 });
 });
 
-it("an injection is twice what lies between the levels", () => {
+it("the amplitude of an injection is twice the distance of the levels", () => {
   expect(pushAmplitude(levelsOf(documentOf([]), element, kind, "charge"))).toBe(9);
   expect(pushAmplitude([])).toBe(5);
   expect(thresholdOf([{ label: "rest", value: 1 }])).toBeNull();

@@ -34,13 +34,13 @@ describe("the module of a plot", () => {
     expect(bring).toHaveBeenCalledWith("plots/polar.js");
   });
 
-  it("is refused without draw, or with a dispose that is no function", async () => {
+  it("is refused without draw, or if dispose is not a function", async () => {
     await expect(load(PLOT, () => Promise.resolve({}))).rejects.toThrow("exports no function draw");
     const wrong = { draw: () => undefined, dispose: 3 };
     await expect(load(PLOT, () => Promise.resolve(wrong))).rejects.toThrow("dispose");
   });
 
-  it("may raise an exception, at once or later, which names the package", async () => {
+  it("may raise an exception, at once or later, and the message names the package", async () => {
     const told: ListedProblem[] = [];
     const tell = (problem: ListedProblem) => told.push(problem);
     expect(attempt(PLOT, () => undefined, tell)).toBe(true);
@@ -58,8 +58,8 @@ describe("the module of a plot", () => {
   });
 });
 
-describe("what it draws", () => {
-  it("has axes with the positions of the values, also where they are thinned", () => {
+describe("the values that it draws", () => {
+  it("have axes with the positions of the values, also when thinned", () => {
     expect([...(axesOf(formOf([8], HEADING))[0]?.points ?? [])]).toEqual([
       -180, -135, -90, -45, 0, 45, 90, 135,
     ]);
@@ -68,7 +68,7 @@ describe("what it draws", () => {
     expect([...(thinned?.points ?? [])]).toEqual([-180, 0, 135]);
   });
 
-  it("is a copy of the values, which other plots draw too", () => {
+  it("are a copy, because other plots draw the same values", () => {
     const frame = { stream: 1, frame: 1, time: 20, values: new Float32Array([1, 2]) };
     const given = packagedFrame(formOf([2], HEADING), frame, paperLook(1), {
       width: 300,

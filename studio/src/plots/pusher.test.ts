@@ -15,7 +15,7 @@ afterEach(() => vi.unstubAllGlobals());
 
 const at = (place: number) => ({ center: [place], sigma: [1], amplitude: 5 });
 
-it("begins at once, follows once for each picture, and ends once", () => {
+it("an injection begins at once, follows the pointer once a frame, and ends once", () => {
   const sent: unknown[] = [];
   const pusher = new Pusher((message) => sent.push(message));
   pusher.release();

@@ -24,7 +24,7 @@ describe("ranges", () => {
     expect(calm.next([0, 1], [], 3200)).toEqual([0, 3]);
   });
 
-  it("restart the wait when large values return", () => {
+  it("wait again after large values return", () => {
     const calm = new CalmRange();
     calm.next([0, 10], [], 0);
     calm.next([0, 1], [], 100);
@@ -32,11 +32,11 @@ describe("ranges", () => {
     expect(calm.next([0, 1], [], 3200)).toEqual([0, 10]);
   });
 
-  it("leave room", () => {
+  it("have a margin", () => {
     expect(new CalmRange(0.1).next([0, 5], [], 0)).toEqual([-0.5, 5.5]);
   });
 
-  it("hold levels", () => {
+  it("contain the levels", () => {
     expect(new CalmRange().next([-5, -4], [0], 0)).toEqual([-5, 0]);
     expect(new CalmRange().next(null, [], 0)).toEqual([0, 1]);
   });
@@ -52,7 +52,7 @@ describe("numbers", () => {
     expect(tick(2_000_000, 1_000_000)).toBe("2.0e+6");
   });
 
-  it("are read off in about three digits", () => {
+  it("are displayed with about three digits", () => {
     expect(reading(123.456)).toBe("123.5");
     expect(reading(-1.23456)).toBe("\u22121.235");
     expect(reading(0)).toBe("0.000");
@@ -61,7 +61,7 @@ describe("numbers", () => {
     expect(short(0.123456)).toBe("0.1235");
   });
 
-  it("are at round places", () => {
+  it("are placed at round values", () => {
     expect(ticks([-5, 4], 4)).toEqual({ places: [-5, 0], step: 5 });
     expect(ticks([0, 1], 5).places).toEqual([0, 0.2, 0.4, 0.6, 0.8, 1]);
     expect(ticks([2, 2], 5).places).toEqual([2]);

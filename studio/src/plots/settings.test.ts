@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import { readParams, readSettings } from "./settings";
 
-it("what a document holds is read with care", () => {
+it("invalid parameters of a panel are replaced by empty ones", () => {
   expect(readParams({ element: 3, kind: 7, port: null, settings: [1] })).toEqual({
     element: "",
     kind: null,
@@ -16,7 +16,7 @@ it("what a document holds is read with care", () => {
   });
 });
 
-it("settings that make no sense are the usual ones", () => {
+it("invalid settings are replaced by the defaults", () => {
   const usual = readSettings({});
   expect(usual).toEqual({
     shown: null,
@@ -40,7 +40,7 @@ it("settings that make no sense are the usual ones", () => {
   expect(readSettings({ range: [0, null], traces: "all" })).toEqual(usual);
 });
 
-it("settings that make sense stay", () => {
+it("valid settings are kept", () => {
   const trace = { element: "a", port: "output", reduce: "at", at: [1.5] };
   const good = {
     shown: ["output"],

@@ -22,10 +22,10 @@ const how = {
   width: 0.1,
 };
 
-it("the place is in the order of the element's axes, and axes that are not drawn get all", () => {
+it("the centre has the order of the element's axes; axes that are not drawn are covered whole", () => {
   expect(spot(how, [4, 30])).toEqual({ center: [20, 4, 180], sigma: [2, 1, 36_000], amplitude: 5 });
 });
 
-it("the same everywhere needs no place", () => {
+it("a uniform injection has no centre", () => {
   expect(spot(how, null)).toEqual({ center: null, sigma: null, amplitude: 5 });
 });

@@ -10,7 +10,7 @@ function history(...pairs: [number, number][]): History {
 }
 
 describe("time courses side by side", () => {
-  it("share their times where they are the same", () => {
+  it("share equal times", () => {
     expect(sideBySide([history([0, 1], [1, 2], [2, 3]), history([0, 4], [1, 5], [2, 6])], 2)).toEqual([
       [1, 2],
       [2, 3],
@@ -18,7 +18,7 @@ describe("time courses side by side", () => {
     ]);
   });
 
-  it("have gaps where they are not", () => {
+  it("have gaps at times that differ", () => {
     expect(sideBySide([history([0, 1], [2, 2]), history([1, 5], [2, 6])], 0)).toEqual([
       [0, 1, 2],
       [1, null, 2],
@@ -28,7 +28,7 @@ describe("time courses side by side", () => {
     expect(sideBySide([], 0)).toEqual([[]]);
   });
 
-  it("begin one sample before the edge", () => {
+  it("begin one sample before the edge of the window", () => {
     expect(firstAt([0, 1, 2, 3], 2)).toBe(1);
     expect(firstAt([0, 1, 2, 3], 9)).toBe(3);
     expect(firstAt([], 1)).toBe(0);
@@ -36,7 +36,7 @@ describe("time courses side by side", () => {
 });
 
 describe("the time that is shown", () => {
-  it("stands until the window is full, and scrolls then", () => {
+  it("is fixed until the window is full, then scrolls", () => {
     expect(timeRange(0, 100, 500)).toEqual([0, 500]);
     expect(timeRange(0, 800, 500)).toEqual([300, 800]);
     expect(timeRange(20, 800, null)).toEqual([20, 800]);

@@ -20,7 +20,7 @@ describe("simulated time", () => {
     expect(timeText(1 / 3, "ms", 1 / 3)).toBe("0.333 ms");
   });
 
-  it("is a plain number in units of the model's own", () => {
+  it("is a plain number in the model's own units", () => {
     expect(timeText(12_000, "abstract", 1)).toBe("12\u2009000");
     expect(timeText(7, "1 = 64 ms", 1)).toBe("7");
     expect(unitText("abstract")).toBe("");

@@ -15,7 +15,7 @@ const good: Kept = {
   lengthened: 0,
 };
 
-it("a run that keeps up is not late, and never fell behind", () => {
+it("a run in real time has no lag", () => {
   expect(lateText(good)).toBe("");
   expect(meterLines("Pace", good, "ms")).toEqual([
     "Pace",
@@ -25,7 +25,7 @@ it("a run that keeps up is not late, and never fell behind", () => {
   ]);
 });
 
-it("a run that is too slow says by how much, how often, and what was given up", () => {
+it("a run that is too slow reports its lag, how often it fell behind, and the skipped time", () => {
   const late = { ...good, lag: 250, worst: 260.2, lost: 12_345, overruns: 3 };
   expect(lateText(late)).toBe("250 ms late");
   const lines = meterLines("Pace", late, "ms");
@@ -43,14 +43,14 @@ it("lengthened steps are reported", () => {
   );
 });
 
-it("as fast as possible, and standing still, nothing is late", () => {
+it("a run at full speed and a paused run have no lag", () => {
   expect(lateText({ ...good, speed: null, lag: 500 })).toBe("");
   expect(lateText({ ...good, running: false, lag: 500 })).toBe("");
   expect(meterLines("Pace", { ...good, speed: null }, "ms")).toEqual(["Pace", "1000 steps in a second"]);
   expect(meterLines("Pace", { ...good, running: false }, "ms")).toEqual(["Pace"]);
 });
 
-it("wall times are short", () => {
+it("wall times are rounded", () => {
   expect([0, 9.94, 9.96, 250.4, 9999, 10_000, 3_600_000].map(millisecondsText)).toEqual([
     "0.0 ms",
     "9.9 ms",

@@ -2,11 +2,11 @@ import { expect, it } from "vitest";
 
 import { SPEEDS, stopOf } from "./speeds";
 
-it("every stop is its own nearest", () => {
+it("each stop is the nearest stop of its own speed", () => {
   SPEEDS.forEach((speed, i) => expect(stopOf(speed)).toBe(i));
 });
 
-it("other speeds go to the nearest ratio", () => {
+it("other speeds take the stop of the nearest ratio", () => {
   expect(SPEEDS[stopOf(1.3)]).toBe(1);
   expect(SPEEDS[stopOf(1.5)]).toBe(2);
   expect(SPEEDS[stopOf(0.001)]).toBe(0.01);

@@ -19,7 +19,7 @@ function carried() {
   return { asked, carrier };
 }
 
-it("asks for one place at a time, and for the newest next", async () => {
+it("one position is requested at a time, then the newest", async () => {
   const { asked, carrier } = carried();
   for (const x of [1, 2, 3]) carrier.carry("crate", { x, y: 0 });
   expect(asked.map(({ message }) => message)).toEqual([{ type: "move_object", name: "crate", x: 1, y: 0 }]);
@@ -29,7 +29,7 @@ it("asks for one place at a time, and for the newest next", async () => {
   expect(asked.length).toBe(2);
 });
 
-it("holds on until the last place was answered", async () => {
+it("the object is held until the last position is answered", async () => {
   const { asked, carrier } = carried();
   carrier.carry("crate", { x: 1, y: 0 });
   carrier.drop();
@@ -38,7 +38,7 @@ it("holds on until the last place was answered", async () => {
   expect(carrier.held).toBeNull();
 });
 
-it("reports why a position was refused until one is accepted", async () => {
+it("the reason of a refused position is reported until a position is accepted", async () => {
   const { asked, carrier } = carried();
   carrier.carry("crate", { x: 1, y: 0 });
   await asked[0]?.answer([{ what: "lies inside 'wall'", where: "crate" }]);

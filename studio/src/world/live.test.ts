@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 
 import { LiveWorld } from "./live";
 
-it("the path grows, restarts on a message of the server, and React renders only static parts", () => {
+it("the path grows and restarts with messages of the server, and static parts stay the same object", () => {
   const live = new LiveWorld();
   let calls = 0;
   const end = live.listen(() => calls++);

@@ -19,7 +19,7 @@ const scene: SceneView = {
   marks: [{ name: "goal", x: 1, y: 0.5, fixed: false }],
 };
 
-it("both axes have one scale, y points upwards, and places come back", () => {
+it("both axes have one scale, y points upwards, and pixels convert back to positions", () => {
   const frame = frameOf(scene.border, 700, 400);
   const [low, high] = [toPixels(frame, { x: 0, y: -1 }), toPixels(frame, { x: 2, y: 1 })];
   expect(high.x - low.x).toBeCloseTo(low.y - high.y);
@@ -32,11 +32,11 @@ it("both axes have one scale, y points upwards, and places come back", () => {
   expect(inside(frame, { x: 3, y: -5 })).toEqual({ x: 2, y: -1 });
 });
 
-it("a panel without room still has a scale", () => {
+it("a panel that is too small has a positive scale", () => {
   expect(frameOf(scene.border, 10, 10).scale).toBeGreaterThan(0);
 });
 
-it("what lies above is taken hold of first, a mark also near by", () => {
+it("the pointer takes the uppermost object, or a mark within some pixels", () => {
   const frame = frameOf(scene.border, 700, 400);
   const found = (x: number, y: number) => under(scene, frame, toPixels(frame, { x, y }))?.name;
   expect(found(0.42, 0)).toBe("crate");
@@ -46,7 +46,7 @@ it("what lies above is taken hold of first, a mark also near by", () => {
   expect(found(1 + 12 / frame.scale, 0.5)).toBeUndefined();
 });
 
-it("axes are marked in steps of 1, 2 or 5, each with the digits that it needs", () => {
+it("axes have ticks in steps of 1, 2 or 5, with the digits of the step", () => {
   expect(ticks(0, 2, 100, 50)).toEqual({ values: [0, 0.5, 1, 1.5, 2], digits: 1 });
   expect(ticks(-0.1, 0.1, 1000, 50).values.map((v) => v.toFixed(2))).toEqual([
     "-0.10",
@@ -64,7 +64,7 @@ it("positions are shown to a thousandth of the longer side", () => {
   expect(placeText({ x: 1, y: 1 }, [0, 0, 5000, 80], "")).toBe("1, 1");
 });
 
-it("what is new has a name that nothing has", () => {
+it("a new object has an unused name", () => {
   expect(freeName(scene)).toBe("box 1");
   expect(freeName({ ...scene, boxes: [box("box 1", 0, 0), box("box 2", 0, 0)] })).toBe("box 3");
 });

@@ -10,7 +10,7 @@ test.each([
   [null, "none"],
 ])("%j reads %s", (value, text) => expect(arrayText(value)).toBe(text));
 
-test("an axis to choose shows its name where its key is another one", () => {
+test("an axis in a menu shows its name if its key differs", () => {
   const axis = { key: "x", name: "x", lower: 0, upper: 100, samples: 101, periodic: false, unit: "deg" };
   expect(axisOption(axis)).toEqual({ value: "x", label: "x: 0 to 100 deg" });
   expect(axisOption({ ...axis, key: "x_2", unit: "" }).label).toBe("x_2 (x): 0 to 100");
