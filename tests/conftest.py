@@ -1,4 +1,6 @@
-"""What all tests share: how programs are compiled and kept, the markers, and one profile of hypothesis."""
+"""Settings of all tests: options of compiled programs, their folder, the markers, and one profile of
+hypothesis.
+"""
 
 from __future__ import annotations
 
@@ -54,8 +56,9 @@ DEFAULT_PROGRAM = (
     "tests/session/test_memory.py",
     "tests/session/test_resolution.py",
 )
-"""What judges the bits of programs, or compares them with stored ones, and what runs for so long that
-optimised steps save more time than compiling them takes: `make test` runs it with `--default-programs`.
+"""Tests that judge the bits of programs or compare them with stored ones, and tests that run so long that
+optimised steps save more time than their compilation takes: `make test` runs them with
+`--default-programs`.
 """
 
 

@@ -1,8 +1,8 @@
 """CPU seconds of the slow tests, from which the marker `fast` follows.
 
 `pytest --write-durations` measures the tests that it runs, in one process, and replaces their rows in
-`durations.csv`; tests that it does not run keep theirs. The seconds of a function are those of all its cases,
-with the processes that they start. What has no row is fast: a test is fast until it is measured.
+`durations.csv`; rows of other tests are kept. The seconds of a function are those of all its cases,
+with the processes that they start. A test without a row is fast.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ LIMIT = 0.2
 
 
 def function(nodeid: str) -> str:
-    """The test function that a case belongs to: its name without parameters."""
+    """Return the test function of a case: its name without parameters."""
     return nodeid.split("[", 1)[0]
 
 
 def seconds(file: Path = FILE) -> dict[str, float]:
-    """CPU seconds of each test function known to be slow."""
+    """Return the CPU seconds of each test function known to be slow."""
     with file.open(encoding="utf-8", newline="") as text:
         return {row["test"]: float(row["seconds"]) for row in csv.DictReader(text)}
 
 
 def files(rows: dict[str, float]) -> Counter[str]:
-    """CPU seconds of the slow test functions of each file."""
+    """Return the CPU seconds of the slow test functions of each file."""
     out: Counter[str] = Counter()
     for test, s in rows.items():
         out[test.split("::")[0]] += s
@@ -40,14 +40,14 @@ def files(rows: dict[str, float]) -> Counter[str]:
 
 
 def exists(test: str) -> bool:
-    """Whether the file of a test function still defines it."""
+    """Return whether the file of a test function still defines it."""
     path, _, name = test.partition("::")
     file = FILE.parents[1] / path
     return file.exists() and f"def {name.split('::')[-1]}(" in file.read_text(encoding="utf-8")
 
 
 def write(measured: dict[str, float], file: Path = FILE) -> None:
-    """Replace the rows of the functions that were measured; rows of files that are gone are dropped."""
+    """Replace the rows of the functions that were measured; rows of missing functions are dropped."""
     rows = {test: s for test, s in seconds(file).items() if exists(test)} | measured
     with file.open("w", encoding="utf-8", newline="") as text:
         out = csv.writer(text, lineterminator="\n")

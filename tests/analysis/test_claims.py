@@ -1,4 +1,4 @@
-"""Claims say where their targets come from, and what was inferred from a run is not required."""
+"""Claims state the sources of their targets, and a target inferred from a run is not required."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lengths, entries and distances of paths that one can work out by hand."""
+"""Lengths, entries and distances of paths with known values."""
 
 from __future__ import annotations
 

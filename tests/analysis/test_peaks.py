@@ -1,4 +1,4 @@
-"""Peaks: count, place, width, amplitude, on lines and rings, in any dimension."""
+"""Peaks: count, position, width and amplitude, on lines and rings, in any dimension."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Regimes in known cases and in their opposites, and the command that prints them."""
+"""Regimes of fields with known answers, and the command that prints them."""
 
 from __future__ import annotations
 

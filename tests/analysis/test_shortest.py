@@ -1,4 +1,4 @@
-"""Shortest paths against Dijkstra's on random arenas, and on arenas one sees through."""
+"""Shortest paths against Dijkstra's algorithm on random arenas, and on arenas with known answers."""
 
 from __future__ import annotations
 

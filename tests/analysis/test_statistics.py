@@ -1,4 +1,4 @@
-"""Intervals against published numbers and against simulation, and what few runs may decide."""
+"""Intervals against published numbers and against simulation, and decisions from few runs."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Elementary behaviours: each begins, lasts and ends as its nodes say, and the constraints between them hold
-in every trial.
+"""Elementary behaviours: their nodes start and end them, and the constraints between them hold in every
+trial.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ X = dd.Axis("x", 0, 100, samples=51)
 
 
 def on(model: dd.Model, names: list[str], duration: float = 1200, trials: int = 20) -> dict[str, np.ndarray]:
-    """For each node or field whether it is above threshold, (trials, time), every ms."""
+    """Return for each node or field whether it is above threshold, (trials, time), every ms."""
     data = dd.simulate(model, duration, record=[f"{name}.activation" for name in names], trials=trials)
     return {
         name: (data[f"{name}.activation"].values > 0).reshape(trials, int(duration) + 1, -1).any(-1)
@@ -25,7 +25,7 @@ def on(model: dd.Model, names: list[str], duration: float = 1200, trials: int = 
 
 
 def tell(model: dd.Model, target: str, amplitude: float, *windows: tuple[float, float]) -> None:
-    """A timed signal to one node."""
+    """Add a timed signal to one node."""
     (
         model.add(Boost(f"to {target}", [], amplitude=amplitude, windows=[Window(*w) for w in windows]))
         >> model[target]
@@ -58,7 +58,7 @@ def test_satisfaction_requires_the_task_and_the_signal(task: bool, signal: bool)
 
 
 def test_a_signal_without_an_active_intention_does_not_satisfy() -> None:
-    """Task and signal without the intention, which is suppressed."""
+    """Task and signal are on, and the intention is suppressed."""
     model = several("a")
     tell(model, "a.task", ON, (100, 1200))
     tell(model, "a.intention", -6.0, (0, 1200))

@@ -1,4 +1,4 @@
-"""Same or different: the contrast field is active only where the memory lacks what is shown."""
+"""Same or different: the contrast field is active only at features that the memory lacks."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ TRIALS = 20
 
 
 def trial(sample: tuple[float, ...], **sweep: list[float]) -> xarray.Dataset:
-    """A trial, every 10 ms; the third item of the test is swept."""
+    """Run trials, recorded every 10 ms; the third item of the test is swept."""
     record = [f"{name}.activation" for name in ("contrast", "memory", "same", "different")]
     values = {f"test {len(sample)}.center": sweep["last"]}
     return dd.simulate(
@@ -24,7 +24,7 @@ def trial(sample: tuple[float, ...], **sweep: list[float]) -> xarray.Dataset:
 
 
 def answers(data: xarray.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Whether `same` and `different` are on when the test ends."""
+    """Return whether `same` and `different` are on when the test ends."""
     now = data.sel(time=TEST[1] - 10)
     return now["same.activation"].values > 0, now["different.activation"].values > 0
 
@@ -43,7 +43,7 @@ def test_an_unchanged_display_is_the_same_and_a_changed_one_different_in_every_t
 
 
 def test_a_small_change_is_not_detected(three: xarray.Dataset) -> None:
-    """Fifteen degrees away, the memory still inhibits."""
+    """The memory still inhibits fifteen degrees away."""
     same, different = answers(three)
     assert same[1].all() and not different[1].any()
 

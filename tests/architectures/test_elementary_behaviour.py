@@ -13,7 +13,7 @@ STEPS = 60
 
 
 def kernel(samples: int, sigma: float) -> np.ndarray:
-    """The matrix of a Gaussian of unit sum that wraps round the ends."""
+    """Return the matrix of a Gaussian of unit sum on a ring."""
     lag = np.arange(samples)[:, None] - np.arange(samples)[None, :]
     weights = sum(np.exp(-0.5 * ((lag + k * samples) / sigma) ** 2) for k in range(-5, 6))
     return np.asarray(weights / weights.sum(1, keepdims=True))
@@ -24,7 +24,7 @@ def spread(f: np.ndarray, sigma: float) -> np.ndarray:
 
 
 def moved(f: np.ndarray, dx: int, dy: int) -> np.ndarray:
-    """Shifted by whole cells; zeros come in."""
+    """Return the field shifted by whole cells; zeros enter at the ends."""
     out = np.zeros_like(f)
     nx, ny = f.shape
     out[max(dx, 0) : nx + min(dx, 0), max(dy, 0) : ny + min(dy, 0)] = f[

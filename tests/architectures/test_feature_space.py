@@ -1,4 +1,4 @@
-"""Feature and place bound in one field: a cue in either brings the value of the other."""
+"""Feature and position bound in one field: a cue to one of them retrieves the other."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SCENE = ((20.0, 0.0), (50.0, 120.0), (80.0, 240.0))
 
 
 def scene() -> dd.Model:
-    """Three objects, and a cue to each read-out that begins later."""
+    """Return a model with three objects, and a later cue to each read-out."""
     model = feature_space()
     for k, at in enumerate(SCENE):
         (
@@ -73,7 +73,7 @@ def test_nothing_is_selected_without_a_cue() -> None:
 
 
 def test_conflicting_cues_create_no_peak() -> None:
-    """The place of one object and the feature of another meet where nothing is."""
+    """The position of one object and the feature of another cross where there is no object."""
     model = scene()
     model.set("space cue.center", 20.0)
     model.set("feature cue.center", 120.0)

@@ -1,4 +1,6 @@
-"""Following a carrot: the steering by hand, and whole batches in the same arena as architectures drive in."""
+"""Following a carrot: the steering against known values, and whole batches in the arena of the
+architectures.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The plan on a line: its wave, its execution, another plan."""
+"""The plan on a line: its wave, its execution, and another plan."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ X = corridor().points
 
 
 def fronts(motivation: np.ndarray) -> np.ndarray:
-    """The farthest place to the right at which a motivation is above threshold, at each time."""
+    """Return for each time the rightmost position at which a motivation is above threshold."""
     return np.array([X[u > 0].max() if (u > 0).any() else np.nan for u in motivation])
 
 

@@ -1,5 +1,5 @@
-"""The steered shift and the diagonals of a field are the same transformation: exactly as couplings, to a
-fraction of a sample as fields.
+"""The steered shift and the diagonals of a field are the same transformation: as couplings exactly, as
+fields to a fraction of a sample.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from deodar.errors import ParameterError
 
 
 def test_both_couplings_give_the_same_values() -> None:
-    """Any pattern, any gaze on the grid: the product of pattern and gaze, summed along diagonals, is the
+    """For any pattern and any gaze on the grid, the product of both, summed along diagonals, is the
     pattern moved by the gaze.
     """
     rng = np.random.default_rng(0)

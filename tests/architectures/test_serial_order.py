@@ -1,5 +1,5 @@
-"""The chain learns and produces sequences; its transitions come in the order of the theory, and its state
-keeps for as long as it has to.
+"""The chain learns and produces sequences; its transitions have the order of the theory, and its state
+persists between them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from deodar.numerics.windows import Window
 
 PLACES = (6.0, 18.0, 30.0, 42.0, 54.0)
 RELEASED = 250.0
-"""After production began, ms: what was cleared is clear."""
+"""Time after the start of production, in ms, at which cleared nodes are off."""
 
 
 def assert_right(found: list[ActionTransition], sequence: list[float]) -> None:
@@ -43,8 +43,8 @@ def test_a_sequence_is_learned_and_produced_in_every_trial(sequence: list[float]
         assert_right(produced, sequence)
         assert all(t.in_order for t in produced)
         assert np.isnan(produced[-1].next_on) and not any(np.isnan(t.next_action) for t in produced[:-1])
-        # in learning the action outlasts its node until it is no longer shown, and the next one is called for
-        # after that
+        # in learning the action continues after its node until it is no longer shown, and then the next one
+        # is requested
         assert all(t.satisfied < t.off < t.action_off < t.released < t.next_on for t in learned[:-1])
 
 
@@ -113,7 +113,7 @@ def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
 
 
 def test_a_chain_may_be_longer_than_the_sequence() -> None:
-    """The node after the last one comes on, and stands for nothing."""
+    """The node after the last one switches on, and represents no item."""
     model = lesson([30.0, 6.0], items=3)
     data = dd.simulate(model, lesson_end(2, 2), record=cascade_paths(3))
     assert_right(cascade(data, production_start(2) + RELEASED), [30.0, 6.0])

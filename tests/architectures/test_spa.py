@@ -1,4 +1,4 @@
-"""Simultaneous planning and action in the Z-maze: what is published of it, in short runs."""
+"""Simultaneous planning and action in the Z-maze: published results, in short runs."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def test_in_case_3_the_robot_plans_for_about_210_steps_and_takes_the_north_route
 
 @pytest.mark.parametrize("noise", ["low", "high"])
 def test_the_robot_reaches_a_nearby_goal(noise: str) -> None:
-    """From the east of the maze to a goal 25 cm further north, round no corner."""
+    """From the east of the maze to a goal 25 cm further north, without a corner between."""
     arena = maze("z", noise, start=(-25.0, 50.0, 2.0), goal=(-27.0, 78.0))
     data = dd.simulate(spa(arena, noise), 200, record="pose.output", world=arena, progress=False, seed=2)
     pose = data["pose.output"].values

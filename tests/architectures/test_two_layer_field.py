@@ -1,5 +1,5 @@
-"""The two-layer field: its equations, and the one-layer field and the pool that it comes together with as
-inhibition is made faster.
+"""The two-layer field: its equations, and the one-layer field and the pool to which it converges with
+faster inhibition.
 """
 
 from __future__ import annotations
@@ -61,8 +61,8 @@ def test_the_steps_are_those_of_the_equations():
 
 
 def selection(axis, inhibition, global_inhibition, pool):
-    """One layer, two layers, and where asked the pool behind a low-pass filter, all of the same parameters,
-    between two inputs.
+    """Return one layer, two layers and, if asked for, the pool behind a low-pass filter, with the same
+    parameters and two inputs.
     """
     kernel = [dd.Gaussian(12, 5, normalized=True)]
     model = dd.Model("three", dt=0.5)
@@ -102,7 +102,9 @@ RATIOS = np.array([1, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 32])
 
 
 def falls_in_proportion(distance):
-    """Monotonically, and in the end as the ratio does: halved with it to 10 %."""
+    """Return whether the distance falls monotonically, and in the end in proportion to the ratio: halved
+    with it to 10 %.
+    """
     assert (np.diff(distance) < 0).all()
     np.testing.assert_allclose(distance[-3:-1] / distance[-2:], 2, rtol=0.1)
     assert distance[-1] < 0.2
@@ -138,7 +140,7 @@ def test_two_layers_with_local_inhibition_converge_to_one_layer():
 
 
 def test_slow_inhibition_overshoots_and_ends_the_peak():
-    """Far slower than excitation it overshoots: the peak that was there goes while its input stays."""
+    """Inhibition that is far slower than excitation overshoots: the peak decays while its input stays."""
     model = selection(X, (), 0.6, pool=False)
     model.set("tau_v", 4 * TAU)
     u = dd.simulate(model, 250, record=["one.activation", "two.excitatory.activation"], every=1)

@@ -1,4 +1,4 @@
-"""`deodar studio` that counts what it holds: on SIGUSR1 it writes the numbers to the file that the
+"""`deodar studio` that counts its objects: on SIGUSR1 it writes the numbers to the file that the
 environment variable COUNTS names.
 """
 

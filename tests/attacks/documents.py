@@ -1,6 +1,6 @@
-"""Mutated documents: each is read as a document, or refused with an error of deodar that says why.
+"""Mutated documents: each is read as a document, or refused with an error of deodar that states the reason.
 
-Nothing else may happen.
+Any other outcome is a failure.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ BROKEN = (
 
 @dc.dataclass
 class Outcome:
-    """What became of mutated documents."""
+    """Numbers of mutated documents by outcome."""
 
     read: int = 0
     refused: int = 0
@@ -76,13 +76,13 @@ class Outcome:
 
 
 def places(data: Any, at: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    """The path of every value inside nested data."""
+    """Return the path of every value inside nested data."""
     inside = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
     return [at, *(place for key, value in inside for place in places(value, (*at, key)))]
 
 
 def mutated(random: random.Random, data: Any) -> str:
-    """A document with one to three mutations, as text."""
+    """Return a document with one to three mutations, as text."""
     data = copy.deepcopy(data)
     for _ in range(random.choice((1, 1, 2, 3))):
         *above, last = random.choice([p for p in places(data) if p])

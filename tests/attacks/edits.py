@@ -1,9 +1,8 @@
-"""Pages that edit one document at once: what the studio made of it must equal the accepted edits, one after
-the other.
+"""Pages that edit one document at once: the result must equal the accepted edits, one after the other.
 
 Each page draws random edits and sends several of them without waiting. Every answer names the version of the
 document that holds the edit; the accepted edits in the order of their versions are made again on a `History`
-of this process, which knows neither the server nor its lock.
+of this process, without the server and its lock.
 """
 
 from __future__ import annotations
@@ -58,7 +57,7 @@ AT_ONCE = 4
 
 @dc.dataclass
 class Outcome:
-    """What became of the edits of all pages."""
+    """Numbers of edits of all pages by outcome."""
 
     accepted: int
     refused: int
@@ -88,7 +87,7 @@ class Editor(Page):
 
 
 def replaced(values: Any, path: list[str], value: Any) -> Any:
-    """Nested values with another one at a path."""
+    """Return nested values with another one at a path."""
     if not path:
         return value
     if isinstance(values, list):
@@ -97,7 +96,7 @@ def replaced(values: Any, path: list[str], value: Any) -> Any:
 
 
 def small() -> dd.Model:
-    """A model whose programs compile fast."""
+    """Return a model whose programs compile fast."""
     model = dd.Model("edits")
     u = model.add(dd.Field("u", [], tau=20, resting_level=-5))
     v = model.add(dd.Field("v", [], tau=20, resting_level=-5))
@@ -107,7 +106,7 @@ def small() -> dd.Model:
 
 
 def drawn(random: random.Random, ids: dict[str, str], preset: str) -> dict[str, Any]:
-    """One random edit."""
+    """Return one random edit."""
     path, leaf = random.choice(LEAVES)
     place = {"element": ids[path], "parameter": leaf}
     number = round(random.uniform(5, 90), 3)
@@ -151,16 +150,16 @@ class State:
     gesture: object = None
 
     def commit(self, new: Document, gesture: object = None) -> State:
-        """Take a new document."""
+        """Add a new document."""
         return State(new, (self.document, self.past), None, gesture)
 
     def amend(self, new: Document, gesture: object = None) -> State:
-        """Take a new document in the place of the present one."""
+        """Replace the present document by a new one."""
         return State(new, self.past, None, gesture)
 
 
 def again(state: State, page: int, m: dict[str, Any]) -> State:
-    """Make an accepted edit; the same object where it changes nothing."""
+    """Return the state after an accepted edit; the same object if it changes nothing."""
     doc = state.document
     match m["type"]:
         case "undo":
@@ -241,7 +240,7 @@ async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:
 
 
 async def _running(one: Page, stimulus: str) -> float:
-    """The output of a stimulus in the program that runs."""
+    """Return the output of a stimulus in the running program."""
     await one.runs()
     await one.do("watch", stream=1, element=stimulus, port="output")
     await one.do("step", n=1)
@@ -296,8 +295,8 @@ def _outcome(
 
 
 def _one_version(state: State, edits: list[tuple[int, dict[str, Any]]]) -> State | None:
-    """The state after the edits that ended at one version: the first changes something, and the others then
-    change nothing. None: impossible.
+    """Return the state after the edits of one version, of which the first alone changes something; None if
+    that is impossible.
     """
     for k, m in edits:
         try:

@@ -1,5 +1,5 @@
-"""A studio that is killed while pages edit and save: the file is whole, and edits that were kept are offered
-at the next start.
+"""A studio that is killed while pages edit and save: the file is complete, and stored edits are offered at
+the next start.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from tests.server.page import page
 
 @dc.dataclass
 class Outcome:
-    """What was found after the kills."""
+    """Results after the kills."""
 
     kills: int = 0
     saves: int = 0
@@ -31,7 +31,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def start(folder: Path, module: str = "deodar", **variables: str) -> tuple[subprocess.Popen[str], str]:
-    """A studio in a process of its own, and its address."""
+    """Start a studio in a process of its own; return both it and its address."""
     command = [sys.executable, "-m", module, "studio", "m.json", "--no-browser", "--port", "0"]
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")]))
     environment = os.environ | {"DEODAR_STATE": str(folder / "state"), "PYTHONPATH": path} | variables
@@ -41,14 +41,14 @@ def start(folder: Path, module: str = "deodar", **variables: str) -> tuple[subpr
 
 
 def stop(process: subprocess.Popen[str]) -> None:
-    """Kill a process and read what it left to be read."""
+    """Kill a process and read the rest of its output."""
     process.kill()
     process.communicate(timeout=30)
 
 
 async def edit_and_save(address: str, process: subprocess.Popen[str], after: int, outcome: Outcome) -> float:
-    """Save without a pause, and kill the process while a save is under way; the value that was answered as
-    saved last.
+    """Save without a pause, and kill the process during a save; return the value of the last answered
+    save.
     """
     saved = 0.0
     async with page(address) as one:

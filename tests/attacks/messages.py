@@ -79,7 +79,7 @@ RAW = (
 
 @dc.dataclass
 class Outcome:
-    """What became of hostile messages."""
+    """Numbers of hostile messages by outcome."""
 
     sent: int = 0
     refused: int = 0
@@ -88,13 +88,13 @@ class Outcome:
 
 
 def kinds() -> dict[str, tuple[str, ...]]:
-    """The fields of every request that a page may send, by tag."""
-    found = [kind for kind in MESSAGES.values() if kind is not Drawn]  # that has no answer
+    """Return the fields of every request that a page may send, by tag."""
+    found = [kind for kind in MESSAGES.values() if kind is not Drawn]  # it has no answer
     return {str(kind.__struct_config__.tag): kind.__struct_fields__ for kind in found}
 
 
 def drawn(random: random.Random, known: dict[str, tuple[str, ...]], ids: list[str]) -> dict[str, Any]:
-    """A random message of a known kind, with values of any sort."""
+    """Return a random message of a known kind, with values of any type."""
     tag = random.choice(list(known))
     values: dict[str, Any] = {"type": tag}
     for field in known[tag]:
@@ -110,8 +110,8 @@ def drawn(random: random.Random, known: dict[str, tuple[str, ...]], ids: list[st
 
 
 async def attack(address: str, count: int, seed: int) -> Outcome:
-    """Send hostile messages, reconnecting where one ends the connection; a second page stays connected and
-    edits between them.
+    """Send hostile messages, and reconnect after one that ends the connection; a second page stays
+    connected and edits between them.
     """
     random_, outcome, known = random.Random(seed), Outcome(), kinds()
     async with page(address) as other:
@@ -157,7 +157,7 @@ async def _one_connection(
 
 
 def run(folder: Path, count: int, seed: int = 0) -> Outcome:
-    """Start a studio in a folder that holds hostile files too, and attack it."""
+    """Start a studio in a folder that also contains hostile files, and attack it."""
     dd.save(small(), folder / "m.json", force=True)
     (folder / "loop.json").symlink_to(folder / "loop.json")
     os.mkfifo(folder / "pipe.json")

@@ -1,8 +1,8 @@
-"""A studio under load for a long time: pages come, watch, edit and go while the model runs, and the process
-holds no more than before.
+"""A studio under load for a long time: pages connect, watch, edit and disconnect while the model runs, and
+the process keeps no more objects than before.
 
-What it holds is counted while no page is connected and a document was just opened: then it owes nothing to
-any page, and nothing to any edit.
+Its objects are counted while no page is connected and a document was just opened, so that none belongs to a
+page or an edit.
 """
 
 from __future__ import annotations
@@ -34,21 +34,21 @@ ROOM = 32.0
 """Memory in MiB that allocators and caches may add, whatever the number of visits (a guess)."""
 
 MOST_OBJECTS = 5.0
-"""Python objects that each visit may add, above `CACHED`. A page that is not let go holds hundreds."""
+"""Python objects that each visit may add, above `CACHED`. A page that is not released keeps hundreds."""
 
 CACHED = 2000
 """Python objects that caches may add, whatever the number of visits."""
 
 POOL = 8
-"""Threads that the pools of asyncio and of JAX may start late."""
+"""Threads that the pools of asyncio and JAX may start late."""
 
 PATIENCE = 60.0
-"""Longest wall time, in seconds, until what belonged to pages must be gone."""
+"""Longest wall time, in seconds, until the objects of pages must be released."""
 
 
 @dc.dataclass(frozen=True)
 class Held:
-    """What a process holds."""
+    """Numbers of objects and resources of a process."""
 
     mebibytes: float
     files: int
@@ -61,7 +61,7 @@ class Held:
 
 @dc.dataclass
 class Outcome:
-    """What a process held after a quarter of the time, and at the end."""
+    """Numbers of a process after a quarter of the time, and at the end."""
 
     visits: int
     early: Held
@@ -70,12 +70,12 @@ class Outcome:
 
 
 def beyond(early: Held, late: Held, visits: int) -> list[str]:
-    """The limits that were exceeded, in words.
+    """Return the limits that were exceeded, in words.
 
     Args:
-        early: what the process held before.
-        late: what it holds now.
-        visits: pages that came and went in between.
+        early: numbers of the process before.
+        late: its present numbers.
+        visits: pages that connected and disconnected in between.
     """
     limits = {
         "mebibytes": early.mebibytes + ROOM + visits * MOST_KIB / 1024,
@@ -94,7 +94,7 @@ def beyond(early: Held, late: Held, visits: int) -> list[str]:
 
 
 def held(process: subprocess.Popen[str], counts: Path) -> Held:
-    """What a process holds now."""
+    """Return the present numbers of a process."""
     counts.unlink(missing_ok=True)
     process.send_signal(signal.SIGUSR1)
     end = time.monotonic() + PATIENCE
@@ -113,15 +113,15 @@ def held(process: subprocess.Popen[str], counts: Path) -> Held:
 def settled(
     process: subprocess.Popen[str], counts: Path, before: Held | None, visits: int
 ) -> tuple[Held, list[str]]:
-    """What a process holds once what belonged to pages is gone, and the limits that it still exceeds after
-    some time.
+    """Return the numbers of a process after the objects of pages are released, and the limits that it still
+    exceeds after some time.
 
     Args:
         process: the studio.
         counts: the file of its numbers.
-        before: what it held before the visits; None: there were none before, and its number of tasks must
-            have stopped to fall.
-        visits: pages that came and went.
+        before: its numbers before the visits; None: there were no visits before, and its number of tasks must
+            no longer fall.
+        visits: pages that connected and disconnected.
     """
     end, last = time.monotonic() + PATIENCE, held(process, counts)
     while True:
@@ -134,7 +134,7 @@ def settled(
 
 
 async def visit(address: str, random: random.Random) -> None:
-    """Connect, watch, run and edit, and go."""
+    """Connect, watch, run, edit and disconnect."""
     async with page(address) as one:
         await one.runs()
         u = one.element("u")

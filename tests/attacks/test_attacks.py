@@ -1,4 +1,4 @@
-"""The attacks in a quick form; `python benchmarks/attacks.py` runs them in full."""
+"""Short forms of the attacks; `python benchmarks/attacks.py` runs them in full."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def test_simultaneous_edits_of_eight_pages_equal_the_same_edits_in_sequence(tmp_
 
 
 def test_an_edit_that_is_meant_for_another_document_is_refused(tmp_path: Path) -> None:
-    """Elements of two documents may have the same id: it is a hash of the path."""
+    """Elements of two documents may have the same id, because it is a hash of the path."""
 
     async def main(address: str) -> None:
         async with page(address) as a, page(address) as b:

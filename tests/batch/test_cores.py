@@ -16,7 +16,7 @@ MODEL = "m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=11)]
 
 
 def told(code: str, nproc: str | None = None) -> dict[str, object]:
-    """What a fresh process prints as JSON after `code`."""
+    """Return the JSON that a new process prints after `code`."""
     environment = {k: v for k, v in os.environ.items() if k != "NPROC"} | ({"NPROC": nproc} if nproc else {})
     code = "import json, os, sys, deodar as dd; from deodar.compiler.device import cores; found = {}\n" + code
     code += "\nprint('FOUND', json.dumps({'nproc': os.environ.get('NPROC'), 'cores': cores()} | found))"
@@ -46,7 +46,7 @@ except dd.errors.CoresError as error:
 
 def test_the_number_of_cores_sets_the_number_of_threads() -> None:
     """XLA names its threads after their pool; with one core it has fewer of them."""
-    if not os.path.isdir("/proc/self/task"):  # told by Linux only; elsewhere the number is at least kept
+    if not os.path.isdir("/proc/self/task"):  # only Linux lists threads; elsewhere the number is checked
         assert told("dd.use_cores(2)")["nproc"] == "2"
         return
     code = (

@@ -1,4 +1,4 @@
-"""Where programs run: the device that is named, in full precision, and an error where there is none."""
+"""Devices: programs run on the named device, in full precision, and a missing device is an error."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ print("good")
 
 
 def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a process whose CPU counts as two devices; the second time the programs come from the disk."""
+    """In a process whose CPU counts as two devices; the second run loads the programs from the disk."""
     monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=2")
     for _ in range(2):
         done = subprocess.run([sys.executable, "-c", SECOND], capture_output=True, text=True, timeout=600)
@@ -88,7 +88,7 @@ def test_workers_and_another_device_exclude_each_other(monkeypatch: pytest.Monke
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 def test_matrix_products_use_the_full_precision(precision: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing is left to a device's own choice, which may be TF32: each product of each program says so."""
+    """Each product of each program states its precision, because the default of a device may be TF32."""
     texts: list[str] = []
     compile_ = cache.compile
 
@@ -107,4 +107,4 @@ def test_matrix_products_use_the_full_precision(precision: str, monkeypatch: pyt
         if "dot_general" in line or "stablehlo.convolution" in line
     ]
     assert products and all("HIGHEST" in line and "DEFAULT" not in line for line in products)
-    assert jax.config.jax_default_matmul_precision is None  # said for our programs alone
+    assert jax.config.jax_default_matmul_precision is None  # stated for the programs of deodar alone

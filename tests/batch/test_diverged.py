@@ -1,6 +1,4 @@
-"""A copy of a batch that diverges is NaN with its reason, and the others are what they would be without
-it.
-"""
+"""A copy of a batch that diverges is NaN with its reason, and the others equal a run without it."""
 
 from __future__ import annotations
 
@@ -24,8 +22,8 @@ RECORD = ["u.activation", "v.activation"]
 
 
 def model() -> Model:
-    """A field that a loop through a gain makes grow without bound where the gain is large, and one beside it
-    that it does not touch.
+    """Return a field that grows without bound through a loop if its gain is large, and an independent
+    field.
     """
     made = dd.Model("runaway")
     u = made.add(dd.Field("u", [X], tau=10, sigmoid=dd.Logistic(beta=1), noise=0.1, resting_level=1.0))

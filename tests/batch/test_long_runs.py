@@ -1,4 +1,4 @@
-"""A run of 10^9 steps and more is announced and shows its progress; shorter ones begin as they always do."""
+"""A run of 10^9 steps or more is announced and shows its progress; shorter runs are not announced."""
 
 from __future__ import annotations
 

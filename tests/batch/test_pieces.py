@@ -1,4 +1,4 @@
-"""How a batch is cut, and what is made of the pieces."""
+"""Pieces of a batch: their sizes, and the joined results."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def test_an_interrupted_run_without_any_piece_gives_an_empty_record() -> None:
 
 
 def test_a_request_of_many_trials_is_pickled_small() -> None:
-    """A worker process gets one for each piece."""
+    """A worker process receives one for each piece."""
     whole = SimulationRequest(1000.0, trials=range(10_000), sweep={"u.tau": [10.0, 20.0]})
     first = cut({"trial": 10_000, "u.tau": 2}, 2**20).requests(whole, range(10_000), whole.sweep or {})[0]
     assert first.trials == [0, 1, 2, 3] and len(pickle.dumps(first)) < 500

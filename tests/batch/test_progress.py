@@ -1,4 +1,4 @@
-"""Long runs show a bar on a terminal, and nothing elsewhere."""
+"""Long runs show a progress bar on a terminal, and nothing elsewhere."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ def test_an_incomplete_record_is_compared_with_the_trials_that_it_has() -> None:
 
 
 def test_workers_do_not_run_the_main_script(tmp_path: Path) -> None:
-    """No guard is needed around a script."""
+    """A script needs no guard."""
     code = """
 import deodar as dd
 print("begun", flush=True)
@@ -168,9 +168,7 @@ def test_a_second_ctrl_c_ends_the_workers_at_once() -> None:
 
 @pytest.mark.parametrize("how", ["stops", "fails", "dies"])
 def test_no_thread_or_process_of_the_pool_remains_after_the_call(how: str) -> None:
-    """No thread and no process is left, whichever way it ends: there is nothing that could read a pipe that
-    is closed.
-    """
+    """No thread and no process remains that could read a closed pipe, however the run ends."""
     before, seen = set(threading.enumerate()), []
 
     def told(done: int) -> None:
@@ -221,7 +219,7 @@ def test_an_error_in_a_worker_is_raised_unchanged_in_the_caller() -> None:
 
 
 class Locked(World):
-    """A world that stays where it is."""
+    """A world that cannot be pickled."""
 
     def __reduce__(self) -> str:
         raise TypeError("it is bolted to the floor")
@@ -238,8 +236,8 @@ def test_a_value_that_cannot_be_pickled_is_refused(monkeypatch: pytest.MonkeyPat
 
 
 def test_workers_import_the_modules_of_custom_kinds(tmp_path: Path) -> None:
-    """An element of one's own, from a module beside the script; the same in the script itself is refused by
-    its name.
+    """A custom element from a module beside the script works; one in the script itself is refused by its
+    name.
     """
     element = """
 import dataclasses
@@ -285,7 +283,7 @@ def test_memory_counts_all_workers(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_worker_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
-    """A killed process can end nothing itself, so each worker watches it, also during a task."""
+    """A killed process cannot end its workers, so each worker watches it, also during a task."""
     script = tmp_path / "script.py"
     script.write_text(
         "import time\n"
@@ -309,7 +307,7 @@ def test_a_worker_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
 
 
 def runs(process: psutil.Process) -> bool:
-    """Whether a process has not ended yet. One that ended may remain as a zombie."""
+    """Return whether a process has not ended; an ended one may remain as a zombie."""
     try:
         return process.status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:

@@ -1,5 +1,5 @@
-"""Bits depend on the width of a batch alone: a few random combinations of those that `benchmarks/bits.py`
-draws a thousand of.
+"""Bits depend on the width of a batch alone: a few of the thousand random combinations of
+`benchmarks/bits.py`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The benchmark of the clock, run shortly: its four runs are what they are called."""
+"""A short form of the benchmark of the clock: its four runs agree with their names."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import clock
 
 
 def test_overruns_occur_only_in_runs_with_too_little_time() -> None:
-    """Only bounds that a busy machine keeps too: it may be late, and is never early."""
+    """Only bounds that also hold on a busy machine: a run may be late, and is never early."""
     plain, slow, stays, grows = clock.measure(1.2).values()
     assert plain.steps == 1200 and slow.steps == 20 and slow.factor < 0.13 and plain.factor < 1.3
     for meter in (plain, slow):

@@ -1,6 +1,4 @@
-"""Files with errors in them open, or are refused with problems; the long form is `python
-benchmarks/mutations.py`.
-"""
+"""Files with errors open, or are refused with problems; the long form is `python benchmarks/mutations.py`."""
 
 from __future__ import annotations
 
@@ -41,8 +39,8 @@ def test_a_file_that_states_zero_elements_is_valid(content: dict[str, object], t
 
 
 def test_an_unexpected_outcome_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The harness reports a wrong exception, an error without a message, and a model that is silently
-    empty.
+    """The harness reports a wrong exception, an error without a message, and an empty model without a
+    problem.
     """
     content = json.dumps({"deodar": 1, "name": "m", "elements": {}}).encode()
 

@@ -1,4 +1,4 @@
-"""Thresholds of a memory and where it stays, on a grid of 5 samples a kernel width, against a finer grid and
+"""Thresholds and positions of a memory, on a grid of 5 samples per kernel width, against a finer grid and
 against theory.
 """
 

@@ -1,5 +1,5 @@
-"""What the benchmarks time: the yardstick in C follows its equation and ours, its noise is normal, and the
-models are what they are called.
+"""The programs that benchmarks time: the reference in C and the model follow one equation, its noise is
+normal, and the models agree with their names.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def test_the_noise_of_the_yardstick_is_normal(tmp_path: Path) -> None:
 
 
 def test_the_model_and_the_yardstick_compute_the_same_values(tmp_path: Path) -> None:
-    """Equal but for the ends of the kernels, which shift a peak of 3 to 7 by less than 0.15."""
+    """They differ only by the ends of the kernels, which shift a peak of 3 to 7 by less than 0.15."""
     for shape, sigmas in (((100,), (5, 10)), ((50, 50), (3, 6))):
         model = workloads.single(shape, sigmas)
         model.set("u.noise", 0.0)

@@ -1,4 +1,4 @@
-"""`deodar doctor`: what it finds is what is there."""
+"""`deodar doctor`: its report states the present installation."""
 
 from __future__ import annotations
 

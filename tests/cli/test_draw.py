@@ -1,4 +1,4 @@
-"""`deodar draw`: an architecture as a picture, from the command line."""
+"""`deodar draw`: a picture of an architecture, from the command line."""
 
 from __future__ import annotations
 

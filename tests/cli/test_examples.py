@@ -1,4 +1,4 @@
-"""The examples on the command line: listed, copied, opened, and taken by name wherever a file is taken."""
+"""Examples on the command line: listed, copied, opened, and accepted by name in place of a file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def told(capsys: pytest.CaptureFixture[str]) -> str:
-    """What was printed, on one line."""
+    """Return the output, on one line."""
     captured = capsys.readouterr()
     return " ".join((captured.out + captured.err).split())
 
@@ -138,7 +138,7 @@ def test_an_example_can_be_named_instead_of_a_file(words: list[str]) -> None:
 
 @pytest.mark.parametrize("command", ["check", "run", "studio", "regimes", "import", "pack"])
 def test_every_command_with_a_model_accepts_names_of_examples(command: str) -> None:
-    """They share one type of argument, which `load` of scripts agrees with."""
+    """They share one type of argument, which agrees with `load` of scripts."""
     import argparse
 
     from deodar.cli import _options

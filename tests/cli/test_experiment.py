@@ -1,6 +1,4 @@
-"""`deodar experiment`: the table is written, a stopped run is resumed, and errors are reported before a
-run.
-"""
+"""`deodar experiment`: it writes the table, resumes a stopped run, and reports errors before a run."""
 
 from __future__ import annotations
 
@@ -24,7 +22,7 @@ from tests.experiments.robots import decider
 
 @pytest.fixture
 def file(tmp_path, monkeypatch):
-    """Trials of a node that noise takes over its threshold, in the working folder."""
+    """Write an experiment with a node that noise drives over its threshold into the working folder."""
     monkeypatch.chdir(tmp_path)
     conditions = [
         Crosses("decided", "u.activation"),
@@ -37,7 +35,7 @@ def file(tmp_path, monkeypatch):
 
 
 def call(*args):
-    """Status of a call without a bar."""
+    """Return the status of a call without a progress bar."""
     return cli.main(["experiment", "when.json", "--no-progress", *args])
 
 

@@ -22,7 +22,7 @@ from tests.recording.models import model
 
 
 class Terminal(io.StringIO):
-    """What a person types."""
+    """A terminal with the lines that a user types."""
 
     def isatty(self) -> bool:
         return True
@@ -30,7 +30,7 @@ class Terminal(io.StringIO):
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A working folder on a disk that is full, beside a second place and a temporary folder on others."""
+    """Make a working folder on a full disk, and a second place and a temporary folder on others."""
     folder = tmp_path / "full"
     for name in ("full", "second", "temporary", "data"):
         (tmp_path / name).mkdir()

@@ -1,4 +1,4 @@
-"""`deodar --import MODULE`: elements of one's own from the shell."""
+"""`deodar --import MODULE`: custom elements from the shell."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def run(*arguments: str) -> tuple[int, str]:
-    """Status and errors of a command in a process of its own."""
+    """Return status and errors of a command in a process of its own."""
     environment = {k: v for k, v in os.environ.items() if k != "NPROC"}
     done = subprocess.run(
         [sys.executable, "-m", "deodar", *arguments],

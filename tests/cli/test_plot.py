@@ -1,4 +1,4 @@
-"""`deodar plot`: every kind of figure, from the command line."""
+"""`deodar plot`: each kind of figure, from the command line."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ from tests.experiments import decisions
 
 @pytest.fixture
 def toy(monkeypatch, tmp_path):
-    """A paper in the place of all others, and an empty working folder."""
+    """Replace all papers by a small one, in an empty working folder."""
     paper = types.SimpleNamespace(HELP="toy", least=6, ran=[])
 
     def one(trial):

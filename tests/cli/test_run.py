@@ -1,4 +1,4 @@
-"""`deodar run`: a document to a record, a record to its repetition."""
+"""`deodar run`: it makes a record from a document, and repeats a record."""
 
 from __future__ import annotations
 

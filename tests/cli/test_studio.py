@@ -1,4 +1,4 @@
-"""`deodar studio` as a person starts it."""
+"""`deodar studio`, started as by a user."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tests.server.page import play, studio
 
 
 def fetch(address: str) -> tuple[int, bytes]:
-    """Status and content of the page at an address."""
+    """Return status and content of the page at an address."""
     connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=600)
     try:
         there = urlsplit(address)
@@ -38,7 +38,7 @@ def fetch(address: str) -> tuple[int, bytes]:
 
 
 def start(folder: Path, *words: str) -> tuple[subprocess.Popen[str], str]:
-    """A studio in a process of its own, and the address it prints."""
+    """Start a studio in a process of its own; return it and the address that it prints."""
     environment = os.environ | {"DEODAR_STATE": str(folder / "state")}
     command = [sys.executable, "-m", "deodar", "studio", "--no-browser", "--port", "0", *words]
     process = subprocess.Popen(
@@ -96,7 +96,7 @@ class FakeServer:
 def opened_at(
     address: str, browser: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, opens: Callable[[str], None]
 ) -> list[str]:
-    """Start a studio that answers at an address; the addresses that it prints."""
+    """Start a studio that answers at an address; return the addresses that it prints."""
     said: list[str] = []
     monkeypatch.setattr(serve.webbrowser, "open", opens)
     monkeypatch.setattr(serve, "prepare", lambda *given: (FakeServer(address, *given[-2:]), None))
@@ -144,9 +144,7 @@ def test_without_space_for_a_temporary_file_no_browser_is_opened(
 
 
 def test_the_redirect_file_is_removed_when_the_studio_is_terminated(tmp_path: Path) -> None:
-    """A script plays the browser: it writes the argument that it was started with, and the content of the
-    file.
-    """
+    """A script replaces the browser: it writes its argument and the content of the file."""
     browser = tmp_path / "browser"
     browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/told\ncat "${{1#file://}}" > {tmp_path}/page\n')
     browser.chmod(0o700)

@@ -1,4 +1,4 @@
-"""JSON: what is written keeps its bytes, what is read obeys the rules."""
+"""JSON: written text keeps its bytes, and text that breaks the rules is refused."""
 
 from __future__ import annotations
 

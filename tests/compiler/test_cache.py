@@ -1,4 +1,4 @@
-"""Compiled programs on disk: found again, never confused, never in the way."""
+"""Compiled programs on disk: they are found again and never confused, and a broken cache does no harm."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ x = dd.Axis("x", 0, 10, samples=11)
 
 
 def pair() -> dd.Model:
-    """Two fields of different groups, whose readers lower to the same text."""
+    """Return two fields of different groups, whose readers lower to the same text."""
     model = dd.Model("pair")
     model.add(dd.Field("u", [x], resting_level=-1))
     model.add(dd.Field("v", [x], resting_level=-2, kernel=[dd.Gaussian()]))
@@ -27,7 +27,7 @@ def pair() -> dd.Model:
 
 @pytest.fixture(autouse=True)
 def alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing compiled is shared among models, as between processes."""
+    """Make models share no compiled programs, as between processes."""
     monkeypatch.setattr("deodar.compiler.executable.SHARED_BYTES", -1)
 
 

@@ -1,4 +1,4 @@
-"""Ports with a meaning of their own are declared by their class, and hold for classes of one's own."""
+"""Ports with a meaning of their own are declared by their class, also by custom classes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ y = dd.Axis("y", 0, 4, samples=5)
 
 @dataclass(frozen=True)
 class Reading(dd.Element):
-    """What comes from outside the model, plus 1."""
+    """The input from outside the model, plus 1."""
 
     name: Annotated[str, dd.Recompile(meaning="name")] = ""
     axes: Annotated[Sequence[dd.Axis], dd.Recompile(meaning="axes")] = ()

@@ -1,4 +1,4 @@
-"""The architectures whose compile time is measured: their size, and that they stay few groups."""
+"""The architectures whose compile time is measured: their size, and their few groups."""
 
 from __future__ import annotations
 

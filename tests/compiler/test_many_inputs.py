@@ -1,5 +1,5 @@
-"""Elements with thousands of inputs: the same sums as with few, and neither plan nor program grows with
-inputs times rows.
+"""Elements with thousands of inputs: their sums are right, and neither plan nor program grows with inputs
+times rows.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from deodar.elements.boost import Boost
 
 
 def inputs(*counts: int) -> dd.Model:
-    """A model of nodes with the same structure; each reads the given number of boosts."""
+    """Return a model of nodes with the same structure; each reads the given number of boosts."""
     model = dd.Model("inputs")
     amplitudes = np.random.default_rng(1).normal(size=max(counts))
     boosts = [model.add(Boost(f"b{k}", amplitude=float(a))) for k, a in enumerate(amplitudes)]
@@ -28,7 +28,7 @@ def inputs(*counts: int) -> dd.Model:
 
 
 def entries(found: Plan) -> int:
-    """Numbers in all tables."""
+    """Return the count of numbers in all tables."""
     return sum(
         r.table.size + sum(rows.size + block.size for rows, block in r.more)
         for reads in found.reads.values()

@@ -1,6 +1,4 @@
-"""Noise as running models add it: moments, correlations, independence, and its scaling with steps and
-grids.
-"""
+"""Noise of running models: moments, correlations, independence, and its scaling with steps and grids."""
 
 from __future__ import annotations
 
@@ -18,7 +16,9 @@ STEPS = 2000
 
 @pytest.fixture(scope="module")
 def drawn():
-    """Deviates of two sources over time, two trials, at unit amplitude: (source, trial, time, cell)."""
+    """Return deviates of two sources over time, two trials, at unit amplitude: (source, trial, time,
+    cell).
+    """
     model = dd.Model("noise")
     for name in "ab":
         model.add(Noise(name, [LINE]))
@@ -113,7 +113,7 @@ def test_the_variance_of_a_field_at_rest_is_that_of_theory():
 
 
 def test_white_noise_scales_with_the_root_of_the_cell():
-    """Refining a grid leaves the integral of the noise over any stretch as it was."""
+    """A finer grid does not change the variance of the noise integrated over an interval."""
     model = dd.Model("grids")
     for n in (51, 101, 201):
         model.add(Noise(f"n{n}", [dd.Axis("x", 0, 100, n)]))

@@ -1,4 +1,4 @@
-"""The plan: plain data that groups equal structure and can be read."""
+"""The plan: plain data that groups nodes of equal structure, and its description."""
 
 from __future__ import annotations
 

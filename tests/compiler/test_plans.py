@@ -1,4 +1,4 @@
-"""The command that holds the cost model against the machine measures what it says."""
+"""The command that compares the cost model with the machine measures the stated programs."""
 
 from __future__ import annotations
 

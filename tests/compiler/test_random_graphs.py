@@ -1,5 +1,4 @@
-"""Random graphs of fields and couplings against plain loops over time: whatever is planned, it stays near
-what the equations say.
+"""Random graphs of fields and couplings against plain loops over time: any plan stays near the equations.
 
 A failure shrinks to a small graph, whose document is printed. `pytest tests/compiler/test_random_graphs.py
 --hypothesis-profile=thorough` draws 200 graphs for each test in place of 5.
@@ -37,7 +36,7 @@ SLOPE = 0.5
 
 @dc.dataclass
 class Link:
-    """A coupling from one field to another, with its strength; without kernels it is a gain alone."""
+    """A coupling from one field to another, with its strength; a gain if it has no kernels."""
 
     source: int
     target: int
@@ -47,7 +46,7 @@ class Link:
 
 @dc.dataclass
 class Graph:
-    """Fields over the same axes, their rates, and what couples them."""
+    """Fields over the same axes, their rates and couplings."""
 
     axes: list[dd.Axis]
     fields: list[dd.Field]
@@ -55,7 +54,7 @@ class Graph:
     links: list[Link]
 
     def model(self) -> tuple[dd.Model, list[Any]]:
-        """The graph as a model, and for each link the path of its first coupling."""
+        """Return the graph as a model, and for each link the path of its first coupling."""
         model = dd.Model("random graph")
         handles = [model.add(f, ticks=k) for f, k in zip(self.fields, self.every, strict=True)]
         for k, h in enumerate(handles):
@@ -85,7 +84,7 @@ class Graph:
         return model, paths
 
     def matrices(self) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        """Lateral weights of each field (global inhibition among them), and the weights of each link."""
+        """Return the lateral weights of each field (with global inhibition), and the weights of each link."""
         cells, volume = int(np.prod([a.samples for a in self.axes])), fields.volume(self.axes)
         lateral = [
             weights(f.kernel, self.axes) - f.global_inhibition * volume * np.ones((cells, cells))
@@ -99,7 +98,7 @@ class Graph:
         return lateral, links
 
     def contractive(self) -> Graph:
-        """The same with all strengths scaled so that the loop gain of each field is below 0.8."""
+        """Return the graph with all strengths scaled so that the loop gain of each field is below 0.8."""
         lateral, links = self.matrices()
         total = [np.abs(m).sum(1).max() for m in lateral]
         for link, m in zip(self.links, links, strict=True):
@@ -126,7 +125,7 @@ class Graph:
         return Graph(self.axes, scaled, self.every, weaker)
 
     def plainly(self, steps: int) -> np.ndarray:
-        """Activations of all fields after a number of steps, computed from the equations."""
+        """Return the activations of all fields after a number of steps, computed from the equations."""
         lateral, links = self.matrices()
         u = np.array([np.full(lateral[0].shape[0], f.resting_level) for f in self.fields])
         s = [
@@ -151,7 +150,7 @@ class Graph:
 
 
 def weights(given_kernels: list[Any], axes: list[dd.Axis]) -> np.ndarray:
-    """All weights between pairs of places: products over the axes of what the oracle says of one axis."""
+    """Return all weights between pairs of positions: products of the oracle's weights along each axis."""
     total = np.zeros((int(np.prod([a.samples for a in axes])),) * 2)
     for kernel in given_kernels:
         ends = kernel.boundary or [None] * len(axes)
@@ -163,7 +162,7 @@ def weights(given_kernels: list[Any], axes: list[dd.Axis]) -> np.ndarray:
 
 
 def parts(kernel: Any) -> list[tuple[float, Any]]:
-    """The amplitudes of a kernel's parts, and for each what it is along one axis."""
+    """Return the amplitudes of a kernel's parts, and for each its form along one axis."""
     if isinstance(kernel, Box):
         return [(kernel.amplitude, lambda d, b: Box(1.0, kernel.width[d], boundary=b))]
     if isinstance(kernel, MexicanHat):
@@ -246,7 +245,7 @@ def graphs(draw: Any) -> Graph:
 
 @contextlib.contextmanager
 def dear(way: str) -> Iterator[None]:
-    """Prices under which matrices (and what else is not asked for) are hardly ever taken."""
+    """Set costs with which all strategies but the given one are hardly ever chosen."""
     with pytest.MonkeyPatch.context() as patch:
         if way:
             patch.setattr(choice, "SMALLEST", 1)
@@ -318,7 +317,7 @@ def test_random_graphs_in_double_precision_agree_with_numpy_to_1e_9(graph: Graph
 
 @given(graph=graphs())
 def test_the_output_of_a_coupling_does_not_depend_on_the_strategy(graph: Graph) -> None:
-    """Inputs and outputs of couplings can be read although they travel as waves."""
+    """Inputs and outputs of couplings can be read although they are passed as spectral modes."""
     graph = graph.contractive()
     model, paths = graph.model()
     record = [f"{p}.{port}" for p in paths if p for port in ("input", "output")] + [
@@ -333,8 +332,8 @@ def test_the_output_of_a_coupling_does_not_depend_on_the_strategy(graph: Graph) 
 
 
 def test_spectral_transforms_are_shared_between_coupled_fields() -> None:
-    """The ring of planes: one transform there and back for each field, couplings in between; with a border,
-    and through a gain.
+    """The ring of planes: one transform and its inverse for each field, with all couplings in between;
+    with a border, and through a gain.
     """
     for periodic in (True, False):
         axes = [dd.Axis(n, 0, 50, samples=50, periodic=periodic) for n in "xy"]

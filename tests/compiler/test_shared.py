@@ -1,5 +1,5 @@
-"""Executables shared among the models of a process: the same model built again compiles nothing, another one
-never gets them.
+"""Executables shared among the models of a process: the same model built again compiles nothing, and
+another model never receives them.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def test_a_class_defined_again_under_the_same_name_is_another_structure() -> Non
     def ramp() -> SigmoidFunction:
         @dataclass(frozen=True)
         class Ramp(Logistic):
-            """A sigmoid of one's own."""
+            """A custom sigmoid."""
 
         return Ramp()
 

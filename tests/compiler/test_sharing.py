@@ -1,4 +1,4 @@
-"""Sums in Fourier space follow from what elements declare, and from nothing else."""
+"""Sums in Fourier space follow from the declarations of elements alone."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Follower(dd.Field):
 
 @dc.dataclass(frozen=True)
 class Halved(dd.Field):
-    """A field that acts on others, and not on itself, by half of its output."""
+    """A field that acts on others by half of its output, and not on itself."""
 
     def output(
         self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
@@ -57,7 +57,7 @@ class Doubled(dd.Field):
 
 @dc.dataclass(frozen=True)
 class Twice(Doubled):
-    """A field that breaks what it declares: it calls `convolve` twice."""
+    """A field that breaks its declaration: it calls `convolve` twice."""
 
     convolution: ClassVar[dd.Convolution | None] = dd.Convolution("output", into="input")
 
@@ -77,7 +77,7 @@ class Undeclared(Doubled):
 
 
 def coupled(kind: type[dd.Field]) -> dd.Model:
-    """Two fields that are coupled by Gaussians, the second one of a kind and with a stimulus."""
+    """Return two fields that are coupled by Gaussians, the second one of a kind and with a stimulus."""
     model = dd.Model("two fields")
     kernel = [dd.Gaussian(15, 3, normalized=True)]
     u = model.add(dd.Field("u", SQUARE, resting_level=-1, kernel=kernel))

@@ -1,7 +1,7 @@
-"""A small model around one example of anything registered: what the contract tests run.
+"""Models of the contract tests: a small one around the example of each registered kind.
 
-Sources that fit are found by trying a few kinds of axes; a new element or coupling is covered without a word
-here as long as its example can be fed by one of them.
+Sources that fit are found by trying a few kinds of axes, so that a new element or coupling needs no entry
+here if one of them fits its example.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ class Anything(World):
     """A world that has every sensor and reads a fixed pattern."""
 
     def require(self, sensor: str) -> None:
-        """Every sensor is here."""
+        """Accept every sensor."""
 
     def require_motor(self, motor: str) -> None:
-        """Every motor is here."""
+        """Accept every motor."""
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         return np.random.default_rng(len(sensor)).random(shape(axes))
 
 
 def candidates(element: Element) -> list[tuple[dd.Axis, ...]]:
-    """Axes of sources worth trying, for elements that take what comes."""
+    """Return axes of sources to try, for elements that accept any axes."""
     own: tuple[dd.Axis, ...] = tuple(getattr(element, "axes", ()))
     channel = dd.Axis("channel", 0, 2, 3)
     x, y = dd.Axis("x", 0, 20, samples=21), dd.Axis("y", 0, 8, samples=9)
@@ -50,7 +50,7 @@ def candidates(element: Element) -> list[tuple[dd.Axis, ...]]:
 
 
 def source(name: str, axes: Axes, amplitude: float = 0.8, at: float = 0.4) -> Element:
-    """A peak in the middle; without axes a number."""
+    """Return a source with a peak in the middle; without axes a number."""
     if not axes:
         return Boost(name, [], amplitude)
     center = [a.lower + at * a.range for a in axes]
@@ -60,8 +60,8 @@ def source(name: str, axes: Axes, amplitude: float = 0.8, at: float = 0.4) -> El
 
 
 def around(element: Element, every: int = 1, noisy: bool = False) -> dd.Model:
-    """A model in which every input of the element has a source (called `to PORT`), under the element's own
-    name.
+    """Return a model with the element under its own name, and a source (called `to PORT`) for each of its
+    inputs.
     """
     problems: list[Any] = []
     for axes in candidates(element):
@@ -80,12 +80,12 @@ def around(element: Element, every: int = 1, noisy: bool = False) -> dd.Model:
 
 
 def example(kind: str) -> Element:
-    """The example of a kind, under the name `example`."""
+    """Return the example of a kind, under the name `example`."""
     return dc.replace(KINDS[kind].example(), name="example")
 
 
 def holding(part: Part) -> Element:
-    """A field with the example of a kernel or a sigmoid."""
+    """Return a field with the example of a kernel or a sigmoid."""
     x = dd.Axis("x", 0, 20, samples=21)
     if "sigmoids" in type(part).__module__:
         return dd.Field("example", [x], sigmoid=part, kernel=[dd.Gaussian(0.1, 2.0)])  # type: ignore[arg-type]
@@ -93,27 +93,27 @@ def holding(part: Part) -> Element:
 
 
 def any_example(kind: str) -> Element:
-    """The example of any registered kind, in an element that a model can contain."""
+    """Return the example of any registered kind, in an element that a model can contain."""
     return example(kind) if kind in KINDS else holding(PARTS[kind].example())
 
 
 def node(model: dd.Model, path: str = "example") -> Node:
-    """The element as the engine resolves it, with the axes at its ports."""
+    """Return the element as the engine resolves it, with the axes at its ports."""
     return next(n for n in resolve(model.document)[0] if n.path == path)
 
 
 def session(model: dd.Model, **options: Any) -> dd.Session:
-    """A session in a world that has everything."""
+    """Return a session in a world that has every sensor and motor."""
     return dd.Session(model, world=Anything(), **options)
 
 
 def record(model: dd.Model, duration: float, ports: Sequence[str], **options: Any) -> Any:
-    """A record made in a world that has everything."""
+    """Return a record made in a world that has every sensor and motor."""
     return dd.simulate(model, duration, record=ports, world=Anything(), **options)
 
 
 def another(value: float, lower: float | None, upper: float | None) -> float:
-    """Another value inside the bounds, well away from the first."""
+    """Return another value inside the bounds, far from the first."""
     for new in (1.25 * value + 0.125, 0.75 * value, 0.5 * value - 0.125):
         if new != value and (lower is None or new >= lower) and (upper is None or new <= upper):
             return new
@@ -121,7 +121,7 @@ def another(value: float, lower: float | None, upper: float | None) -> float:
 
 
 def changes(element: Element) -> list[tuple[str, Any]]:
-    """For each traced leaf of an element another value: (path, value)."""
+    """Return for each traced leaf of an element another value: (path, value)."""
     out: list[tuple[str, Any]] = []
     for path, value, p in leaves(element):
         if isinstance(value, np.ndarray):

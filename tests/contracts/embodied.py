@@ -1,6 +1,4 @@
-"""A model around the example of anything registered as a world: every sensor is read, every motor is
-driven.
-"""
+"""Models around the example of each registered world: they read every sensor and drive every motor."""
 
 from __future__ import annotations
 
@@ -19,7 +17,7 @@ def example_axes(kind, sensor):
 
 
 def everything(kind):
-    """A model with every sensor of a world, and its motors driven by a constant."""
+    """Return a model with every sensor of a world, and a constant that drives its motors."""
     model, world = dd.Model("embodied"), WORLDS[kind].example()
     for sensor in world.sensors:
         model.add(Sensor(f"see {sensor}", example_axes(kind, sensor), sensor))
@@ -36,6 +34,6 @@ def everything(kind):
 
 
 def step_of(kind):
-    """Half the period of a world, so that it takes two steps; 1 where it never changes."""
+    """Return half the period of a world, so that it takes two steps; 1 if the world never changes."""
     period = WORLDS[kind].example().period
     return 1.0 if period is None else period / 2

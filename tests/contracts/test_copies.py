@@ -1,4 +1,4 @@
-"""Everything that a script holds is copied and pickled: axes, elements, documents, models and snapshots."""
+"""Copies and pickles of the objects of scripts: axes, elements, documents, models and snapshots."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ COPIES = {
 
 @pytest.fixture(params=COPIES)
 def again(request):
-    """One way of making another object of one."""
+    """Return a function that copies or pickles an object."""
     return COPIES[request.param]
 
 
@@ -143,7 +143,7 @@ def test_a_pickled_snapshot_holds_the_state_of_its_world():
 
 
 def foreign(tmp_path, trust):
-    """A document that names a function, read from a file."""
+    """Return a document that names a function, read from a file."""
     dd.save(around(KINDS["Function"].example()), tmp_path / "foreign.json", force=True)
     return dd.load(tmp_path / "foreign.json", trust=trust)
 

@@ -1,4 +1,4 @@
-"""Every part of a model is equal after it is written to a document and read."""
+"""Every kind is equal after it is written to a document and read."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_document_to_text_to_document_is_identity(kind, tmp_path):
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])
 def test_values_other_than_defaults_are_saved_and_loaded(kind, tmp_path):
-    """Every traced leaf with a value that is not the default."""
+    """Every traced leaf has a value that is not the default."""
     model = around(any_example(kind))
     for path, value in changes(model["example"].element):
         model.set(f"example.{path}", value)

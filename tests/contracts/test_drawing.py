@@ -1,4 +1,4 @@
-"""Everything that is registered can be drawn, and says with which sign it acts."""
+"""Every registered kind can be drawn, and states the sign of its effect."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ ALL: dict[str, type[Any]] = {**KINDS_AND_PARTS, **TRIALS}
 
 
 def shown(cls: type[Any]) -> str:
-    """What `help(cls)` prints, without bold letters."""
+    """Return the output of `help(cls)`, without bold letters."""
     return pydoc.plain(pydoc.render_doc(cls))
 
 
@@ -129,7 +129,7 @@ def test_the_docstring_of_the_source_is_kept() -> None:
 def test_a_class_is_made_without_its_annotations_being_read() -> None:
     @dataclass(frozen=True)
     class Early(Part):
-        """A part whose annotation names what is defined later."""
+        """A part whose annotation names a later class."""
 
         level: Defined_Later = 1.0  # noqa: F821
 

@@ -1,4 +1,4 @@
-"""What an element names as levels of a port exists, and is a number that can be changed while it runs."""
+"""The levels of a port that an element names are existing numbers that can be changed during a run."""
 
 from __future__ import annotations
 

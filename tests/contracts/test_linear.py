@@ -1,5 +1,5 @@
-"""Couplings that say that they are linear superpose: what they make of a and b together is the sum of what
-they make of each.
+"""Couplings that are declared linear superpose: their output for a + b is the sum of their outputs for a
+and b.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ OTHERS = [kind for kind in registry.kinds("couplings") if not example(kind).line
 
 
 def three(kind: str) -> tuple[dd.Model, Axes]:
-    """Copies of a coupling that see a, b, and both."""
+    """Return copies of a coupling that read a, b, and both."""
     from tests.contracts.build import around
 
     axes = node(around(example(kind))).ins["input"]

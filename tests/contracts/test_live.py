@@ -1,6 +1,4 @@
-"""A change of a live parameter costs no tracing and no compiling, and does what the same value does from the
-start.
-"""
+"""A changed live parameter causes no tracing or compiling, and acts as the same value does from the start."""
 
 from __future__ import annotations
 
@@ -19,7 +17,7 @@ EVENTS: list[str] = []
 
 @pytest.fixture(scope="module", autouse=True)
 def listening() -> Iterator[None]:
-    """Everything that JAX says about tracing and compiling."""
+    """Collect the messages of JAX about tracing and compiling."""
 
     def hear(event: str, duration: float, **_: object) -> None:
         if "compile" in event or "trace" in event or "lower" in event:
@@ -31,7 +29,7 @@ def listening() -> Iterator[None]:
 
 
 def read(s: dd.Session, ports: list[str]) -> list[np.ndarray]:
-    """What the ports show at the start, after five steps, and when the sources then fall silent."""
+    """Return the values of ports at the start, after five steps, and after the sources are switched off."""
     s.reset()
     seen = [s.read(port) for port in ports]
     s.step(5)
@@ -80,7 +78,7 @@ def test_live_parameters_change_without_recompiling(kind):
     )
     if kind not in without:  # these have no numbers
         assert changes(element), "no number to change"
-    # the same values given from the start
+    # the same values at the start
     for path, _ in changes(element):
         model.set(f"example.{path}", s.get(f"example.{path}"))
     fresh = read(session(model), ports)
@@ -94,7 +92,7 @@ def test_live_parameters_change_without_recompiling(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_each_change_alone_equals_the_same_value_from_the_start(kind):
-    """One parameter at a time, so that none hides behind another; both sessions share one program."""
+    """One parameter at a time, so that none hides the effect of another; both sessions share one program."""
     model = around(any_example(kind))
     element = model["example"].element
     ports = [f"example.{port}" for port in node(model).outs]

@@ -1,4 +1,4 @@
-"""Axes that do not fit: the message names both ports, both axes, and what to type."""
+"""Axes that do not fit: the message names both ports, both axes, and the fix."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.contracts.build import KINDS, PARTS, any_example, around, node, sourc
 
 
 def moved(axes: Axes) -> list[dd.Axis]:
-    """Axes of the same names and samples that lie elsewhere."""
+    """Return axes of the same names and samples with other bounds."""
     return [dc.replace(a, lower=a.lower + a.range / 3, upper=a.upper + a.range) for a in axes]
 
 
@@ -56,7 +56,7 @@ def test_a_target_with_other_axes_is_a_problem(kind, port):
 
 
 def misfit(kind: str, port: str) -> tuple[dd.Model, list[dd.Axis]]:
-    """The element with one source for each port, of which one lies elsewhere."""
+    """Return the element with one source for each port, one of which has other bounds."""
     element = any_example(kind)
     axes = node(around(element)).ins
     bad = moved(axes[port])
@@ -74,7 +74,7 @@ def misfit(kind: str, port: str) -> tuple[dd.Model, list[dd.Axis]]:
     return model, bad
 
 
-# ports that take what comes are content with it, unless parameters say otherwise
+# ports that accept any axes accept these, unless parameters state axes
 ONLY = [(kind, port) for kind, port in INTO if check(misfit(kind, port)[0].document)]
 
 
@@ -86,11 +86,11 @@ def test_elements_that_declare_their_axes_are_among_the_tested_kinds():
 
 @pytest.mark.parametrize(("kind", "port"), ONLY)
 def test_an_only_source_with_other_axes_is_a_problem(kind, port):
-    """Also where the port takes what comes, and the misfit shows in the parameters."""
+    """Also if the port accepts any axes and only the parameters do not fit."""
     model, bad = misfit(kind, port)
     said = message(model)
     others = [other for other in any_example(kind).ports() if other != port]
-    # where two ports must fit each other, either of them is the one that does not
+    # if two ports must fit each other, the message may name either
     assert any(
         f"{name}.output" in said and f"example.{end}" in said
         for name, end in [(f"wrong {port}", port), *zip(others, others, strict=True)]

@@ -1,4 +1,4 @@
-"""No element invents an axis: where axes are needed and not given, an error or a problem says so."""
+"""No element invents an axis: missing axes are an error or a problem."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_axes_have_no_default_or_default_to_a_node(kind: str, name: str) -> None
 
 
 INFERRED = [("Attractor", "axis"), ("PeakPosition", "axis")]
-"""Axes that are taken from the source where they are not stated."""
+"""Axes that are inferred from the source if they are not stated."""
 
 
 def test_axes_that_had_a_default_before_are_required_or_inferred() -> None:

@@ -1,4 +1,4 @@
-"""Every part of a model runs: finite for a long time, alone and in a batch, with the shapes it declares."""
+"""Every kind runs: its values stay finite, alone and in a batch, with the declared shapes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_finite_for_a_thousand_steps_from_init_also_in_a_hundred_trials(kind):
         values = data[f"example.{port}"].values
         assert values.shape == (100, 3, *shape(axes))
         assert np.isfinite(values).all()
-        # an axis that occurs twice is called by the port's path the second time
+        # the second of two equal axes has the port's path in its name
         assert [str(d).rsplit(".", 1)[-1] for d in data[f"example.{port}"].dims[2:]] == [a.name for a in axes]
         for axis in axes:
             np.testing.assert_array_equal(data[axis.name].values, axis.points)
@@ -103,7 +103,7 @@ def test_outputs_that_depend_on_inputs_of_the_same_step_are_declared(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_element_runs_at_a_step_of_its_own(kind):
-    """Every part may run at a multiple of the step: its state then changes at that multiple only."""
+    """Every kind may run at a multiple of the step; its state then changes at that multiple only."""
     element = any_example(kind)
     model = around(element, every=3)
     data = record(model, 12, [f"example.{port}" for port in node(model).outs], every=1, dt=1.0)

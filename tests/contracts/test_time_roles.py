@@ -1,5 +1,5 @@
-"""Every parameter whose unit has time in it declares its role, and no Euler step is longer than a role
-allows, at check and at run.
+"""Every parameter whose unit has time in it declares its role, and no Euler step exceeds the limit of a
+role, at check and at run.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ LIMITED = {
 LIMITS = [(kind, name) for kind, found in LIMITED.items() for name in found]
 SPEAKS_OF_TIME = re.compile(r"document's time|document time|\bspeed of\b|how fast")
 OTHER_TIMES = {("MovingGaussian", "waypoints"), ("TurnLimit", "speed")}
-"""Parameters that hold times beside something else, or count speeds in a unit of the world."""
+"""Parameters that hold times and other numbers, or speeds in a unit of the world."""
 
 
 @pytest.mark.parametrize("kind", sorted({**KINDS, **PARTS}))
@@ -48,7 +48,7 @@ def test_a_parameter_whose_unit_has_time_in_it_declares_its_role(kind: str) -> N
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_a_parameter_that_is_described_as_a_time_has_a_unit_of_time(kind: str) -> None:
-    """An element cannot forget it: its docstring mentions time where its unit does not."""
+    """A docstring that mentions a time requires a unit with time in it."""
     words = read(KINDS[kind]).entries("Parameters")
     for p in parameters(KINDS[kind]):
         if SPEAKS_OF_TIME.search(words.get(p.name, "")) and p.form in ("number", "per_axis", "array"):

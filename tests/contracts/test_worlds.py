@@ -1,6 +1,4 @@
-"""Everything registered as a world: readings of the right shape, the same again after a reset, and clear
-refusals.
-"""
+"""Registered worlds: readings have the declared shape, resets repeat them, and unknown names are refused."""
 
 from __future__ import annotations
 
@@ -81,7 +79,7 @@ def test_a_sensor_in_a_model_has_the_reading_of_the_world(kind):
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", WORLDS)
 def test_a_run_is_independent_of_chunks_and_equal_after_a_reset(kind, precision):
-    """The world sets the times of the exchange: neither chunks nor reading the model change it."""
+    """The world sets the times of the exchange; neither chunks nor readings of the model change it."""
     model, dt = everything(kind), step_of(kind)
     paths = [f"{dd.quote(e.path)}.output" for e in model.document.entries]
     whole = dd.simulate(

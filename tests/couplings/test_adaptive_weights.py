@@ -1,4 +1,4 @@
-"""Weights that learn, against the plain rule."""
+"""Adaptive weights against a plain loop of their rule."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The colours of each column, against counting."""
+"""The colours of each column, against counted pixels."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def shown(pixels, histogram, axes=(COLUMNS, ROWS)):
 
 
 def counted(pixels, palest=0.3, darkest=0.15, bins=36):
-    """Pixel by pixel, with another reading of hue and saturation."""
+    """Count pixel by pixel, with another conversion to hue and saturation."""
     y = np.zeros((len(pixels), bins))
     for x, column in enumerate(pixels):
         for red, green, blue in column:
@@ -77,7 +77,7 @@ def test_grey_and_dark_pixels_have_no_hue():
 
 
 def test_projections_give_the_position_and_the_hues_of_blocks():
-    """A red block left and a blue one right: read out over columns and over hues."""
+    """A red block on the left and a blue one on the right, projected to columns and to hues."""
     pixels = np.full((12, 8, 3), 0.6)
     pixels[2:4, 3:7], pixels[8:11, 1:] = (0.9, 0.1, 0.1), (0.1, 0.1, 0.9)
     model = dd.Model("blocks")

@@ -1,4 +1,6 @@
-"""Every coupling against the plain reference: a field drives it over 200 steps, it drives another field."""
+"""Every coupling against the plain reference: over 200 steps a field drives it, and it drives another
+field.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +91,7 @@ KERNEL = dense(CASES["convolve"][0].kernel, (X, PHI), many=3)
 
 
 def drive():
-    """A field whose output moves over time, and that output at each step."""
+    """Return a field whose output moves over time, and that output at each step."""
     field = dd.Field(
         "u",
         [X, PHI],
@@ -133,7 +135,7 @@ def close(found, reference, what):
 
 @pytest.fixture(scope="module")
 def run():
-    """One model with every coupling between `u` and a field of its own."""
+    """Run one model with every coupling between `u` and a field of its own."""
     model, u, g = drive()
     expected = {}
     for name, (coupling, formula) in CASES.items():
@@ -187,8 +189,8 @@ def test_couplings_with_two_inputs_or_memory_agree_with_the_oracle():
 
 def test_peak_position_agrees_with_the_oracle_on_a_line_and_a_ring():
     model, u, g = drive()
-    # half of the most, so that nothing is read out of the homogeneous activity before the first peak: it has
-    # no direction
+    # half of the maximum, so that the homogeneous activity before the first peak, which has no direction, is
+    # not read out
     most = g.sum((1, 2)).max() * 40
     ring, line = PeakPosition(PHI, most / 2, -7.0, name="ring"), PeakPosition(X, most / 2, -7.0, name="line")
     for read in (ring, line):

@@ -1,4 +1,4 @@
-"""The delay line: its input some time ago, for any delay, step and number of slots."""
+"""The delay line: its output is the delayed input, for any delay, step and number of slots."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ X = dd.Axis("x", 0, 2, 3)
 
 
 def late(delay, dt, slots=100, duration=60.0, precision="float64", smooth=False, **values):
-    """Time, what goes in, and what comes out."""
+    """Return times, input and output."""
     model = dd.Model("late", dt=dt)
     t = np.arange(0, duration + dt, 1.0 if smooth else dt)
     shown = (
@@ -46,7 +46,9 @@ def test_a_delay_between_two_steps_is_interpolated_linearly():
 
 
 def test_with_fewer_slots_than_steps_the_interpolation_is_coarser():
-    """Moments that lie h apart, of a sine of frequency w: never further from it than (h w)^2 / 8."""
+    """Linear interpolation between samples h apart of a sine of frequency w has an error below (h w)^2 /
+    8.
+    """
     for slots in (4, 8, 16):
         t, _, y = late(16.0, 0.25, slots, smooth=True)
         after = t > 16 + 16 / slots
@@ -70,7 +72,7 @@ def test_a_delay_can_be_increased_during_a_run():
     s.step(100)
     assert s.read("line.output") == pytest.approx(95)
     s.set("line.delay", 20.0)
-    # 50 slots hold more than the five steps that were needed
+    # 50 slots are more than the five steps that are needed
     assert s.read("line.output") == pytest.approx(80)
     s.set("line.delay", 200.0)
     oldest = float(s.read("line.output"))

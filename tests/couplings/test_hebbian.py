@@ -1,6 +1,4 @@
-"""Associations: every rule against its closed form and a plain loop, and what they promise about gates,
-sampling, order and batches.
-"""
+"""Associations: every rule against its closed form and a plain loop; gates, sampling, order and batches."""
 
 from __future__ import annotations
 
@@ -84,7 +82,7 @@ def test_learning_agrees_with_its_closed_form_and_fixed_points():
         assert weights(m, 4000).item() == pytest.approx(end, abs=1e-6), rule
     m = model("hebb", **one)
     assert weights(m, n * dt).item() == pytest.approx(n * dt * rate * 0.8 * 0.7, abs=1e-9)
-    m.set("w.decay", 0.05)  # it settles where what is learned and what fades are equal
+    m.set("w.decay", 0.05)  # it settles where learning and decay are equal
     assert weights(m, 2000).item() == pytest.approx(rate * 0.56 / 0.05, abs=1e-6)
     m.set({"w.decay": 0.0, "w.saturation": 0.3})
     assert weights(m, 2000).item() == 0.3

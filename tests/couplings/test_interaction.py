@@ -1,4 +1,4 @@
-"""The interaction of a field as a coupling does what the field's own does."""
+"""The interaction coupling equals the interaction of a field."""
 
 from __future__ import annotations
 

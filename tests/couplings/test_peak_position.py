@@ -1,4 +1,4 @@
-"""A position is read out over the axis of the source, or over the one that is stated."""
+"""A position is read out over the axis of the source, or over the stated axis."""
 
 from __future__ import annotations
 

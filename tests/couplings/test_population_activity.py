@@ -1,4 +1,4 @@
-"""The distribution of population activity, against sums of Gaussians that are known."""
+"""The distribution of population activity against known sums of Gaussians."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def test_tuning_curves_weighted_by_rates():
 
 
 def test_equal_tuning_curves_give_a_wider_gaussian_at_the_stimulus():
-    """Rates and tuning curves of width s: the sum over neurons d apart is a Gaussian of width s root 2 and
-    height s root pi / d.
+    """For rates and tuning curves of width s, the sum over neurons at distances d is a Gaussian of width s
+    root 2 and height s root pi / d.
     """
     preferred, sigma, stimulus = np.arange(-60, 151, 3.0), 6.0, 41.7
     rates = 20 * np.exp(-0.5 * ((preferred - stimulus) / sigma) ** 2)

@@ -1,4 +1,4 @@
-"""The product: which axes its factor may have."""
+"""The product: the axes of its factor."""
 
 from __future__ import annotations
 

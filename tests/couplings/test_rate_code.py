@@ -1,4 +1,4 @@
-"""From numbers to peaks and back: exact where the samples hold the whole peak."""
+"""From numbers to peaks and back: exact if the samples contain the whole peak."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PAIR = dd.Axis("of", 0, 1, 2)
 
 
 def back(axes, sigma, rates, **values):
-    """What comes back of numbers that change from step to step."""
+    """Return the decoded numbers of a sequence that changes from step to step."""
     model = dd.Model("there and back", dt=1.0)
     rates = np.asarray(rates)
     source = model.add(TimeSeries("rates", [PAIR] if rates.ndim == 2 else [], np.arange(len(rates)), rates))
@@ -60,8 +60,8 @@ def test_the_rate_is_the_direction_of_a_peak_on_a_ring(sigma):
 
 @pytest.mark.parametrize(("sigmas", "wrong"), [(6, 6.1e-9), (4, 1.4e-4), (2, 0.06)])
 def test_truncation_moves_the_mean_inwards(sigmas, wrong):
-    """By the density of the normal distribution where the last cell ends: the mean of a Gaussian of which a
-    tail is missing.
+    """The mean of a truncated Gaussian is shifted by the density of the normal distribution at the end of
+    the last cell.
     """
     sigma = 5.0
     end = sigmas + 0.5 * X.step / sigma

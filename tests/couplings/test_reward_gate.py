@@ -1,4 +1,4 @@
-"""When the reward gate is open, and how far."""
+"""The reward gate: when it is open, and its output."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ X = dd.Axis("x", 0, 10, 10, periodic=True)
 
 
 def opened(windows, gate=None, height=0.2, **parameters):
-    """The gate's output at every step of 0.5; the reward is homogeneous, its integral 10 times its height."""
+    """Return the gate's output at every step of 0.5; the reward is homogeneous, its integral 10 times its
+    height.
+    """
     m = dd.Model("reward", dt=0.5)
     g = m.add(RewardGate(name="g", gated=gate is not None, **parameters))
     m.connect(m.add(Boost("reward", [X], height, windows=windows)), g["input"])

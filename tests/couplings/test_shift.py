@@ -1,4 +1,4 @@
-"""Shifts: exactly linear interpolation between samples, over ends and round rings, by any amount."""
+"""Shifts: linear interpolation between samples, at the ends of lines and on rings, by any amount."""
 
 from __future__ import annotations
 

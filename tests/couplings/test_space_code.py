@@ -1,4 +1,4 @@
-"""Numbers become a peak at their place."""
+"""A number becomes a peak at its position."""
 
 from __future__ import annotations
 

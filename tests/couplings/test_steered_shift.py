@@ -1,4 +1,6 @@
-"""The steered shift: the fixed shift by the same amount, whatever says how much, and there and back."""
+"""The steered shift: it equals the fixed shift by the same amount, for all kinds of steering, and its
+inverse restores the input.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ def scene() -> tuple[dd.Model, dd.model.model.Handle]:
 
 
 def both(amounts, gain=1.0, offset=0.0):
-    """What two shifts one behind the other, one shift by a pair, and a fixed shift make of the same
+    """Return the outputs of two shifts in series, one shift by a pair, and a fixed shift for the same
     picture.
     """
     model, source = scene()
@@ -58,9 +60,7 @@ def test_gain_and_offset_scale_the_steering_input():
 
 
 def test_a_shift_by_the_gaze_and_its_inverse_restore_the_position():
-    """A peak at the place r on the retina and a gaze g arrive at r + g; a shift against the gaze brings it
-    back.
-    """
+    """A peak at r on the retina with gaze g is shifted to r + g; a shift by -g restores it."""
     retina = dd.Axis("x", -30, 30, 121)
     model = dd.Model("frames")
     seen = model.add(dd.GaussianStimulus("seen", [retina], center=-5, sigma=2))

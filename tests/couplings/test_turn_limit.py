@@ -1,4 +1,4 @@
-"""A turn that is too fast slows both wheels, and keeps the circle."""
+"""A turn that is too fast slows both wheels and keeps the radius."""
 
 from __future__ import annotations
 

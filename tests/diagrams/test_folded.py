@@ -1,4 +1,4 @@
-"""Groups that are drawn as one box each."""
+"""Groups drawn as one box each."""
 
 from __future__ import annotations
 

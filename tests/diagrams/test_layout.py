@@ -1,4 +1,4 @@
-"""Where things stand: nothing overlaps, connections go round boxes, text is inside its box."""
+"""The layout: nothing overlaps, connections avoid boxes, and text is inside its box."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ X = dd.Axis("x", 0, 100, 11)
 
 
 def big(fields=40, couplings=150, seed=0):
-    """A random architecture with groups and long names."""
+    """Return a random architecture with groups and long names."""
     draw = random.Random(seed)
     model = dd.Model("big")
     found = [
@@ -36,7 +36,7 @@ def big(fields=40, couplings=150, seed=0):
 
 
 def laid_out(graph):
-    """The boxes (x, y, width, height), the layout, and the painted connections."""
+    """Return the boxes (x, y, width, height), the layout, and the painted connections."""
     scene = paint.paint(graph, legend=False)
     drawn, found = paint.lay_out(graph)[:2]
     return (
@@ -56,7 +56,7 @@ def apart(a, b):
 
 
 def along(shape):
-    """Points on a path."""
+    """Return points on a path."""
     at, points = (0.0, 0.0), []
     for name, *numbers in shape.path:
         if name in "ML":

@@ -1,4 +1,4 @@
-"""Connections of a diagram: they begin and end where their segments do, with the mark at the target."""
+"""Connections of a diagram: they begin and end at the ends of their segments, with the mark at the target."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RUNS = [Segment(0, 40, 5), Segment(60, 100, 25)]
 
 
 def ends(shape: Shape) -> list[tuple[float, float]]:
-    """The first and the last point of a path."""
+    """Return the first and the last point of a path."""
     moves = [move for move in shape.path if move[1:]]
     return [(float(move[-2]), float(move[-1])) for move in (moves[0], moves[-1])]
 

@@ -1,4 +1,4 @@
-"""The programs that stand outside the package: those of the manual and of the examples, as modules."""
+"""Programs outside the package, those of the manual and of the examples, as modules."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ EXAMPLES = ROOT / "examples"
 
 
 def module(path: Path) -> ModuleType:
-    """A file as a module of its own name."""
+    """Import a file as a module of its own name."""
     name = f"outside_{path.parent.name}_{path.stem}"
     if name not in sys.modules:
         spec = importlib.util.spec_from_file_location(name, path)

@@ -1,4 +1,4 @@
-"""The runs that are kept give every claim that is kept beside them and every number on the pages."""
+"""The stored runs give every stored claim and every number on the pages."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MADE = {
 
 @pytest.fixture(scope="module")
 def reports() -> dict[str, Any]:
-    """Evidence and report of each paper whose runs are kept."""
+    """Return evidence and report of each paper with stored runs."""
     found = {name: evidence.read(name) for name in evidence.kept()}
     return {name: (kept, kept.report()) for name, kept in found.items()}
 
@@ -91,7 +91,7 @@ def test_the_wheel_contains_no_evidence() -> None:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A reproduction in which all went as told."""
+    """Return the folder of a reproduction whose rows agree with the paper."""
     spa = papers.paper("spa")
     first = {"about": {**spa.about(False), "made_by": MADE}}
     text = "".join(
@@ -104,8 +104,8 @@ def folder(tmp_path: Path) -> Path:
 
 
 def same(file: Path, text: str) -> bool:
-    """Whether a file holds these results; numbers to four digits, since versions of NumPy differ in the last
-    ones.
+    """Return whether a file contains these results; numbers to four digits, since versions of NumPy differ
+    in the last ones.
     """
 
     def near(a: Any, b: Any) -> bool:
@@ -155,7 +155,7 @@ def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) ->
     assert "\n\n| claim | target |" in text and text.count("| yes |") == 18
     assert evidence.filled(text, known) == text
     assert "| large/reflection-1.0-planner/low | 40 |" in known["spa"]["settings"]
-    for page in evidence.pages():  # whole runs give every name that a page asks for
+    for page in evidence.pages():  # complete runs give every name that a page uses
         assert evidence.papers.NOT_RUN not in evidence.filled(page.read_text(encoding="utf-8"), known)
 
 

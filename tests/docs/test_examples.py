@@ -1,4 +1,4 @@
-"""Every example runs, stays finite, and does what its notes claim."""
+"""Every example runs, stays finite, and agrees with its notes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NAMES = [f.__name__ for f in make.EXAMPLES]
 
 
 def run(name: str, record: list[str], trials: int | None = None) -> xarray.Dataset:
-    """An example as its document says, for as long as its notes say."""
+    """Run an example with the step of its document, for the duration of its notes."""
     model = dd.load(EXAMPLES / f"{name}.json")
     stated = re.search(r"(\d+) ms\.$", model.document.notes)
     assert stated, "the notes end with how long to run it"
@@ -31,7 +31,7 @@ def run(name: str, record: list[str], trials: int | None = None) -> xarray.Datas
 
 
 def places(u: xarray.DataArray, t: float, trial: int | None = None) -> list[float]:
-    """Positions of the peaks of a one-dimensional field at a time."""
+    """Return the positions of the peaks of a one-dimensional field at a time."""
     now = u.sel(time=t) if trial is None else u.sel(time=t, trial=trial)
     return sorted(p.position[0] for p in peaks(now))
 
@@ -232,7 +232,7 @@ def test_plan_spreads_from_the_goal_and_reaches_it() -> None:
 
 
 def test_spa_spreads_its_wave_from_the_goal() -> None:
-    """Its first steps in the arena that the notes name: the wave spreads from the goal."""
+    """In the first steps, in the arena of the notes, the wave spreads from the goal."""
     data = dd.simulate(
         dd.load(EXAMPLES / "spa.json"), 60, record=["north.motivation.activation"], every=20, world=Arena("z")
     )

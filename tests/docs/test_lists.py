@@ -1,4 +1,4 @@
-"""The lists of features, pages and terms name what exists, all of it, and nothing else."""
+"""The lists of features, pages and terms are complete and name nothing else."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TERMS: list[str] = tomllib.loads((DOCS / "words.toml").read_text(encoding="utf-8
 
 
 def _models() -> list[str]:
-    """The functions of `dd.architectures` that return a whole model."""
+    """Return the functions of `dd.architectures` that return a whole model."""
     functions = ((name, getattr(dd.architectures, name)) for name in dd.architectures.__all__)
     return sorted(
         name
@@ -42,11 +42,11 @@ LISTS = {
     "Importers": sorted(opening.own()),
     "Commands": sorted(cli.commands()),
 }
-"""The rows of the table of features in README.md, and what exists."""
+"""The rows of the table of features in README.md, and the existing names."""
 
 
 def listed(text: str, row: str) -> list[str]:
-    """The names in code of a row of a table."""
+    """Return the names in code of a row of a table."""
     found = re.search(rf"^\| {row} \|(.*)\|$", text, re.MULTILINE)
     return re.findall(r"`([^`]+)`", found[1]) if found else []
 

@@ -1,5 +1,5 @@
-"""Every block of Python and every command on a page runs, prints what the page says, and draws the pictures
-it shows.
+"""Every block of Python and every command on a page runs, prints the text of the page, and draws its
+pictures.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ DRAWN_ELSEWHERE = {
 
 @pytest.mark.parametrize("page", pages.pages(), ids=lambda p: p.stem)
 def test_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # a page that shows how to add a kind adds one
+    # a page that explains how to add a kind adds one
     monkeypatch.setattr(registry, "_kinds", dict(registry.kinds()))
     with pages.quiet():
         import matplotlib.pyplot as plt

@@ -1,4 +1,4 @@
-"""The same bits of a run, however it is cut into chunks."""
+"""A check that the bits of a run do not depend on its chunks."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ STEPS = 140
 
 
 def require_the_same_in_any_chunks(element: Element) -> None:
-    """Steps taken one by one, in one chunk and in uneven ones, at a time that float32 does not resolve and no
-    multiple of the step.
+    """Compare single steps, one chunk and uneven chunks, from a time that float32 does not resolve and
+    that is no multiple of the step.
     """
     model = dd.Model("chunks", dt=0.1)
     model.describe(t0=86_400_000.037)

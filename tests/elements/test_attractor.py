@@ -1,4 +1,4 @@
-"""A motor variable is driven by its input over the axis of the source, or over the one that is stated."""
+"""A motor variable is driven by its input over the axis of the source, or over the stated axis."""
 
 from __future__ import annotations
 

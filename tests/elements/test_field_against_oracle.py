@@ -28,7 +28,7 @@ LOPSIDED = [0.1, 0.7, 1.0, 0.2, -0.3]
 
 
 def kernels(scale):
-    """Kernels whose widths are in units of `scale`; narrow, wide, wider than the axis."""
+    """Return kernels with widths in units of `scale`: narrow, wide, and wider than the axis."""
     return {
         "gaussian": dd.Gaussian(1.5 / scale, 2.1 * scale),
         "gaussian normalized": dd.Gaussian(4.0, 1.6 * scale, normalized=True),
@@ -75,7 +75,9 @@ def stimulus_on(axes, amplitude=9.0):
 
 
 def compare(model, expected, record="activation", dt=DT, many=12):
-    """Run the model; each field's activation equals the reference's to 1e-9 of its largest value."""
+    """Run the model, and require that each field's activation equals the reference to 1e-9 of its largest
+    value.
+    """
     data = dd.simulate(
         model,
         STEPS * dt,
@@ -118,7 +120,7 @@ def test_fields_with_every_kernel_and_boundary_agree_with_the_oracle():
 
 
 def alone(shown, field, stimulus, many=12):
-    """One field with one stimulus."""
+    """Return one field with one stimulus."""
     model = dd.Model("alone")
     model.connect(model.add(stimulus), model.add(field))
     compare(model, {shown: (field, stimulus)}, many=many)

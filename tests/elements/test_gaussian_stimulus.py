@@ -1,6 +1,4 @@
-"""What a Gaussian stimulus may be beside its height and its place: normalised, and of other ends than its
-axes.
-"""
+"""Options of a Gaussian stimulus: normalisation, and boundaries that differ from those of its axes."""
 
 from __future__ import annotations
 

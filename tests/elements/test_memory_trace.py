@@ -37,7 +37,9 @@ def test_a_trace_grows_at_peaks_decays_elsewhere_and_is_constant_without_peaks()
 
 
 def course(f, steps, dt=0.5, gate=None, others=None, **parameters):
-    """The trace of one constant input (two places where `others` is given) after a number of steps."""
+    """Return the trace of one constant input (at two positions if `others` is given) after a number of
+    steps.
+    """
     axis = dd.Axis("x", 0, 1, 2)
     model = dd.Model("trace", dt=dt)
     p = model.add(MemoryTrace("p", [axis], tau_build=10, tau_decay=50, gated=gate is not None, **parameters))

@@ -1,4 +1,4 @@
-"""The output of a field as its mean over cells: the rule against plain loops, and what it is for."""
+"""The output of a field as its mean over cells: the rule against plain loops, and its effect on peaks."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLACES = [
 
 
 def bumpy(axes, seed=0):
-    """Activation with steep slopes, and a stretch without any."""
+    """Return an activation with steep slopes, and a flat interval."""
     u = np.random.default_rng(seed).normal(0, 2, [a.samples for a in axes])
     u[:3] = 0.5
     return u
@@ -114,7 +114,7 @@ def test_a_document_without_a_quadrature_uses_points(tmp_path):
 
 @pytest.mark.parametrize("g", SIGMOIDS, ids=lambda g: type(g).__name__)
 def test_the_sum_of_output_times_slope_is_zero_round_a_ring_as_the_integral_is(g):
-    """A symmetric kernel therefore exerts no net force on a peak, wherever the peak lies between samples."""
+    """A symmetric kernel therefore exerts no net force on a peak at any position between samples."""
     axis = dd.Axis("x", 0, 40, 40, periodic=True)
     u = 9 * np.exp(-0.5 * ((axis.points - 17.3) / 2.2) ** 2) - 4
     sharp = u - 3 / 8 * (np.roll(u, 1) - 2 * u + np.roll(u, -1))

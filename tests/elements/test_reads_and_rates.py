@@ -1,4 +1,4 @@
-"""What a connection reads, and parts at steps of their own, against loops written by hand."""
+"""The instants that connections read, and elements with steps of their own, against plain loops."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ S = dd.GaussianStimulus("s", [X], center=5, sigma=2, amplitude=5, windows=[(3, 6
 
 
 def run(reads, back, precision="float64"):
-    """`u` drives `v` through a gain, `v` inhibits `u`; either connection may read another instant."""
+    """Run a model in which `u` drives `v` through a gain and `v` inhibits `u`; either connection may read
+    another instant.
+    """
     model = dd.Model("pair")
     s, u, v = model.add(S), model.add(U), model.add(V)
     model.connect(s, u)
@@ -29,7 +31,7 @@ def run(reads, back, precision="float64"):
 
 
 def by_hand(reads, back):
-    """u and v over time; `held` is the register of a delayed connection, zero at first."""
+    """Return u and v over time; `held` is the register of a delayed connection, zero at first."""
     u, v = fields.Field(U), fields.Field(V)
     seen = [(u.u, v.u)]
     held_u, held_v = np.zeros(16), np.zeros(16)
@@ -43,7 +45,7 @@ def by_hand(reads, back):
         def step_v(excitation):
             v.step(excitation, 1.0)
 
-        if back == "current":  # then v goes first
+        if back == "current":  # then v advances first
             step_v({"": old_u, "previous": old_u, "delayed": held_u}[reads])
             step_u(v.output)
         else:
@@ -81,7 +83,9 @@ def test_previous_current_and_delayed_reads_differ():
 
 @pytest.mark.parametrize(("slow", "fast"), [(3, 1), (2, 5), (4, 1)])
 def test_parts_with_other_steps_agree_with_the_oracle(slow, fast):
-    """A part of multiple k reads at ticks that are multiples of k; its new state is visible k ticks later."""
+    """An element with multiple k reads at ticks that are multiples of k; its new state is visible k ticks
+    later.
+    """
     model = dd.Model("rates")
     s = model.add(S)
     u, v = model.add(U, ticks=slow), model.add(V, ticks=fast)

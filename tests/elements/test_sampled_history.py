@@ -1,4 +1,4 @@
-"""A history at given moments."""
+"""A history at given times."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Soft winner-take-all: its steps, its fixed points, and the field that it becomes."""
+"""Soft winner-take-all: its steps, its fixed points, and its equivalence to a field."""
 
 from __future__ import annotations
 
@@ -68,14 +68,14 @@ def test_the_winner_is_amplified_and_the_others_are_silent():
 
 
 def test_without_self_excitation_several_units_are_active():
-    """Weak competition keeps several: r = s - beta_1 beta_2 sum r for those above it."""
+    """Weak competition keeps several active: r = s - beta_1 beta_2 sum r for units with s above the sum."""
     rates, v = settled(self_excitation=0.0, inhibition=0.8, drive=0.25)
     np.testing.assert_allclose(rates, np.maximum(0, EVIDENCE - 0.2 * rates.sum()), atol=1e-6)
     assert (rates > 1e-6).sum() == 4 and v == pytest.approx(0.25 * rates.sum(), abs=1e-6)
 
 
 def test_inhibition_depends_on_the_units_and_not_on_the_grid_step():
-    """The same pool sampled twice as finely: the integral over the axis drives the inhibition."""
+    """The same pool with twice the samples: the integral over the axis drives the inhibition."""
     found = []
     for samples in (51, 101):
         x = dd.Axis("x", 0, 100, samples)
@@ -110,7 +110,7 @@ def test_noise_lets_either_of_two_equals_win():
 
 
 def test_its_noise_is_that_of_a_field():
-    """With nothing but noise: a linear pool is a linear field of the same path."""
+    """With noise alone, a linear pool equals a linear field of the same path."""
     x = dd.Axis("x", 0, 4, 9)
     runs = []
     for element in (
@@ -127,7 +127,7 @@ def test_its_noise_is_that_of_a_field():
 def test_with_filtered_input_the_pool_is_a_field_with_inhibition_one_step_late():
     """Inhibition as fast as the step: v(t + dt) is the integral of r(t).
 
-    Nothing else lies between the pool and a field.
+    The pool and a field differ in nothing else.
     """
     x = dd.Axis("x", 0, 100, 51)
     kernel, dt = [dd.Gaussian(12, 5, normalized=True)], 0.5

@@ -55,7 +55,7 @@ def test_windows_open_and_close_at_the_step_whose_time_they_name(dt, precision):
     model = dd.Model("windows")
     model.add(Boost("b", [], 1.0, windows=[(3.0, 6.0)]))
     data = dd.simulate(model, 30 * dt, dt=dt, record="b.output", precision=precision)
-    # a moment between two steps belongs to the nearer one
+    # a time between two steps belongs to the nearer one
     first, last = round(3.0 / dt + 1e-9), round(6.0 / dt + 1e-9)
     assert np.flatnonzero(data["b.output"].values).tolist() == [k for k in range(31) if first <= k < last]
 

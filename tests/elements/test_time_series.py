@@ -1,4 +1,4 @@
-"""Input over time: straight lines or steps between moments, once or again and again."""
+"""Input over time: linear or stepwise between given times, once or periodic."""
 
 from __future__ import annotations
 

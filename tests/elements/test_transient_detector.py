@@ -31,7 +31,7 @@ def test_steps_up_and_down_give_decaying_pulses():
     np.testing.assert_allclose(on[before, 0], pulse[before], atol=1e-12)
     np.testing.assert_allclose(off[before, 1], 2 * pulse[before], atol=1e-12)
     assert not off[before, 0].any() and not on[before, 1].any() and not on[:, 2].any() and not off[:, 2].any()
-    # what is gone is what the slow copy still has of it
+    # the decrease is what the slow copy still contains
     slow = 3.0 - pulse[t == 120][0]
     np.testing.assert_allclose(
         off[~before, 0], (slow - 1.0) * (1 - DT / TAU) ** np.round((t[~before] - 120) / DT), atol=1e-12

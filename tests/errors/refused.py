@@ -1,4 +1,4 @@
-"""What a good refusal looks like."""
+"""Checks of refused calls and their messages."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from deodar.errors import DeodarError
 def refused(
     call: Callable[[], Any], error: type[DeodarError] | tuple[type[DeodarError], ...], *says: str
 ) -> str:
-    """Run what must be refused; its message, one paragraph that holds every piece of `says`."""
+    """Run a call that must be refused; return its message, one paragraph that contains every piece of
+    `says`.
+    """
     with pytest.raises(DeodarError) as caught:
         call()
     text = str(caught.value)
@@ -25,7 +27,7 @@ def refused(
 
 
 def paragraph(text: str) -> None:
-    """One paragraph, not too long to read, without the marks of a traceback."""
+    """Require one short paragraph without the marks of a traceback."""
     assert text.strip() and "\n\n" not in text
     assert len(text) < 2000
     assert "Traceback" not in text and "<class" not in text and "object at 0x" not in text

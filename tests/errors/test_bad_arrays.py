@@ -1,4 +1,6 @@
-"""The array file beside a document: only its own, in its own folder, whole, and plain numbers."""
+"""The array file beside a document: it must be its own, in its folder, complete, and contain plain
+numbers.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 
 class Trap:
-    """What runs code when it is unpickled."""
+    """An object that runs code when it is unpickled."""
 
     def __reduce__(self) -> Any:
         return (print, ("the trap was sprung",))
@@ -32,7 +34,7 @@ class Trap:
 
 @pytest.fixture
 def saved(tmp_path: Path) -> Path:
-    """A saved document with an array file; a folder of its own."""
+    """Save a document with an array file into a folder of its own."""
     folder = tmp_path / "mine"
     folder.mkdir()
     model = dd.Model("m")
@@ -51,7 +53,7 @@ def _array_file(path: Path) -> Path:
 
 
 def _point_to(path: Path, name: str, content: bytes | None = None) -> None:
-    """Let the document name another array file, with the right hash of its content."""
+    """Make the document name another array file, with the right hash of its content."""
     data = _data(path)
     data["arrays"]["file"] = name
     if content is not None:
@@ -202,7 +204,7 @@ def test_arrays_of_other_types_than_numbers_are_refused(
 def test_an_array_file_that_expands_too_much_is_refused_before_it_is_read(
     saved: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A small file that unpacks to more than the machine has; its directory states its size."""
+    """A small file that unpacks to more memory than the machine has; its directory states its size."""
     monkeypatch.setattr(files, "ARRAY_SHARE", 1e-9)
     _replace(saved, _zip({"array.npy": b"\0" * 10_000_000}))
     refused(lambda: dd.load(saved), DocumentError, "the arrays in", "GiB are free")
@@ -226,7 +228,7 @@ def test_an_invalid_entry_of_arrays_is_refused(saved: Path, entry: Any) -> None:
 
 
 def test_an_existing_array_file_of_the_same_name_is_not_replaced(saved: Path) -> None:
-    """Saved beside a stranger's file of the same name: refused, and nothing is written."""
+    """Saving beside a foreign file of the same name is refused, and writes nothing."""
     stranger = _array_file(saved)
     model = dd.load(saved)
     saved.unlink()
@@ -246,7 +248,7 @@ def test_saving_again_removes_the_previous_array_file(saved: Path) -> None:
 
 
 def test_saving_never_deletes_a_file_that_is_not_an_array_file(saved: Path) -> None:
-    """A document that names another file as its arrays, saved over with force: that file stays."""
+    """If a document names another file as its arrays, saving over it with force keeps that file."""
     other = saved.with_name("thesis.npz")
     other.write_bytes(b"precious")
     _point_to(saved, other.name)

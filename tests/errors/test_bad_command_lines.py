@@ -1,4 +1,4 @@
-"""The command line: whatever is typed, one paragraph on stderr, status 1 or 2, nothing written."""
+"""Invalid command lines: one paragraph on stderr, status 1 or 2, and no file is written."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ CALLS: dict[str, tuple[list[str], int, tuple[str, ...]]] = {
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A working folder with a good document, a broken one, and a pipe."""
+    """Make a working folder with a valid document, a broken one, and a pipe."""
     import os
 
     model = dd.Model("m")

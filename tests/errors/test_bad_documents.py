@@ -1,6 +1,4 @@
-"""Documents that are broken, foreign, or made to harm: a valid document, or one DocumentError that says
-where.
-"""
+"""Broken, foreign and hostile documents are read, or refused by one DocumentError that states the place."""
 
 from __future__ import annotations
 
@@ -30,7 +28,7 @@ HUE = dd.Axis("hue", 0, 360, samples=6, periodic=True, unit="deg")
 
 
 def rich() -> dd.Model:
-    """A model that uses every part of a document."""
+    """Return a model that uses every part of a document."""
     model = dd.Model("rich", time_unit="ms", dt=0.5)
     u = model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2), Shifted(dd.Gaussian(), 1.0)], noise=0.1))
     v = model.add(
@@ -70,7 +68,7 @@ def test_the_unchanged_document_is_valid() -> None:
 
 
 def _places(data: Any, at: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """Every place of a document where a value stands."""
+    """Yield every place of a value in a document."""
     yield at
     if isinstance(data, dict):
         for key, value in data.items():
@@ -108,21 +106,23 @@ VALUES: dict[str, Any] = {
 
 
 def _read(data: Any) -> Document | None:
-    """The document, or nothing after an error that says what is wrong; anything else fails the test."""
+    """Return the document, or None after an error that states the problem; any other outcome fails the
+    test.
+    """
     try:
         doc = files.from_data(data, ARRAYS)
     except DeodarError as error:
         assert str(error).strip()
         assert "Traceback" not in str(error) and " at 0x" not in str(error)
         return None
-    for problem in check(doc):  # what loads can be checked, whatever is in it
+    for problem in check(doc):  # a document that loads can be checked
         assert problem.what
     return doc
 
 
 @pytest.mark.parametrize("what", VALUES)
 def test_a_wrong_value_at_any_place_is_refused_or_read(what: str) -> None:
-    """A systematic walk: each value of a good document is replaced by each wrong one."""
+    """Each value of a valid document is replaced by each wrong value."""
     taken = refusals = 0
     for at in _places(DATA):
         doc = _read(_with(DATA, at, VALUES[what]))
@@ -149,7 +149,7 @@ def test_a_missing_key_is_refused_or_has_a_default() -> None:
 
 
 def test_a_misspelt_key_is_refused_with_a_suggestion() -> None:
-    """No key is silently passed over, except names that a person chooses."""
+    """No unknown key is ignored, except names that a user chooses."""
     free = {"axes", "elements", "parameters", "layout", "values", "packages"}
     tried = 0
     for at in _places(DATA):

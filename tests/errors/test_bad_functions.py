@@ -1,4 +1,4 @@
-"""Functions of a stranger's: inert until trusted; and a user's own that go wrong."""
+"""Functions of foreign documents are inert until trusted; functions of users that fail raise clear errors."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 @pytest.fixture
 def stranger(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """A module that leaves a mark when it is imported, and a document that names a function of it."""
+    """Write a module that leaves a mark when it is imported, and a document that names a function of it."""
     mark = tmp_path / "it ran"
     (tmp_path / "strangers_module.py").write_text(
         f"from pathlib import Path\nPath({str(mark)!r}).write_text('x')\ndef step(state, inputs, time):\n   "
@@ -80,8 +80,8 @@ def test_a_trusted_function_runs(stranger: Path) -> None:
 
 
 def test_trust_of_a_model_does_not_extend_to_inserted_models(stranger: Path) -> None:
-    """A stranger's document inserted into a model of one's own is as foreign as before; trust is said where
-    it is read.
+    """A foreign document stays foreign when it is inserted into a user's model; trust is given where a
+    document is read.
     """
     path = stranger.with_name("strange.json")
     loaded = dd.load(path)
@@ -204,7 +204,7 @@ def test_a_module_that_raises_at_import_is_an_error(tmp_path: Path, monkeypatch:
 
 
 def test_the_cause_of_an_error_in_a_user_function_is_kept() -> None:
-    """The message is ours; the cause, with its line, is kept for those who look."""
+    """The message is one of deodar, and the cause keeps its line."""
     model = dd.Model("m")
     model.add(Function("f", [X], function=raises))
     with pytest.raises(ModelError) as caught:

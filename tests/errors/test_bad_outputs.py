@@ -1,4 +1,4 @@
-"""Writing: nothing is lost, nothing is half-written, and what cannot be written says so."""
+"""Writing: no file is lost or half-written, and a failure is an error."""
 
 from __future__ import annotations
 
@@ -142,7 +142,9 @@ def test_a_full_disk_leaves_nothing_behind(
 
 
 def test_a_file_is_replaced_only_when_its_content_is_complete(tmp_path: Path) -> None:
-    """The content is made beside the place: until it is complete, the place holds what it held."""
+    """The content is written beside the final place, which keeps the old file until the new one is
+    complete.
+    """
     path = tmp_path / "out.bin"
     path.write_bytes(b"old")
     seen: list[bytes] = []

@@ -1,4 +1,4 @@
-"""Values that cannot be: wrong type, out of range, not finite, misspelt."""
+"""Invalid values: wrong type, out of range, not finite, misspelt."""
 
 from __future__ import annotations
 
@@ -365,8 +365,8 @@ WRONG: list[Any] = [
     ],
 )
 def test_any_value_of_a_parameter_is_accepted_or_refused_by_an_error_of_deodar(kind: str) -> None:
-    """Every kind, every parameter, every sort of wrong value: accepted, or refused by an error of deodar with
-    its place.
+    """For every kind, parameter and type of wrong value: it is accepted, or refused by an error of deodar
+    with its place.
     """
     cls = registry.kind(kind)
     good = cls.example()

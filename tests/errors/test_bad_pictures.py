@@ -1,4 +1,4 @@
-"""Pictures that are missing, broken or none, and sensors that no world has."""
+"""Missing and broken pictures, files that are no pictures, and sensors that no world has."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _chunk(kind: bytes, content: bytes) -> bytes:
 
 
 def _claims(width: int, height: int) -> bytes:
-    """A PNG of a few bytes that states a number of pixels."""
+    """Return a PNG of a few bytes that states a number of pixels."""
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     return (
         b"\x89PNG\r\n\x1a\n"

@@ -1,4 +1,4 @@
-"""Runs that cannot be: times, seeds, trials, sweeps, records, and what does not fit into memory."""
+"""Invalid runs: times, seeds, trials, sweeps, records, and runs that do not fit into memory."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NAN, INF = float("nan"), float("inf")
 
 @pytest.fixture(scope="module")
 def model() -> dd.Model:
-    """One field and one stimulus; its program is compiled once for all."""
+    """Return one field with one stimulus; its program is compiled once for all tests."""
     model = dd.Model("m")
     u = model.add(dd.Field("u", [X], tau=20, kernel=[dd.Gaussian(sigma=2)]))
     model.add(dd.GaussianStimulus("left", [X], center=5)) >> u

@@ -1,4 +1,4 @@
-"""What an error says: what is wrong, where, and what to type."""
+"""Messages of errors: the problem, its place, and the fix."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Errors cross from one process to another whole."""
+"""Errors keep all attributes across processes."""
 
 from __future__ import annotations
 
