@@ -114,8 +114,8 @@ def test_each_node_learns_its_own_action_and_a_snapshot_holds_it() -> None:
 
 def test_a_chain_may_be_longer_than_the_sequence() -> None:
     """The node after the last one switches on, and represents no item."""
-    model = lesson([30.0, 6.0], items=3)
-    data = dd.simulate(model, lesson_end(2, 2), record=cascade_paths(3))
+    model = lesson([30.0, 6.0], PLACES, items=3)
+    data = dd.simulate(model, lesson_end(2, len(PLACES)), record=cascade_paths(3))
     assert_right(cascade(data, production_start(2) + RELEASED), [30.0, 6.0])
     assert float(data["item 3.node.activation"][-1]) > 0 > float(data["action.activation"][-1].max())
 

@@ -14,12 +14,19 @@ from deodar.worlds.arena.arena import Arena
 from tests.errors.refused import refused
 
 INTENDED = [f"{name}.strongest.output" for name in DIRECTIONS]
+RECORD = (
+    "pose.output",
+    *INTENDED,
+    "west.motivation.activation",
+    "occupied.output",
+    "goal place.output",
+    "own place.output",
+)
+"""What every test records, so that all of one structure run one program."""
 
 
-def run(arena: Arena, steps: int, *more: str) -> xarray.Dataset:
-    return dd.simulate(
-        spa(arena), steps, record=["pose.output", *INTENDED, *more], world=arena, progress=False
-    )
+def run(arena: Arena, steps: int, noise: str = "low", seed: int = 0) -> xarray.Dataset:
+    return dd.simulate(spa(arena, noise), steps, record=RECORD, world=arena, seed=seed, progress=False)
 
 
 def test_grids_and_starts_are_those_of_the_published_model() -> None:
@@ -41,7 +48,7 @@ def test_the_document_has_one_parameter_per_strength_for_all_four_behaviours(tmp
 
 
 def test_the_map_marks_walls_and_margins_as_in_the_published_model() -> None:
-    data = run(maze("z", noise="none"), 1, "occupied.output")
+    data = run(maze("z", noise="none"), 1)
     occupied = data["occupied.output"].values[-1]
     assert occupied[:5].all() and occupied[-6:].all() and occupied[:, :6].all() and occupied[:, -5:].all(), (
         "the margin"
@@ -56,7 +63,7 @@ def test_the_map_marks_walls_and_margins_as_in_the_published_model() -> None:
 def test_arenas_in_metres_and_centimetres_give_equal_inputs() -> None:
     names = ("occupied.output", "goal place.output", "own place.output")
     metres = Arena("z", [v * 0.01 for v in place(*CASE_3[0])] + [0.0], [v * 0.01 for v in place(*CASE_3[1])])
-    here, there = run(maze("z", noise="none"), 1, *names), run(metres, 1, *names)
+    here, there = run(maze("z", noise="none"), 1), run(metres, 1)
     for name in names:
         assert here[name].values.max() >= 1
         np.testing.assert_allclose(there[name].values, here[name].values, atol=1e-3)
@@ -66,7 +73,7 @@ def test_in_case_3_the_robot_plans_for_about_210_steps_and_takes_the_north_route
     """Section 5.2 and figure 10: the wave passes west of the start near 150, the plan is complete near 210,
     and the robot leaves.
     """
-    data = run(maze("z"), 400, "west.motivation.activation")
+    data = run(maze("z"), 400)
     pose = data["pose.output"].values
     moved = np.linalg.norm(pose[:, :2] - pose[0, :2], axis=1)
     intended = np.max([data[name].values for name in INTENDED], axis=0)
@@ -82,8 +89,7 @@ def test_in_case_3_the_robot_plans_for_about_210_steps_and_takes_the_north_route
 def test_the_robot_reaches_a_nearby_goal(noise: str) -> None:
     """From the east of the maze to a goal 25 cm further north, without a corner between."""
     arena = maze("z", noise, start=(-25.0, 50.0, 2.0), goal=(-27.0, 78.0))
-    data = dd.simulate(spa(arena, noise), 200, record="pose.output", world=arena, progress=False, seed=2)
-    pose = data["pose.output"].values
+    pose = run(arena, 200, noise, seed=2)["pose.output"].values
     away = np.linalg.norm(pose[:, :2] - [-27, 78], axis=1)
     assert away[0] > 25 and away[-1] < 7
     assert np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).max() < 0.5, "it drives, and does not jump"
