@@ -9,15 +9,16 @@ endif
 # files over two processes, in the order that tests/conftest.py gives them
 SPREAD := -n 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test fast lint types studio docs schema bench lowest lock audit clean
+.PHONY: demo test fast lint types studio page docs schema bench lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
-test: .venv/installed-test lint types studio
+test: .venv/installed-test
+	$(MAKE) -j 2 lint types page
 	$(BIN)/python -m pytest $(SPREAD) --durations 30 -m "not default_program"
 	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
-	$(BIN)/python studio/build.py check lint test browser
+	$(BIN)/python studio/build.py browser
 
 # a verdict in about a minute
 fast: .venv/installed-test
@@ -33,6 +34,10 @@ types: .venv/installed-test
 # the page of the studio, unless it is there already
 studio: .venv/installed-test
 	$(BIN)/python studio/build.py build
+
+# its source, and its tests without a browser
+page: studio
+	$(BIN)/python studio/build.py check lint test
 
 docs: .venv/installed-docs
 	$(BIN)/python docs/build.py

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -86,6 +87,14 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ["XLA_FLAGS"] = " ".join(dict.fromkeys((*flags, *QUICK_PROGRAMS)))
     if config.getoption("--write-durations"):
         config.pluginmanager.register(durations.Recorder(), "durations-recorder")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Read only the files of DEFAULT_PROGRAM if nothing else was asked for."""
+    if config.option.markexpr != "default_program" or collection_path.is_dir():
+        return None
+    place = collection_path.relative_to(config.rootpath).as_posix()
+    return not any(place.startswith(name.partition("::")[0]) for name in DEFAULT_PROGRAM) or None
 
 
 @pytest.hookimpl(tryfirst=True)
