@@ -1,4 +1,4 @@
-"""Trials that a worker process can import: when does noise take a node over its threshold."""
+"""Trials that a worker process can import: the time at which noise drives a node over its threshold."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ from tests.experiments.robots import decider
 
 
 def one(trial):
-    """One row."""
+    """Return one row."""
     course = run_trial(decider(), 2000, trial=trial, events=[Crosses("decided", "u.activation")])
     return [{"key": f"d/{trial}", "outcome": course.outcome, "decided": course.events["decided"]}]

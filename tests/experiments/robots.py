@@ -15,7 +15,7 @@ ROOM = {
 
 
 def straight(speed=500.0):
-    """Both wheels at one speed; a step is the period of the arena."""
+    """Return a model with both wheels at one speed; a step is the period of the arena."""
     model = dd.Model("straight")
     model.describe(time_unit="1 = 64 ms")
     for wheel in ("left", "right"):
@@ -25,12 +25,12 @@ def straight(speed=500.0):
 
 
 def room(**given):
-    """An arena of 100 x 40 cm with a wall at its far end."""
+    """Return an arena of 100 x 40 cm with a wall at its far end."""
     return Arena(ROOM, **{"start": (10, 20, 0), "goal": (80, 20), "unit": "cm"} | given)
 
 
 def decider(noise=3.0):
-    """A node below threshold that its noise takes over it, sooner or later."""
+    """Return a node below threshold that its noise eventually drives over it."""
     model = dd.Model("decider")
     model.add(dd.Field("u", [], tau=20, resting_level=-1, noise=noise))
     return model

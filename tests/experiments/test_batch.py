@@ -1,4 +1,4 @@
-"""Batches: the same courses as one by one, and smaller programs as trials end."""
+"""Batches: trials equal single ones, and programs become smaller as trials end."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ DECIDED = Crosses("decided", "u.activation")
 
 
 def sizes(model):
-    """Sizes of the batches for which a model has programs."""
+    """Return the sizes of the batches for which a model has programs."""
     return sorted(p.batch.size for p in model.programs.values() if p.batch != Batch())
 
 
@@ -99,14 +99,12 @@ def test_each_trial_has_its_own_world_and_drops_it_when_it_ends():
 
 
 def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_change(tmp_path, monkeypatch):
-    """Single precision; half of the trials of each batch end early, so that it becomes narrower on the
-    way.
-    """
+    """In single precision, half of the trials of each batch end early, so that it becomes narrower."""
     monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 4)
     model = decider()
     model.add(dd.Field("v", [dd.Axis("x", 0, 500, 501)], tau=10, global_inhibition=0.1, noise=1.0))
     measures = [Measure("strongest", "v.activation", "max"), Measure("mean", "v.activation", "mean")]
-    # with much left, so that a narrower batch pays
+    # with many steps left, so that a narrower batch saves time
     experiment = Experiment("decide", model, 1e6, 8, [DECIDED], measures=measures, every=5)
     whole = experiment.run(tmp_path / "whole")
     assert sizes(model) == [1, 2, 4] and len(set(whole["duration"].values.tolist())) > 4

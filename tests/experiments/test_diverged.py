@@ -1,4 +1,4 @@
-"""A trial that diverges is a row with its reason, and the others are what they would be without it."""
+"""A trial that diverges is a row with its reason, and the others equal a run without it."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ PROGRAMS: dict[Any, Any] = {}
 
 
 def model(factor: float = 0.1) -> dd.Model:
-    """A node that a loop makes grow without bound where the factor is large, and one beside it that noise
-    drives.
+    """Return a node that grows without bound through a loop if the factor is large, and an independent
+    node with noise.
     """
     made = dd.Model("runaway")
     made.programs = PROGRAMS
@@ -171,7 +171,7 @@ def test_diverged_trials_are_dropped_from_the_batch(monkeypatch: pytest.MonkeyPa
         made = model()
         made.programs = {}
         some = run_batch(made, 80, range(6), ["v.activation"], values=values)
-    # of which one has diverged and fills it up
+    # one of them has diverged and fills the batch
     assert sorted(p.batch.size for p in made.programs.values()) == [3, 6]
     good = run_batch(
         model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]}

@@ -1,5 +1,5 @@
-"""Experiments as data: files, designs, batches and single trials with the same rows, and what is refused
-before anything runs.
+"""Experiments as data: files, designs, batches and single trials with the same rows, and errors before the
+first trial.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from tests.experiments.robots import decider, room, straight
 
 
 def line():
-    """A field that two inputs, from 20 ms on, bring to one peak."""
+    """Return a field in which two inputs, from 20 ms on, create one peak."""
     x = dd.Axis("x", 0, 100, 51)
     model = dd.Model("choice")
     u = model.add(
@@ -44,7 +44,7 @@ def line():
 
 
 def choice(**changes):
-    """Trials of it, as an experiment."""
+    """Return an experiment with this field."""
     given = {
         "trials": 4,
         "conditions": [
@@ -101,7 +101,7 @@ def test_a_batch_gives_the_rows_of_single_trials():
     experiment = choice()
     together = experiment.run()
     assert experiment.setup().batched and len(experiment.setup().pieces()) == 1
-    # what is done changes nothing, but not in a batch
+    # the action changes nothing, but prevents a batch
     alone = dc.replace(experiment, actions=[Set(149, "u.tau", 10.0)])
     assert not alone.setup().batched
     single = alone.run()
@@ -170,7 +170,7 @@ def test_a_stopped_experiment_resumes_with_the_same_table(tmp_path, monkeypatch)
     with pytest.raises(KeyboardInterrupt):
         experiment.run(tmp_path / "part", progress=stop)
     file = tmp_path / "part" / ROWS
-    file.write_bytes(file.read_bytes()[:-40])  # as if a kill had cut the last line off
+    file.write_bytes(file.read_bytes()[:-40])  # as if a kill had truncated the last line
     assert 4 <= load_results(tmp_path / "part").sizes["trial"] < 16
     assert experiment.run(tmp_path / "part").identical(whole)
     for name in ("trials.csv", ROWS):

@@ -1,4 +1,4 @@
-"""Jobs: what is missing is run, in any pieces and processes, with the same rows in the end."""
+"""Jobs: missing rows are computed, in any pieces and processes, with the same result."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def jobs(n=6):
 
 @pytest.fixture(scope="module")
 def rows():
-    """The rows of all jobs, run here."""
+    """Return the rows of all jobs, run in this process."""
     return [row for job in jobs() for row in job.run()]
 
 

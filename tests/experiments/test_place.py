@@ -30,7 +30,7 @@ HEIGHT = dd.Axis("y", 0, 5, 21)
 
 
 def smooth(rng, axes):
-    """Random activation with several peaks, some of them across the border."""
+    """Return a random activation with several peaks, some of them across the border."""
     values = rng.normal(size=tuple(a.samples for a in axes))
     for d, axis in enumerate(axes):
         k = np.exp(-0.5 * (np.arange(-6, 7) / 1.6) ** 2)
@@ -101,7 +101,9 @@ def test_without_a_peak_there_is_no_position():
 
 
 def experiment(**changes):
-    """A peak between two samples, on a line or a ring, or none where the input is weak."""
+    """Return an experiment with a peak between two samples, on a line or a ring, or without a peak if the
+    input is weak.
+    """
     model = dd.Model("between samples")
     u = model.add(dd.Field("u", [LINE, RING], tau=10, resting_level=-5, noise=0.5))
     model.add(dd.GaussianStimulus("s", [LINE, RING], center=(9.3, 178.0), sigma=(3, 30), amplitude=12)) >> u

@@ -1,4 +1,4 @@
-"""Rows on the disk: whatever cut the file off, what is whole is found again."""
+"""Rows on the disk: complete rows of a truncated file are read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Trials: what ends them, what is done to them, and that the same arguments give the same course."""
+"""Trials: their ends, their actions, and equal results for equal arguments."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_an_object_that_appears_stops_the_robot_until_it_is_removed():
     assert through.outcome == "reached" and (np.diff(through.values["pose"][:, 0]) < 1e-3).sum() > 50
     away = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
     assert away.duration == through.duration - 100
-    # the box was put away after each trial
+    # the box was removed after each trial
     assert run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"
 
 
@@ -143,7 +143,7 @@ def test_invalid_trials_are_refused():
 
 
 class Shelf(dd.World):
-    """A world of things without places: its sensor reads how many there are."""
+    """A world of objects without positions, with a sensor of their number."""
 
     sensors = {"things": dd.Signal("how many things there are", shape=())}
     period = 1.0
@@ -173,7 +173,7 @@ def test_actions_change_any_world_that_has_their_methods():
         "actions": [Place(2, "plate", (0, 0), (1, 1)), Remove(4, "cup"), Remove(6, "plate")],
         "watch": ["things"],
     }
-    # the second trial finds what the first one found; at the time of an action the sample is taken first
+    # both trials start with the same objects; at the time of an action the sample is taken first
     for _ in range(2):
         assert run_trial(decider(), 8, world, **given).values["things"].tolist() == [
             1,
@@ -190,7 +190,7 @@ def test_actions_change_any_world_that_has_their_methods():
 
 
 class Fixed(Shelf):
-    """The same without a way back."""
+    """The same world without `arrangement`."""
 
     arrangement = dd.World.arrangement
 

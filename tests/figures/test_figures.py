@@ -1,4 +1,4 @@
-"""Figures from Python: what they show, how they are labelled, what they refuse."""
+"""Figures from Python: their content, their labels, and their errors."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from deodar.worlds.picture import Picture
 
 @pytest.fixture
 def walked() -> xarray.DataArray:
-    """Two trials, straight lines of half a metre."""
+    """Return two trials, straight lines of half a metre."""
     times = np.arange(26) * 64.0
     way = np.stack([0.2 + 0.02 * np.arange(26), np.full(26, 0.3), np.zeros(26)], -1)
     values = np.stack([way, way + np.array([0, 0.05, 0.1])])

@@ -43,7 +43,9 @@ class Word:
 
     @functools.cached_property
     def pattern(self) -> re.Pattern[str]:
-        """The phrase as whole words, over the ends of lines; a word after a dot is an attribute of code."""
+        """A pattern of the phrase as whole words, across line ends; a word after a dot is an attribute of
+        code.
+        """
         body = r"\s+".join(re.escape(part) for part in self.wrong.split())
         end = r"(?![\w-])" if self.wrong[-1].isalnum() else ""
         return re.compile(rf"(?<![\w-])(?<!\w\.){body}{end}", re.IGNORECASE)
@@ -63,12 +65,12 @@ class Found:
 
 
 def words() -> list[Word]:
-    """The phrases of the list."""
+    """Return the phrases of the list."""
     return [Word(wrong, entry["right"]) for entry in WORDS["words"] for wrong in entry["wrong"]]
 
 
 def prose(name: str, text: str) -> str:
-    """The prose of a file, with everything else blank; lines stay where they are."""
+    """Return the prose of a file, with everything else blank; lines keep their numbers."""
     match Path(name).suffix:
         case ".py" | ".pyi":
             return TAGS.sub(" ", _kept(PYTHON, text))
@@ -97,7 +99,7 @@ def _kept(pattern: re.Pattern[str], text: str) -> str:
 
 
 def search(path: Path, text: str, listed: list[Word]) -> Iterator[Found]:
-    """The phrases in the text of a file."""
+    """Yield the phrases in the text of a file."""
     body = prose(path.name, text)
     plain = " ".join(body.lower().split())
     for word in listed:
@@ -107,7 +109,9 @@ def search(path: Path, text: str, listed: list[Word]) -> Iterator[Found]:
 
 
 def part(path: Path) -> str:
-    """The part of the repository that a file belongs to: a package of `src`, a folder, or the file itself."""
+    """Return the part of the repository that a file belongs to: a package of `src`, a folder, or the file
+    itself.
+    """
     names = path.relative_to(ROOT).parts
     if names[:2] == ("src", "deodar"):
         return "/".join(names[: 3 if len(names) > 3 else 2])
@@ -115,7 +119,7 @@ def part(path: Path) -> str:
 
 
 def checked() -> list[Path]:
-    """The files whose prose is checked."""
+    """Return the files whose prose is checked."""
     return [path for path in texts() if _is_checked(path)]
 
 
@@ -136,13 +140,13 @@ def _is_checked(path: Path) -> bool:
 
 @functools.cache
 def found() -> list[Found]:
-    """Every phrase of the list in the repository."""
+    """Return every phrase of the list in the repository."""
     listed = words()
     return [hit for path in checked() for hit in search(path, path.read_text(encoding="utf-8"), listed)]
 
 
 def counts() -> dict[str, int]:
-    """The number of phrases in each part that has any."""
+    """Return the number of phrases in each part that has any."""
     return dict(sorted(Counter(part(hit.path) for hit in found()).items()))
 
 

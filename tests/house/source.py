@@ -48,18 +48,18 @@ TEXT = {
 
 @functools.cache
 def tree(path: Path) -> ast.Module:
-    """The syntax tree of a file."""
+    """Return the syntax tree of a file."""
     return ast.parse(path.read_text(encoding="utf-8"), str(path))
 
 
 def module(path: Path) -> str:
-    """The dotted name of a file of the package, the package itself left out: `numerics.axes`."""
+    """Return the dotted name of a file of the package, without the package: `numerics.axes`."""
     names = list(path.relative_to(SRC).with_suffix("").parts)
     return ".".join(names[:-1] if names[-1] == "__init__" else names)
 
 
 def imported(path: Path) -> list[tuple[int, str]]:
-    """(line, module of the package) of everything of deodar that a file imports: at its top, in functions,
+    """Return (line, module of the package) of each import of deodar in a file: at its top, in functions,
     for types.
     """
     found: list[tuple[int, str]] = []
@@ -88,7 +88,9 @@ def _is_module(name: str) -> bool:
 
 
 def texts() -> list[Path]:
-    """Every text file of the repository that git knows or would take, without what is built or installed."""
+    """Return every text file of the repository that git knows or would add, without built and installed
+    files.
+    """
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True
     )
@@ -102,6 +104,6 @@ def texts() -> list[Path]:
 
 
 def _left_out(path: Path) -> bool:
-    """Whether a file is not a text of the repository: tools' folders, and the chunks of records."""
+    """Return whether a file is not a text of the repository: folders of tools, and chunks of records."""
     parts = path.relative_to(ROOT).parts
     return bool(NEVER & set(parts)) or any(part.endswith(".zarr") for part in parts)

@@ -1,4 +1,4 @@
-"""The audit says what it found, and says plainly where it could ask nothing."""
+"""The audit reports its findings, and reports sources that it could not query."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Events, actions and messages are declared in one place: the decorator of the class enters it, and no second
-list names it.
+"""Events, actions and messages are declared in one place: the decorator of the class registers it, and no
+second list names it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from deodar.server.protocol import schema
 
 
 def _declared(module: Any, base: type[Any]) -> set[str]:
-    """The classes that a module declares under a base, without the bases themselves."""
+    """Return the classes that a module derives from a base, without the bases themselves."""
     own = [
         cls
         for cls in vars(module).values()
@@ -74,7 +74,7 @@ def test_a_new_message_is_in_the_protocol(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_every_message_to_the_server_has_a_handler() -> None:
-    """`Drawn` is no request: the connection itself reads it."""
+    """`Drawn` is not a request: the connection itself reads it."""
     assert set(requests.HANDLERS) == set(to_server.MESSAGES.values()) - {to_server.Drawn}
 
 

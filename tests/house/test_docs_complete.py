@@ -1,4 +1,4 @@
-"""The manual leaves nothing out: every kind and every command has a heading of its own."""
+"""The manual is complete: every kind and every command has a heading of its own."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ sys.path.insert(0, str(ROOT / "tools"))
 from measure import DEEP
 
 MOST_DEEP = 5
-"""Distinct lines of the scripts that make the manual that import from deodar otherwise than by `import deodar
-as dd`.
+"""Number of distinct lines in the scripts of the manual that import from deodar in another way than
+`import deodar as dd`.
 """
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$", re.MULTILINE)
 
 
 def _headings() -> set[str]:
-    """Words of all headings of the manual, without the marks of code."""
+    """Return the words of all headings of the manual, without the marks of code."""
     found: set[str] = set()
     for page in (ROOT / "docs").rglob("*.md"):
         for heading in HEADING.findall(page.read_text(encoding="utf-8")):

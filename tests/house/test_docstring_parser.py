@@ -1,4 +1,4 @@
-"""The parser of docstrings: summary, sections and entries; and it is the only one."""
+"""The parser of docstrings: summary, sections and entries; no other module parses docstrings."""
 
 from __future__ import annotations
 

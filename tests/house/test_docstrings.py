@@ -1,4 +1,6 @@
-"""Everything registered says what it is: equation, symbols in field order, ports, shapes, units, source."""
+"""Docstrings of registered kinds are complete: equation, symbols in field order, ports, shapes, units,
+source.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,8 @@ from deodar.parameters import Part, parameters
 KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
 ELEMENTS = {name: cls for name, cls in KINDS.items() if issubclass(cls, Element)}
 
-# What the description of a parameter has to say for the unit it declares. Activation has no unit of its own
-# and needs no word.
+# The words that the description of a parameter needs for its declared unit. Activation has no unit of its own
+# and needs none.
 UNIT_WORDS = {
     "time": ("time",),
     "axis": ("axis", "axes"),
@@ -36,13 +38,13 @@ UNIT_WORDS = {
 
 
 def read(cls: type[Any]) -> Docstring:
-    """The docstring of the source, parsed."""
+    """Return the parsed docstring of the source."""
     return docstring.parse(docstring.source(cls))
 
 
 def fields(cls: type[Any]) -> list[str]:
-    """Parameters in the order in which they are written down: those by position, then those by name; `name`
-    is every element's.
+    """Return the parameters in their order of declaration, positional ones first, without `name`, which
+    every element has.
     """
     if not dc.is_dataclass(cls):
         return [p for p in inspect.signature(cls.__init__).parameters if p != "self"]
@@ -76,7 +78,7 @@ def test_every_port_is_named_with_its_axes(name: str) -> None:
     axes = {port: element.input_axes(port, ()) or () for port in element.ports()}
     outputs = list(element.outputs(axes))
     listed = read(cls).entries("Ports")
-    # the inputs of a user's function are named by its own parameter
+    # a parameter of the function element names its inputs
     wanted = {*outputs, *(() if "ports_in" in fields(cls) else element.ports())}
     assert set(listed) == wanted
     for port, says in listed.items():
@@ -118,7 +120,7 @@ def test_the_docstring_states_declared_units(name: str) -> None:
 
 @pytest.mark.parametrize("name", [n for n, cls in KINDS.items() if issubclass(cls, Part)])
 def test_every_parameter_has_a_meaning(name: str) -> None:
-    """The declaration has the meaning too: forms and the JSON Schema show it."""
+    """The declaration also has the meaning, which forms and the JSON Schema show."""
     silent = [p.name for p in parameters(KINDS[name]) if not p.meaning]
     assert not silent
 

@@ -1,4 +1,4 @@
-"""One place draws: matplotlib is imported below figures/ and in diagrams/, in one style."""
+"""Only figures/ and diagrams/ draw: they import matplotlib, in one style."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from deodar.figures import _style
 from tests.house.source import MODULES, SRC, module, tree
 
 DIAGRAMS = {"diagrams.paper", "diagrams.text"}
-"""Pictures of architectures: their shapes, and the widths of their names."""
+"""Modules for pictures of architectures: shapes, and widths of names."""
 
 
 def _for_types(path: Path) -> set[int]:
-    """Lines under `if TYPE_CHECKING`."""
+    """Return the lines under `if TYPE_CHECKING`."""
     blocks = [
         n for n in ast.walk(tree(path)) if isinstance(n, ast.If) and ast.unparse(n.test) == "TYPE_CHECKING"
     ]
@@ -43,8 +43,8 @@ def test_matplotlib_is_imported_where_figures_are_drawn(path: Path) -> None:
 
 
 def test_colours_are_named_only_in_the_style() -> None:
-    """A colour that a figure needs has a meaning, and a line in `Palette`."""
-    allowed = {"_style.py", "animation.py"}  # the video has a palette of its own, on the floor of the arena
+    """A colour of a figure has a meaning, and a line in `Palette`."""
+    allowed = {"_style.py", "animation.py"}  # the video has a palette of its own for the floor of the arena
     for path in sorted((SRC / "figures").glob("*.py")):
         texts = [
             n.value for n in ast.walk(tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str)

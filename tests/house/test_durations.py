@@ -1,4 +1,4 @@
-"""The marker `fast` follows from measured CPU time; programs compile quickly unless bits are judged."""
+"""The marker `fast` follows from measured CPU time; programs compile quickly unless tests judge bits."""
 
 from __future__ import annotations
 

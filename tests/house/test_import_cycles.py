@@ -1,4 +1,4 @@
-"""No module imports, however far round, a module that imports it: at the top, in functions and for types."""
+"""Imports have no cycles: at the top, in functions and for types."""
 
 from __future__ import annotations
 

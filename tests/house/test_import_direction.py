@@ -9,10 +9,10 @@ import pytest
 
 from tests.house.source import MODULES, SRC, imported, module, tree
 
-# The floors of ARCHITECTURE.md, from the ground up. Rooms of one floor do not see each other; a file sees its
-# own folder. `demos` and `runtime` are old names that only raise errors. `registry` stands below
-# `parameters`, which looks kinds up in it; `recording` below `session`, whose runs it labels; the root
-# package resolves its names lazily and stands above all, like `__main__`.
+# The floors of ARCHITECTURE.md, from the lowest. Packages of one floor do not import each other; a file may
+# import its own folder. `demos` and `runtime` are old names that only raise errors. `registry` is below
+# `parameters`, which looks up kinds in it; `recording` is below `session`, whose runs it labels; the root
+# package resolves its names lazily and is above all, like `__main__`.
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
@@ -43,8 +43,8 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
     )
 )
 
-# Only these look modules up by name while they run: the folder is the registry, the root is lazy, a user's
-# function is a name.
+# Only these modules import others by name at run time: the folder is the registry, the root is lazy, and
+# documents name functions of users.
 DYNAMIC = {"", "registry", "cli", "elements.function", "figures._panels", "importers.opening", "papers"}
 
 
@@ -60,7 +60,7 @@ def _floor(name: str) -> int:
 def test_imports_follow_the_levels_of_packages(path: Path) -> None:
     name = module(path)
     if not name:
-        return  # the root package: checked by the names it gives
+        return  # the root package is checked by its names
     wrong = []
     for line, other in imported(path):
         if not other:
@@ -97,7 +97,7 @@ def test_the_root_package_imports_no_other_package_at_import() -> None:
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
 def test_modules_are_named_where_they_are_imported(path: Path) -> None:
-    """A module that is imported through a string escapes the rule above: only the registries may do that."""
+    """An import through a string is not seen by the rule above, so only the registries may use one."""
     if module(path) in DYNAMIC:
         return
     calls = [n for n in ast.walk(tree(path)) if isinstance(n, ast.Call)]
@@ -111,7 +111,7 @@ def test_imports_are_absolute() -> None:
 
 
 def test_forbidden_imports_are_found(tmp_path: Path) -> None:
-    """The reader finds imports at the top, inside functions and those for types only."""
+    """The reader finds imports at the top, inside functions, and for types only."""
     bad = tmp_path / "bad.py"
     bad.write_text(
         "from typing import TYPE_CHECKING\nfrom deodar.model import edit\nif TYPE_CHECKING:\n    from"

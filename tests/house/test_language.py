@@ -1,4 +1,4 @@
-"""The prose of the manual, the code and the studio keeps to the words of `docs/words.toml`."""
+"""The prose of the manual, the code and the studio contains no phrase that `docs/words.toml` forbids."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def test_no_part_holds_more_phrases_than_known() -> None:
     if sum(now[p] for p in now if p.startswith("src/")) <= sum(
         known[p] for p in known if p.startswith("src/")
     ):
-        more -= moved  # a file that moved to another package took its phrases with it
+        more -= moved  # a file that moved to another package changes the counts of both
     hits = [str(hit) for hit in language.found() if language.part(hit.path) in more]
     assert not more, "\n".join([f"more phrases than docs/words.toml knows in {sorted(more)}:", *hits])
 

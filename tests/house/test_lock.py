@@ -1,4 +1,4 @@
-"""The lock file of Python holds every direct dependency, within its bounds and with hashes."""
+"""The lock file of Python contains every direct dependency, within its bounds and with hashes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TEXT = (ROOT / "requirements.lock").read_text(encoding="utf-8")
 
 
 def locked() -> dict[str, list[str]]:
-    """Versions by name; a package may have one for each Python."""
+    """Return versions by name; a package may have one for each Python."""
     found: dict[str, list[str]] = {}
     for name, version, _, _ in ENTRY.findall(TEXT):
         found.setdefault(canonicalize_name(name), []).append(version)
@@ -50,7 +50,7 @@ def test_the_lock_file_names_no_index() -> None:
 
 
 def test_the_lowest_versions_are_installed_as_the_project_states_them() -> None:
-    """What CI runs for lower bounds takes them from pyproject.toml, and every test that it names is there."""
+    """CI takes the lower bounds from pyproject.toml, and every test that it names exists."""
     script = (ROOT / ".ci" / "lowest").read_text(encoding="utf-8")
     assert "--resolution lowest-direct" in script
     tests = re.findall(r"tests/[\w/]+(?:\.py)?", script)

@@ -17,13 +17,13 @@ OTHERS = {
     "server.embodiment": "a file in a temporary folder",
     "batch.workers": "the board that processes map, in a temporary folder",
 }
-"""Modules that write by themselves, and why."""
+"""Modules that write files themselves, with the reason."""
 
 CALLS = {"fsync", "rename", "mkstemp", "NamedTemporaryFile", "write_text", "write_bytes"}
 
 
 def _writes(path: Path) -> Iterator[tuple[int, str]]:
-    """The line and name of each call that writes, renames or waits for the disk."""
+    """Yield the line and name of each call that writes, renames or waits for the disk."""
     for node in ast.walk(tree(path)):
         if not isinstance(node, ast.Call):
             continue
@@ -40,13 +40,13 @@ def _writes(path: Path) -> Iterator[tuple[int, str]]:
 
 
 def _is_path(function: ast.expr) -> bool:
-    """Whether a method is called on a name that says it is a path."""
+    """Return whether a method is called on a name of a path."""
     value = function.value if isinstance(function, ast.Attribute) else None
     return isinstance(value, ast.Name) and value.id in ("path", "old", "inner", "beside")
 
 
 def _mode(call: ast.Call) -> str:
-    """The mode that an `open` is given, "" where it is none or not written out."""
+    """Return the mode of a call of `open`, "" if it is missing or not a literal."""
     texts = [a.value for a in call.args if isinstance(a, ast.Constant) and isinstance(a.value, str)]
     texts += [
         k.value.value

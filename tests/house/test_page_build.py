@@ -1,6 +1,4 @@
-"""The page of the studio is built when its sources changed, from libraries that are pinned, and what fails
-says what to type.
-"""
+"""The page of the studio is built when its sources change, from pinned libraries; errors state the fix."""
 
 from __future__ import annotations
 
@@ -21,7 +19,7 @@ STUDIO = ROOT / "studio"
 
 @pytest.fixture(scope="module")
 def page() -> ModuleType:
-    """studio/build.py, which is in no package."""
+    """Import studio/build.py, which is in no package."""
     spec = importlib.util.spec_from_file_location("page_of_the_studio", STUDIO / "build.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -32,7 +30,7 @@ def page() -> ModuleType:
 
 @pytest.fixture
 def studio(tmp_path: Path) -> Path:
-    """A small folder of sources."""
+    """Make a small folder of sources."""
     for name in (
         "index.html",
         "package.json",
@@ -125,7 +123,9 @@ def test_without_node_the_error_states_what_to_type(
 
 
 def _npm(page: ModuleType, code: str) -> object:
-    """An npm that runs Python code: its words are in `sys.argv[1:]`, its folder is the working folder."""
+    """Replace npm by Python code, which finds its arguments in `sys.argv[1:]` and runs in the working
+    folder.
+    """
     return page.Node(sys.executable, (sys.executable, "-c", f"import sys, pathlib\n{code}"))
 
 
@@ -170,7 +170,7 @@ def test_the_lock_file_is_portable_and_complete() -> None:
     packages = {name: package for name, package in lock["packages"].items() if name}
     assert not [name for name, package in packages.items() if "resolved" in package]
     assert not [name for name, package in packages.items() if "integrity" not in package]
-    # builders for other machines than the one that wrote it
+    # builders for other machines than the one that wrote the lock file
     for machine in ("linux-x64-gnu", "linux-arm64-gnu", "darwin-arm64", "win32-x64-msvc"):
         assert f"node_modules/@rolldown/binding-{machine}" in packages
 

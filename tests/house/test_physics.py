@@ -19,7 +19,7 @@ FILES = [
     SRC / "element.py",
 ]
 ROOMS = ("deodar.compiler", "deodar.numerics.choice", "deodar.numerics.waves")
-"""What decides how kernels are applied."""
+"""Modules that decide how kernels are applied."""
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(SRC)))

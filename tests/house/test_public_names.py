@@ -1,6 +1,4 @@
-"""The names that scripts use: the root's list, frozen in a file, what importing them costs, and what old
-names say.
-"""
+"""Public names: the root's list and its snapshot, the cost of importing them, and errors of old names."""
 
 from __future__ import annotations
 
@@ -26,7 +24,7 @@ HEAVY = ["jax", "jaxlib", "numpy", "scipy", "xarray", "zarr", "matplotlib", "PIL
 
 
 def _loaded(code: str) -> set[str]:
-    """The heavy packages that a fresh process has imported after running `code`."""
+    """Return the heavy packages that a new process has imported after running `code`."""
     tail = f"\nimport sys, json; print('LOADED', json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
     done = subprocess.run([sys.executable, "-c", code + tail], capture_output=True, text=True, check=True)
     line = next(line for line in done.stdout.splitlines() if line.startswith("LOADED"))
@@ -52,9 +50,7 @@ def test_every_name_resolves_and_has_a_docstring(name: str) -> None:
 
 
 def test_the_stub_holds_one_line_for_each_name_and_nothing_else() -> None:
-    """The root reads its names from the stub line by line, so an import in another form would be seen by
-    editors only.
-    """
+    """The root reads its names from the stub line by line, so each import needs this form."""
     lines = [
         line
         for line in (SRC / "__init__.pyi").read_text(encoding="utf-8").splitlines()
@@ -253,7 +249,9 @@ def test_help_answers_without_jax_and_numpy() -> None:
 
 
 def test_a_document_is_read_and_checked_without_plots_or_records() -> None:
-    """Reading and checking is quick: xarray, Zarr and matplotlib wait until a record is made or drawn."""
+    """Reading and checking is quick, because xarray, Zarr and matplotlib are imported when a record is
+    made or drawn.
+    """
     code = (
         "import deodar as dd; m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=3)]));"
         " assert not m.check()"

@@ -29,7 +29,7 @@ def _kind(name: str) -> str:
 
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """An extension folder of the test's own, `deodar.annexe`, and a registry that forgets it afterwards."""
+    """Make an extension folder for the test, `deodar.annexe`, and restore the registry afterwards."""
     folder = tmp_path / "annexe"
     folder.mkdir()
     (folder / "__init__.py").write_text("")

@@ -1,5 +1,5 @@
-"""The shipped JSON Schema is the one the declarations give, and what we commit and write is valid under
-it.
+"""The shipped JSON Schema agrees with the declarations, and committed and written documents are valid
+under it.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ VALIDATOR = jsonschema.Draft202012Validator(SHIPPED)
 
 
 def _documents() -> list[Path]:
-    """Every committed JSON file that says it is a deodar document, without the documents of older versions
-    that tests/old_files opens.
+    """Return every committed JSON file that is a deodar document, without the older versions in
+    tests/old_files.
     """
     found = []
     for path in texts():

@@ -10,7 +10,7 @@ import pytest
 
 from tests.house.source import MODULES, ROOT, SRC, module, texts, tree
 
-# Written in pieces, so that this file does not hold what it looks for.
+# Written in pieces, so that this file does not contain the words that it finds.
 FORBIDDEN = {
     "unfinished work": [rf"\b{a}{b}\b" for a, b in [("TO", "DO"), ("FIX", "ME"), ("XX", "X")]],
 }
@@ -71,7 +71,7 @@ def _mutable(value: ast.expr | None) -> bool:
 
 
 def _state(path: Path) -> list[str]:
-    """Module-level names bound to something mutable, and names that functions declare global."""
+    """Return module-level names of mutable objects, and names that functions declare global."""
     found: list[str] = []
     for node in tree(path).body:
         targets = (
@@ -82,7 +82,7 @@ def _state(path: Path) -> list[str]:
             else []
         )
         for target in targets:
-            # constants of the theory and tables are written in capitals and never changed
+            # constants and tables are written in capitals and never changed
             if (
                 isinstance(target, ast.Name)
                 and _mutable(node.value)
@@ -97,7 +97,7 @@ def _state(path: Path) -> list[str]:
 
 
 def _written(path: Path) -> list[str]:
-    """Module-level names in capitals that a function changes after all."""
+    """Return module-level names in capitals that a function changes."""
     constants = {
         t.id
         for n in tree(path).body
@@ -188,7 +188,7 @@ def test_types_of_the_page_have_different_names() -> None:
         text = path.read_text(encoding="utf-8")
         for name in re.findall(r"^(?:export )?(?:type|interface|class) (\w+)", text, re.MULTILINE):
             declared.setdefault(name, set()).add(path.relative_to(ROOT).as_posix())
-    local = {"Props"}  # the properties of the one component of a file, never exported
+    local = {"Props"}  # the properties of the only component of a file are not exported
     assert not {name: files for name, files in declared.items() if len(files) > 1 and name not in local}
 
 

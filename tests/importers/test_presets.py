@@ -110,7 +110,7 @@ def one_field(**kernel):
     [
         (None, "reflect", True),
         ("zero", "periodic", True),
-        (None, "zero", False),  # what a line does without a word about it
+        (None, "zero", False),  # equal effects are not listed
         ("zero", ["zero"], False),
     ],
 )

@@ -1,4 +1,4 @@
-"""Descriptions of kinds hold all that a form, an equation and a plot need, also of kinds of packages."""
+"""Descriptions of kinds contain the data of forms, equations and plots, also for kinds of packages."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ INSIDE = [
 
 @pytest.fixture
 def outside() -> Iterator[None]:
-    """The registry as it is, and as it was afterwards."""
+    """Restore the registry after the test."""
     before = dict(registry._kinds)
     yield
     registry._kinds.clear()

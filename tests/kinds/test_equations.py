@@ -1,4 +1,4 @@
-"""Equations of docstrings: TeX, line by line, that the page and the manual can typeset."""
+"""Equations of docstrings: lines of TeX that the page and the manual can typeset."""
 
 from __future__ import annotations
 
@@ -19,13 +19,11 @@ COMMANDS = {
     "Delta",
 }
 # fmt: on
-"""All commands in use; KaTeX and MathML know each. View a new one before you add it here."""
+"""All commands in use; KaTeX and MathML support each. View a new one before you add it here."""
 
 
 def faults(line: str) -> list[str]:
-    """What is wrong with a line of TeX: braces and brackets that are not paired, commands that are not
-    known.
-    """
+    """Return the problems of a line of TeX: unpaired braces and brackets, unknown commands."""
     bare = re.sub(r"\\[\\{}_,!; ]", "", line)
     found: list[str] = []
     depth = 0

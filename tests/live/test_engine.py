@@ -1,4 +1,4 @@
-"""The engine: a session in a thread of its own, at a pace, read from outside."""
+"""The engine: a session in a thread of its own, paced by the wall clock and read from other threads."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def model() -> dd.Model:
 
 
 class Driven:
-    """An engine with a model, and ways to wait for it."""
+    """An engine with a model, and methods that wait for it."""
 
     def __init__(self) -> None:
         self.news = threading.Event()
@@ -114,7 +114,7 @@ def test_play_waits_for_a_session(driven: Driven) -> None:
 
 
 def test_real_time_and_slow_motion_follow_the_wall_clock(driven: Driven) -> None:
-    """At real time a second takes a second; the machine may be slow, so that only the upper side is sharp."""
+    """In real time a second of the model takes at least a second; a slow machine may take longer."""
     engine = driven.engine
     for speed in (1.0, 0.1):
         driven.do(lambda speed=speed: engine.pace.go(speed))
@@ -160,7 +160,7 @@ def test_traces_contain_times_and_values_and_are_cleared_by_a_reset(driven: Driv
         TraceRequest((driven.u, "activation"), "at", (50.0,))
     ]
     driven.do(lambda: engine.show([], requests))
-    # the program that samples is there
+    # the program that samples is compiled
     driven.until(
         lambda: all(request in engine.traces and engine.traces[request].count for request in requests)
     )
@@ -241,6 +241,6 @@ def test_a_machine_that_is_too_slow_does_not_pile_up_steps() -> None:
     session = dd.Session(model())
     pace = Pace()
     pace.go(1.0)
-    pace.took(session, 1, 1.0, 0.004)  # 4 ms a step, where 1 ms is asked for
+    pace.took(session, 1, 1.0, 0.004)  # 4 ms a step, and 1 ms is requested
     time.sleep(0.05)
     assert pace.due(session) <= pace.most() <= 3

@@ -1,4 +1,4 @@
-"""The bounds that elements state for checks hold what runs show."""
+"""The bounds that elements state for checks contain the values of runs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ STATED = [kind for kind in KINDS if type(example(kind)).bounds is not Element.bo
 
 
 def _inside(model: dd.Model, ports: list[str], duration: float = 60) -> float:
-    """How much of the widest interval was used, after every value was found inside its own."""
+    """Require every value inside its interval; return the used share of the widest one."""
     wiring = Wiring(model.document, resolve(model.document)[0])
     data = dd.simulate(model, duration, dt=1, record=ports, every=1, precision="float64")
     used = 0.0

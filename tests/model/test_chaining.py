@@ -1,4 +1,4 @@
-"""`a >> Gain(2) >> b`: sugar that names couplings after what they follow."""
+"""`a >> Gain(2) >> b`: couplings are named after the preceding element."""
 
 from __future__ import annotations
 

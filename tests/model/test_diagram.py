@@ -1,4 +1,4 @@
-"""`dd.draw`: what a picture of an architecture shows, and the files it is saved in."""
+"""`dd.draw`: the content of a picture of an architecture, and its files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Document parameters: one for many parameters."""
+"""Document parameters: one value for several parameters."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 @pytest.fixture
 def model() -> dd.Model:
-    """Two fields whose time constants, and a kernel width, are linked to one document parameter."""
+    """Return two fields whose time constants, and a kernel width, are linked to one document parameter."""
     model = dd.Model("m")
     model.add(dd.Field("u", [X], kernel=[dd.Gaussian(sigma=2)]))
     model.add(dd.Field("v", [X]))

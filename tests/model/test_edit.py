@@ -1,6 +1,4 @@
-"""Operations: undo and redo give the identical document back; ids survive what does not make a new
-element.
-"""
+"""Edits: undo and redo restore the identical document; ids persist unless an element is new."""
 
 from __future__ import annotations
 
@@ -18,7 +16,9 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 
 def make() -> dd.Model:
-    """A group with two connected fields, a stimulus outside, a document parameter that drives one tau."""
+    """Return a group with two connected fields, a stimulus outside, and a document parameter that drives
+    one tau.
+    """
     model = dd.Model("m")
     u = model.add(dd.Field("u", [X], kernel=[dd.Gaussian()]), group="g")
     v = model.add(dd.Field("v", [X]), group="g.inner")
@@ -156,7 +156,7 @@ def test_a_refused_edit_does_not_change_the_document(name: str) -> None:
     with pytest.raises(error) as caught:
         operation(model)
     assert str(caught.value)
-    while model.document is not before:  # a refusal after a first, good step: only that step is there
+    while model.document is not before:  # a refusal after a valid first edit: only that edit remains
         assert model.undo()
     assert model.document is before
 
@@ -217,7 +217,7 @@ def test_removing_an_element_removes_its_connections_and_links() -> None:
     model.remove("g.u")
     assert all(u.id not in (c.source, c.target) for c in model.document.connections)
     assert not model.document.links()
-    model.set("gain", 9)  # drives nothing now, and may have any value
+    model.set("gain", 9)  # it drives nothing now, and may have any value
     assert model.get("gain") == 9
 
 
@@ -250,7 +250,9 @@ def test_setting_the_same_value_is_a_change_of_the_history() -> None:
 
 
 def test_indices_of_a_document_are_extended_as_elements_are_added():
-    """Computed again for each element, thousands of names would take time with the square of their number."""
+    """If they were computed again for each element, the time would grow with the square of the number of
+    names.
+    """
     model, seen = dd.Model("many"), []
     for k in range(3):
         model.add(dd.Field(f"u{k}", []))

@@ -12,7 +12,9 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 
 def behaviour() -> dd.Model:
-    """An elementary behaviour: intention, condition of satisfaction, one document parameter for both."""
+    """Return an elementary behaviour: intention, condition of satisfaction, and one document parameter for
+    both.
+    """
     model = dd.Model("behaviour")
     intention = model.add(dd.Field("intention", [X]))
     satisfied = model.add(dd.Field("satisfied", [X]), group="end")

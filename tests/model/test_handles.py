@@ -1,4 +1,4 @@
-"""Handles as people try them: parameters are attributes, ports are items, and what is misspelt is refused."""
+"""Handles: parameters are attributes, ports are items, and misspelt names are refused."""
 
 from __future__ import annotations
 

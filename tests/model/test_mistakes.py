@@ -1,4 +1,4 @@
-"""A hundred silent mistakes: small documents that load, each with one thing that a person gets wrong."""
+"""A hundred silent mistakes: small documents that load, each with one mistake of a user."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ CASES = [
 
 
 def document(case: dict[str, Any]) -> Document:
-    """The document of a case; its arrays are lists in the case."""
+    """Return the document of a case; its arrays are lists in the case."""
     arrays = {name: FrozenArray(values) for name, values in case.get("arrays", {}).items()}
     return from_data(case["document"], arrays)
 

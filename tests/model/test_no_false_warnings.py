@@ -1,4 +1,4 @@
-"""What is right gets no warning: examples, templates, demonstrations, imported models.
+"""Valid models have no warnings: examples, templates, demonstrations, imported models.
 
 And a check compiles nothing.
 """
@@ -80,7 +80,7 @@ def test_single_fields_of_the_benchmarks_get_no_warning(name: str) -> None:
 
 @pytest.fixture
 def compiled(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Any]]:
-    """What JAX is asked to compile."""
+    """Collect the programs that JAX compiles."""
     seen: list[Any] = []
     real = jax._src.compiler.backend_compile_and_load  # type: ignore[attr-defined]
 

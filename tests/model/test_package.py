@@ -1,4 +1,4 @@
-"""A document and its arrays in one file: read back as they were, and never more than a document."""
+"""A document and its arrays in one file: they are read unchanged, and other content is refused."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ X = dd.Axis("x", 0, 10, samples=11)
 
 
 def model(arrays: bool = True) -> dd.Model:
-    """A small model, with an array or without."""
+    """Return a small model, with an array or without."""
     made = dd.Model("packed")
     made.add(dd.Field("u", [X]))
     if arrays:
@@ -60,14 +60,14 @@ def test_a_package_is_recognised_by_its_content(tmp_path: Path) -> None:
 
 
 def parts() -> dict[str, bytes]:
-    """What a good package holds."""
+    """Return the entries of a valid package."""
     text, packed = files.dumps(model().document, "a")
     assert packed is not None
     return {"a.json": text.encode(), json.loads(text)["arrays"]["file"]: packed}
 
 
 def archive(path: Path, entries: Mapping[str, bytes] | list[tuple[str, bytes]]) -> Path:
-    """A zip file of these entries."""
+    """Write a zip file of these entries."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as z:
         for name, content in entries.items() if isinstance(entries, Mapping) else entries:
             z.writestr(name, content)
@@ -75,7 +75,7 @@ def archive(path: Path, entries: Mapping[str, bytes] | list[tuple[str, bytes]]) 
 
 
 def longer(path: Path) -> Path:
-    """Its table of contents understates the size of the document."""
+    """Write a package whose table of contents understates the size of the document."""
     archive(path, {"a.json": b" " * 5000 + b"{}"})
     content = bytearray(path.read_bytes())
     at = content.rindex(b"PK\x01\x02") + 24

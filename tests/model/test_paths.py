@@ -1,4 +1,4 @@
-"""Names may be any text; paths reach them, and files keep them."""
+"""Names may be any text; paths address them, and files preserve them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`check` lists everything that is wrong, at once, each with its path and the line that declared it."""
+"""`check` lists all problems at once, each with its path and the line that declared it."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ UNIT = dd.Axis("y", 0, 1, samples=3)
 def test_the_fix_for_different_axes_keeps_the_positions_of_the_source(
     source: list[dd.Axis], target: list[dd.Axis], coupling: str
 ) -> None:
-    """Two places of the source give two different inputs of the target."""
+    """Two positions of the source give two different inputs of the target."""
     seen: list[np.ndarray] = []
     for center in (3, 7):
         model = dd.Model("m")
@@ -291,7 +291,7 @@ def test_a_product_of_fields_over_different_axes_is_a_problem() -> None:
 
 
 def test_problems_of_a_source_are_not_repeated() -> None:
-    """A coupling whose source is wrong adds no problem of its own: one cause, one line."""
+    """A coupling with an invalid source adds no problem of its own: one cause is one line."""
     model = dd.Model("m")
     loose = model.add(dd.Gain(1, name="loose"))
     loose >> dd.Gain(2, name="after") >> model.add(dd.Field("u", [X]))
@@ -299,7 +299,7 @@ def test_problems_of_a_source_are_not_repeated() -> None:
 
 
 def test_the_suggested_coupling_removes_the_problem() -> None:
-    """Whatever does not fit: every coupling that is named, taken at its word, compiles."""
+    """For all axes that do not fit, each suggested coupling compiles."""
     x, y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 10, samples=6, unit="deg")
     hue, far = dd.Axis("hue", 0, 360, samples=12, periodic=True), dd.Axis("x", 0, 20, samples=11)
     names = {"dd": dd, "Project": dd.Project, "Resample": Resample, "Weights": Weights}

@@ -1,4 +1,4 @@
-"""Groups that stay linked to a template: a change in it reaches every use, and what is around them stays."""
+"""Groups that stay linked to a template: a change of it changes every use, and nothing around them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from deodar.model.check import problems
 
 
 def template() -> dd.Model:
-    """Two nodes and a coupling, one document parameter."""
+    """Return two nodes, a coupling and one document parameter."""
     model = dd.Model("switch")
     a, b = model.add(dd.Field("a", [], resting_level=-2)), model.add(dd.Field("b", []))
     a >> model.add(dd.Gain(2, name="drives")) >> b
@@ -24,7 +24,7 @@ def template() -> dd.Model:
 
 
 def host() -> dd.Model:
-    """Two uses, one copy, and something around them."""
+    """Return a model with two uses, one copy, and elements around them."""
     model = dd.Model("host")
     for name in ("left", "right"):
         model.insert(template(), name, link=True)

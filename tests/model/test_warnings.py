@@ -1,4 +1,4 @@
-"""A warning says what is probably a mistake; it never stops a run."""
+"""A warning states a probable mistake; it never stops a run."""
 
 from __future__ import annotations
 

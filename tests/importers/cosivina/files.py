@@ -13,7 +13,7 @@ SAMPLES = sorted(HERE.glob("*.json"))
 
 
 def element(label: str, kind: str, param: dict[str, Any], inputs: Any = None) -> dict[str, Any]:
-    """One entry of the list; inputs as (label, component)."""
+    """Return one entry of the list of elements; inputs are (label, component)."""
     given = inputs
     if isinstance(inputs, list):
         given = [{"label": a, "component": b} for a, b in inputs]
@@ -28,7 +28,7 @@ def element(label: str, kind: str, param: dict[str, Any], inputs: Any = None) ->
 
 
 def text(elements: list[dict[str, Any]], dt: float = 1, t0: float = 0) -> str:
-    """The file."""
+    """Return the text of a file."""
     labels = [e["label"] for e in elements]
     body = {
         "deltaT": dt,
@@ -43,7 +43,7 @@ def text(elements: list[dict[str, Any]], dt: float = 1, t0: float = 0) -> str:
 def written(
     folder: Path, elements: list[dict[str, Any]], dt: float = 1, t0: float = 0, name: str = "simulator.json"
 ) -> Path:
-    """The file, in a folder."""
+    """Write the file into a folder."""
     path = folder / name
     path.write_text(text(elements, dt, t0))
     return path

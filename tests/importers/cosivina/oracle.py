@@ -1,7 +1,7 @@
-"""A simulator in the manner of cosivina, in plain NumPy: elements in the order of a list, in place, with the
-time counted first.
+"""A simulator with the semantics of cosivina, in plain NumPy: elements are computed in place, in the order of
+a list, after the time has advanced.
 
-Written from a description of its semantics; nothing of deodar is used.
+Written from a description of the semantics; it uses nothing of deodar.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import numpy as np
 
 
 def gauss(x, sigma, length=None):
-    """The bell, on a ring by the shorter way; a width of 0 is one sample."""
+    """Return a Gaussian, on a ring over the shorter distance; a width of 0 is one sample."""
     d = np.abs(x) if length is None else np.minimum(np.mod(x, length), length - np.mod(x, length))
     return (d == 0).astype(float) if sigma == 0 else np.exp(-0.5 * (d / sigma) ** 2)
 
 
 def line(n, sigma, circular, normalized, reach):
-    """The matrix of a kernel over one dimension, cut off at `reach` samples."""
+    """Return the matrix of a kernel over one dimension, truncated at `reach` samples."""
     if n == 1:
         return np.ones((1, 1))
     if circular:
@@ -38,12 +38,12 @@ def line(n, sigma, circular, normalized, reach):
 
 
 def on(times, t):
-    """Whether t lies in a closed period."""
+    """Return whether t lies in a closed period."""
     return any(a <= t <= b for a, b in times)
 
 
 class Sim:
-    """Elements given as (label, class, parameters, inputs), inputs as (label, component)."""
+    """A simulator of elements (label, class, parameters, inputs); inputs are (label, component)."""
 
     def __init__(self, elements, dt=1.0, t0=0.0):
         self.elements, self.dt, self.t = elements, dt, t0
@@ -99,7 +99,8 @@ class Sim:
                 return {"state": np.broadcast_to(np.array(p["initialState"], float), size)}
             case "CustomStimulusSequence":
                 return {"output": np.zeros(p["stimulusSize"])}
-            case "ScalarToGaussian":  # cosivina leaves the place empty, which nothing can be computed with
+            # cosivina leaves the position empty, so that nothing can be computed from it
+            case "ScalarToGaussian":
                 return {"output": np.zeros(size), "position": np.zeros((1, 1))}
             case "HebbianConnection":
                 pre, post = (self.sizes[name] for name, _ in inputs[:2])
@@ -279,7 +280,7 @@ class Sim:
                 w, pre, post = self.memory[label], np.ravel(x[0]), np.ravel(x[1])
                 rewarded = len(x) < 3 or x[2].item() > 0.9
                 if rewarded:
-                    # the default, which cosivina does not call instar
+                    # the default rule; cosivina does not call it instar
                     change = (pre[:, None] - w) * post[None, :]
                     self.memory[label] = w + dt * p["learningRate"] * change
                 return {"output": (pre @ w).reshape(x[1].shape)}

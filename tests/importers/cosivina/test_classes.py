@@ -1,4 +1,4 @@
-"""Every class that is translated, in every place of the list, against the plain simulator."""
+"""Every translated class, at every position in the list, against the plain simulator."""
 
 from __future__ import annotations
 
@@ -364,11 +364,11 @@ DRIVE = [
     ("long", "NeuralField", {**FIELD, "size": [1, 2 * N - 1]}, [("n", "output"), ("long bell", "output")]),
     ("long bell", "GaussStimulus1D", {**BELL, "size": [1, 2 * N - 1]}, []),
 ]
-"""What drives the cases, with some of them in loops."""
+"""Sources of the cases, with some of them in loops."""
 
 
 def everything(seed):
-    """All cases in one file, each with a field that reads it, in an order of its own."""
+    """Return all cases in one file, each with a field that reads it, in random order."""
     parts = list(DRIVE)
     for name, (kind, p, inputs, size, *component) in CASES.items():
         parts.append((name, kind, p, inputs))
@@ -497,7 +497,7 @@ ALL = NAMES.split()
 
 
 def test_every_class_of_cosivina_is_translated_or_names_what_is_missing(tmp_path):
-    """All in one file, with no more than a size: what is not there has cosivina's own defaults."""
+    """All classes in one file, with a size alone; other parameters have the defaults of cosivina."""
     assert len(ALL) == 58 and set(ALL) == set(CLASSES) | set(MISSING)
     parts = [element(f"a {kind}", kind, {"size": [1, 1]}, [("u", "output")]) for kind in ALL]
     done = read(written(tmp_path, [element("u", "NeuralField", {"size": [1, 1]}), *parts]))
@@ -506,7 +506,7 @@ def test_every_class_of_cosivina_is_translated_or_names_what_is_missing(tmp_path
     for kind in MISSING:
         assert verdicts[kind] == ("dropped", f"Placeholder: {MISSING[kind]}")
     lost = {kind for kind in CLASSES if verdicts[kind][0] != "carried"}
-    # patterns, weights, times must be
+    # patterns, weights and times must be given
     given = {"CustomStimulus", "TimedCustomStimulus", "CustomStimulusSequence", "WeightMatrix", "History"}
     # no peak on one sample; learning needs two inputs
     assert lost == given | {"ScalarToGaussian", "HebbianConnection"}

@@ -1,5 +1,5 @@
-"""Components that scripts and plots of cosivina ask for by name: each is read here, or the report says that
-it is not.
+"""Components that scripts and plots of cosivina name: each is readable, or the report states that it is
+not.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ SUMS = ("horizontalSum", "verticalSum", "fullSum")
 
 
 def told(report, label):
-    """What the report says of each component of an element."""
+    """Return the report's entries about the components of an element."""
     return {line.what: line.why for line in report.lines if line.where == label and line.part == "component"}
 
 

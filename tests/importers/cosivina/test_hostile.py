@@ -1,4 +1,4 @@
-"""Broken and hostile files: one clear error or a report, never anything else."""
+"""Broken and hostile files: one clear error or a report, and no other outcome."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
 
 
 def tried(content: bytes | str) -> Imported | None:
-    """The file read, or its one error; anything else fails the test.
+    """Read a file; return None after its one error. Any other outcome fails the test.
 
-    A model that says it is good compiles nothing here, but is complete.
+    The model is checked, not compiled.
     """
     data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
     tool = tools()["cosivina"]
@@ -164,7 +164,7 @@ def test_a_label_that_occurs_twice_is_numbered(tmp_path):
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_loops_without_a_state_run(count, tmp_path):
-    """A ring of couplings, or one that reads itself: what cosivina computes one step later."""
+    """A ring of couplings, or one that reads itself, is computed one step later by cosivina."""
     ring = [
         element(
             f"s{k}", "ScaleInput", {"size": [1, 3], "amplitude": 0.5}, [(f"s{(k + 1) % count}", "output")]

@@ -23,11 +23,11 @@ FIELD = {"size": [1, 5], "tau": 10, "h": -5, "beta": 4}
 BELL = {"size": [1, 5], "sigma": 1, "amplitude": 1, "position": 3, "circular": 1, "normalized": 0}
 SMALL, LARGE = 300, 3000
 MOST = 12.0
-"""Ten times the size may take ten times the work, and a little more for what grows with its logarithm."""
+"""Largest ratio of work for ten times the size: ten, and some more for work that grows with its logarithm."""
 
 
 def lines(action: Callable[[], Any]) -> int:
-    """How many lines of the package an action executes."""
+    """Return how many lines of the package an action executes."""
     count = 0
 
     def line(frame: FrameType, event: str, _: Any) -> Any:
@@ -48,7 +48,7 @@ def lines(action: Callable[[], Any]) -> int:
 
 
 def from_stimuli(n: int) -> list[dict[str, Any]]:
-    """One field that reads many stimuli, each several times."""
+    """Return one field that reads many stimuli, each several times."""
     sources = [element(f"s{k}", "GaussStimulus1D", BELL) for k in range(n // 5)]
     return [
         *sources,
@@ -57,12 +57,12 @@ def from_stimuli(n: int) -> list[dict[str, Any]]:
 
 
 def from_one(n: int) -> list[dict[str, Any]]:
-    """One field that reads one stimulus many times."""
+    """Return one field that reads one stimulus many times."""
     return [element("s", "GaussStimulus1D", BELL), element("u", "NeuralField", FIELD, [("s", "output")] * n)]
 
 
 def from_later_couplings(n: int) -> list[dict[str, Any]]:
-    """One field that reads couplings which are computed after it, all from one node."""
+    """Return one field that reads couplings of one node that are computed after it."""
     scaled = [
         element(f"k{k}", "ScaleInput", {"size": [1, 1], "amplitude": 1}, [("n", "output")])
         for k in range(n // 5)

@@ -19,7 +19,7 @@ ENDS = {"circularY": 1, "circularX": 0, "circularZ": 1, "normalized": 1, "cutoff
 
 
 def shown(folder, kind, param, pattern, bugs=False, component="output"):
-    """What a pattern becomes."""
+    """Return the output for a pattern."""
     pattern = np.asarray(pattern, float)
     size = list(pattern.shape)
     flat = {

@@ -1,4 +1,4 @@
-"""Random models, with loops of every kind in an order of no meaning, against the plain simulator."""
+"""Random models, with all kinds of loops in random order, against the plain simulator."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PLANE_KERNEL = {"circularX": 0, "circularY": 1, "normalized": 1, "cutoffFactor":
 GLOBAL = {"amplitudeExc": 0.5, "amplitudeInh": 0.2, "amplitudeGlobal": -0.03}
 SUMS = {"horizontalSum": SHORT, "verticalSum": ROW, "fullSum": ONE}
 
-# class, parameters, sizes it may have (None: any), what it gives besides its output
+# class, parameters, possible sizes (None: any), components besides its output
 KINDS: list[tuple[str, dict[str, Any], list[list[int]] | None, dict[str, list[int]]]] = [
     ("NeuralField", {"tau": 3, "h": -1, "beta": 4}, None, {}),
     ("NeuralField", {"tau": 8, "h": 0.5, "beta": 1}, None, {}),
@@ -54,7 +54,9 @@ EXACT = {"SumDimension": PLANE, "ExpandDimension2D": ROW, "Transpose": SHORT}
 
 
 def model(seed: int, count: int) -> list[tuple[str, str, dict[str, Any], list[tuple[str, str]]]]:
-    """Elements of random kinds and sizes; each reads what fits, at any position in the list."""
+    """Return elements of random kinds and sizes; each reads elements that fit, at any position in the
+    list.
+    """
     rng = random.Random(seed)
     chosen = [(f"e{k}", rng.choice(KINDS)) for k in range(count)]
     sizes = {

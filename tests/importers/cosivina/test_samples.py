@@ -1,4 +1,4 @@
-"""Published files run as they do in cosivina: the noise-free activations of every field, step by step."""
+"""Published files give the same noise-free activations as in cosivina, for every field and step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Elements that store what they read: empty rows are NaN as in cosivina, unless elements read them."""
+"""Elements that store their input: empty rows are NaN as in cosivina, unless elements read them."""
 
 from __future__ import annotations
 
