@@ -1,4 +1,4 @@
-"""Axes: samples, steps, and what is refused."""
+"""Axes: samples, steps and errors."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_shape_cell_and_description_of_axes_are_correct():
 
 def test_axes_fit_if_bounds_unit_and_periodicity_are_equal():
     axis = Axis("x", 0, 100, 101, unit="deg")
-    assert axis.fits(Axis("y", 0, 100 + 1e-8, 7, unit="deg"))  # names and samples are the connection's matter
+    assert axis.fits(Axis("y", 0, 100 + 1e-8, 7, unit="deg"))  # connections compare names and samples
     assert not axis.fits(Axis("x", 0, 100 + 1e-6, 101, unit="deg"))
     assert not axis.fits(Axis("x", 0, 100, 101))
     assert not axis.fits(Axis("x", 0, 100, 101, periodic=True, unit="deg"))

@@ -1,4 +1,4 @@
-"""The matrices that correlate noise, without chance: their covariance is F F^T."""
+"""The matrices that correlate noise, without random numbers: their covariance is F F^T."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Kernels: integrals, narrow and wide ones, boundaries that keep what they should."""
+"""Kernels: integrals, narrow and wide kernels, and boundaries."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def convolved(kernel, axes, y):
 
 
 def integral(kernel, axes, boundary=None):
-    """Integral of the kernel: what a field of ones gives far from every border."""
+    """Return the integral of a kernel: its convolution with ones, far from every border."""
     n = tuple(a.samples for a in axes)
     y = np.zeros(n)
     y[tuple(k // 2 for k in n)] = 1.0
@@ -115,7 +115,7 @@ KERNELS = [
     "kernel", KERNELS, ids=lambda k: f"{type(k).__name__} {getattr(k, 'sigma', getattr(k, 'width', ''))}"
 )
 def test_the_boundary_reflect_keeps_integrals_and_constants(kernel):
-    """What leaves at a border comes back: integrals are kept, and a homogeneous field stays homogeneous."""
+    """A reflecting border keeps integrals, and a homogeneous field stays homogeneous."""
     y = np.random.default_rng(2).random(161)
     assert convolved(kernel, (LINE,), y).sum() == pytest.approx(y.sum(), rel=1e-12)
     np.testing.assert_allclose(convolved(kernel, (LINE,), np.ones(161)), 1.0, rtol=1e-12)
@@ -136,7 +136,7 @@ def test_a_shifted_kernel_acts_at_x_plus_shift():
 
 
 def test_resolution_does_not_change_a_kernel():
-    """The same kernel on a grid twice as fine gives the same integral at the same places."""
+    """The same kernel on a grid of half the step gives the same integral at the same positions."""
     for kernel in (Gaussian(1.0, 1.5), Box(1.0, 3.0), MexicanHat(2, 1, 1, 2)):
         seen = []
         for n in (81, 161):

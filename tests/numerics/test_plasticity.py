@@ -1,4 +1,4 @@
-"""Reading and changing weights: one copy by its active rows, batches as wholes, batches of batches: always
+"""Reading and changing weights: one copy by its active rows, whole batches and batches of batches follow
 the same rule.
 """
 
@@ -17,7 +17,7 @@ RNG = np.random.default_rng(5)
 
 
 def active(*shape):
-    """Half of the places are silent."""
+    """Return an activation with half of the positions silent."""
     return np.maximum(RNG.standard_normal(shape), 0).astype(np.float32)
 
 

@@ -1,4 +1,4 @@
-"""Between grids: interpolation, and the reductions over axes."""
+"""Resampling between grids: interpolation, and reductions over axes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_resampling_to_the_same_grid_keeps_the_samples(axis, how):
 @pytest.mark.parametrize("dtype", [jnp.float32, jnp.float64])
 @pytest.mark.parametrize("samples", [3, 7, 100, 641])
 def test_the_last_sample_is_within_reach_of_any_sampling(samples, dtype):
-    """Rounding never takes the last sample of an axis out of the other's reach."""
+    """Rounding never moves the last sample of an axis beyond the other axis."""
     fine = Axis("x", 0.1, 0.7, samples)
     for how in resampling.INTERPOLATIONS:
         np.testing.assert_allclose(
@@ -56,8 +56,8 @@ def test_nearest_takes_the_upper_of_two_equidistant_samples():
 
 
 def test_values_beyond_the_ends_are_zero():
-    """Zeros follow the last sample: linear weights fall to nothing within one cell, the nearest within half
-    of one.
+    """Zeros follow the last sample: linear weights fall to zero within one cell, nearest weights within
+    half a cell.
     """
     assert not weights(LINE, [-1, 11, 400]).any()
     assert weights(LINE, [-0.25])[0, 0] == 0.75

@@ -53,7 +53,7 @@ def test_the_logistic_is_relatively_exact_far_below_the_threshold():
 
 
 def exact_mean(g: SigmoidFunction, a: float, b: float) -> float:
-    """The mean by adaptive integration, in parts that meet at the threshold."""
+    """Return the mean by adaptive integration, in parts that meet at the threshold."""
 
     def f(u: float) -> float:
         with jax.enable_x64(True):

@@ -1,4 +1,4 @@
-"""The integers behind the noise: known answers, the mapping from ids and ticks, the normal deviates."""
+"""The integers of the noise: known answers, the mapping from ids and ticks, and the normal deviates."""
 
 from __future__ import annotations
 

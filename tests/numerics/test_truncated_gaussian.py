@@ -1,4 +1,4 @@
-"""Kernels that end: what they reach, what they sum to, what they do in a field."""
+"""Truncated kernels: their reach, their sums, and their effect in a field."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LINE, RING, EVEN = (
 
 
 def response(kernel, axis, at=5, precision="float64"):
-    """What a single sample becomes."""
+    """Return the response to a single sample."""
     model = dd.Model("response")
     values = np.zeros(axis.samples)
     values[at] = 1.0

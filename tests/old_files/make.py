@@ -1,14 +1,14 @@
-"""How the files of `version_1` and `version_2` were made: by deodar at the last commit that wrote documents
-of that version.
+"""The script that made the files of `version_1` and `version_2`, with deodar at the last commit that wrote
+documents of that version.
 
     git worktree add --detach OLD 792e504
     PYTHONPATH=OLD/src python tests/old_files/make.py 1 FOLDER
     git -C OLD checkout 85a2d0c
     PYTHONPATH=OLD/src python tests/old_files/make.py 2 FOLDER
 
-They are kept as those versions wrote them, with one exception: `axis` is taken out of the peak position in
-`version_1/choice.json`. Version 1 read documents that left it out, and always wrote it: the other files,
-which are made of this document, state the axis.
+The files are as those versions wrote them, with one exception: `axis` was removed from the peak position in
+`version_1/choice.json`. Version 1 could read documents without it, but always wrote it, so the other files of
+this document state the axis.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from deodar.server.state_store import StateStore
 
 
 def choice(version: int) -> dd.Model:
-    """A field that an input brings to a peak, the place of the peak, and weights (an array) onto two nodes;
-    the input moves in version 2.
+    """Return a field in which an input creates a peak, the position of the peak, and weights (an array)
+    onto two nodes; the input moves in version 2.
     """
     x = dd.Axis("x", 0, 20, 21)
     two = dd.Axis("two", 0, 1, 2)
@@ -45,7 +45,7 @@ def choice(version: int) -> dd.Model:
     if version == 1:
         model.add(dd.GaussianStimulus("input", [x], center=8, sigma=2, amplitude=7, windows=[(10, 60)])) >> u
     else:
-        moving = {"path": [[0, 8], [40, 12]]}  # the name that versions 1 and 2 have for `waypoints`
+        moving = {"path": [[0, 8], [40, 12]]}  # the name of `waypoints` in versions 1 and 2
         model.add(MovingGaussian("input", [x], sigma=2, amplitude=7, windows=[(10, 60)], **moving)) >> u
     u >> model.add(PeakPosition(x, name="place"))
     weights = [[round(0.1 * ((3 * i + j) % 7), 1) for i in range(21)] for j in range(2)]

@@ -1,6 +1,4 @@
-"""Files that deodar wrote when documents had version 1 or 2 open, run and resume; `make.py` says how they
-were made.
-"""
+"""Files of deodar from document versions 1 and 2 open, run and resume; `make.py` made them."""
 
 from __future__ import annotations
 
@@ -24,20 +22,18 @@ OLD = Path(__file__).parent / "version_1"
 X = dd.Axis("x", 0, 20, samples=21)
 
 both = pytest.mark.parametrize("old", [OLD, OLD.with_name("version_2")], ids=lambda path: path.name)
-"""A test of the files of both versions; the others are of those of version 1."""
+"""A test of the files of both versions; other tests use those of version 1."""
 
 
 def migrated(model: dd.Model, old: Path) -> bool:
-    """Whether a model has what its version did not have under this name: the axis of the place, the waypoints
-    of the input.
-    """
+    """Return whether a migrated model has the axis of the position and the waypoints of the input."""
     if old.name == "version_1":
         return model["place"].element.axis == X  # type: ignore[attr-defined]
     return np.array_equal(model["input"].element.waypoints.data, [[0, 8], [40, 12]])  # type: ignore[attr-defined]
 
 
 def written(model: dd.Model, folder: Path) -> dict[str, bytes]:
-    """The files of a model that is saved now."""
+    """Return the files of a model that is saved now."""
     folder.mkdir()
     dd.save(model, folder / "model.json")
     return {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -45,15 +41,13 @@ def written(model: dd.Model, folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture
 def old() -> Path:
-    """The files of version 1, where a test does not name both."""
+    """Return the files of version 1, for tests that do not use both."""
     return OLD
 
 
 @pytest.fixture
 def stopped(old: Path, tmp_path: Path) -> Path:
-    """A copy of the folder of an experiment that was stopped, as if it had been begun on this machine with
-    these libraries.
-    """
+    """Copy the folder of a stopped experiment, as if it had begun on this machine with these libraries."""
     folder = tmp_path / "stopped"
     shutil.copytree(old / "stopped", folder)
     first, *others = (folder / "trials.jsonl").read_text().split("\n")
@@ -160,9 +154,7 @@ def test_a_folder_of_another_model_is_still_refused(stopped: Path) -> None:
 
 
 def test_a_folder_whose_document_was_changed_is_still_refused(stopped: Path) -> None:
-    """What the rows were made with is the document whose digest they hold, not what has been written over
-    it.
-    """
+    """Rows belong to the document whose digest they state, not to one that was written over it."""
     document = stopped / "model.json"
     document.write_text(document.read_text().replace('"tau": 10.0', '"tau": 11.0', 1))
     model = dd.load(document)

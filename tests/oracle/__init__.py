@@ -1,6 +1,5 @@
-"""A plain NumPy reference of the equations, written for being read: loops over time, direct sums over all
-pairs of samples.
+"""A readable NumPy reference of the equations: loops over time, direct sums over all pairs of samples.
 
-It shares no code with the engine. It reads parameters from deodar's parts (they are plain data) and computes
-in float64.
+It shares no code with the engine. It reads the parameters of deodar's kinds, which are plain data, and
+computes in float64.
 """

@@ -1,4 +1,4 @@
-"""Couplings as plain functions of an array, place by place."""
+"""Couplings as plain functions of arrays, position by position."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from tests.oracle.kernels import each, grid
 
 
 def interpolated(y, axis, points, d, how="linear"):
-    """Values of y at other points of axis d; zeros follow the last sample where the axis is not periodic."""
+    """Return the values of y at other points of axis d; zeros follow the last sample if the axis is not
+    periodic.
+    """
     step = grid(axis)[1]
     y = np.moveaxis(y, d, 0)
 
@@ -72,7 +74,7 @@ def project(y, source, p):
 
 
 def weights(y, source, target, w):
-    """The sum over all places of the source, times the volume of a cell."""
+    """Return the weighted sum over all positions of the source, times the volume of a cell."""
     out = np.zeros(tuple(a.samples for a in target))
     for place in np.ndindex(*out.shape):
         out[place] = (w[place] * y).sum() * math.prod(grid(a)[1] for a in source)
@@ -84,7 +86,7 @@ def threshold(y, level):
 
 
 def peak_position(f, p):
-    """Position and strength."""
+    """Return position and strength."""
     x, step = grid(p.axis)
     n = f.sum() * step
     if n <= p.least:
@@ -122,12 +124,12 @@ def color_space(picture, source, p):
 
 
 def _members(fine, coarse):
-    """For each coarse cell its fine samples; one without any takes the nearest."""
+    """Return the fine samples of each coarse cell, or the nearest sample if a cell has none."""
     x, (y, step) = grid(fine)[0], grid(coarse)
     out = []
     for place in y:
         inside = [i for i, xi in enumerate(x) if -0.5 <= round((xi - place) / step, 12) < 0.5]
-        # the upper of two equally near
+        # the upper of two samples at the same distance
         nearest = max(range(len(x)), key=lambda i: (-round(abs(x[i] - place), 12), i))
         out.append(inside or [nearest])
     return out

@@ -41,7 +41,7 @@ def antiderivative(g, u):
 
 
 def mean(g, a, b):
-    """The mean of g between a and b."""
+    """Return the mean of g between a and b."""
     return (
         float(sigmoid(g, 0.5 * (a + b)))
         if abs(b - a) < 1e-7
@@ -50,8 +50,8 @@ def mean(g, a, b):
 
 
 def beside(u, place, d, away, axis):
-    """The sample `away` samples from a place along axis d; beyond an end a straight line through the last
-    two.
+    """Return the value `away` samples from a position along axis d; beyond an end, extrapolate linearly
+    from the last two.
     """
     i, n = place[d] + away, axis.samples
 
@@ -64,8 +64,9 @@ def beside(u, place, d, away, axis):
 
 
 def cell_means(g, u, axes):
-    """On a line weights 1, 3, 3, 1 for the halves of both neighbouring intervals, whose ends differ by what
-    the rule's differences D give; beyond one axis the range of one sample along the steepest axis.
+    """Return the mean of g over cells: on a line with weights 1, 3, 3, 1 for the halves of both
+    neighbouring intervals, whose ends follow from the differences D of the rule; over more axes the range
+    of one sample along the steepest axis.
     """
     out = np.zeros(u.shape)
     for place in np.ndindex(*u.shape):
@@ -124,7 +125,7 @@ class Field:
 
 
 def run(field, stimulus, steps, dt, many=12):
-    """Activation at 0, dt, 2 dt, ...: `stimulus(k)` is the input during step k."""
+    """Return the activation at 0, dt, 2 dt, ...; `stimulus(k)` is the input during step k."""
     f = Field(field, many)
     seen = [f.u]
     for k in range(steps):
@@ -134,7 +135,7 @@ def run(field, stimulus, steps, dt, many=12):
 
 
 def stimulus(s, time):
-    """A stimulus of deodar at a time."""
+    """Return the values of a stimulus at a time."""
     shape = tuple(a.samples for a in s.axes)
     on = not s.windows or any(w.start <= time + 1e-9 and time < w.stop - 1e-9 for w in s.windows)
     out = np.zeros(shape)
@@ -156,7 +157,7 @@ def stimulus(s, time):
 
 
 def attractor(a, phi, f, dt):
-    """One step of a motor variable."""
+    """Advance a motor variable by one step."""
     x, step = grid(a.axis)
     if a.axis.periodic:
         period = a.axis.upper - a.axis.lower

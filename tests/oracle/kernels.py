@@ -1,5 +1,5 @@
-"""Interaction kernels as direct sums: one weight for every pair of samples, images of the source written
-out.
+"""Interaction kernels as direct sums: one weight for every pair of samples, with explicit images of the
+source.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 
 def each(value, d):
-    """The value for axis d, where one number stands for all."""
+    """Return the value for axis d; one number is that of all axes."""
     return value[d] if isinstance(value, tuple) else value
 
 
@@ -23,9 +23,10 @@ def gaussian(lags, steps, amplitude, sigma, normalized):
         weight = weight * np.exp(-(lag**2) / (2 * s**2))
         reach = math.ceil(12 * s / step) + 1
         summed = step * sum(math.exp(-((k * step) ** 2) / (2 * s**2)) for k in range(-reach, reach + 1))
-        if normalized:  # the integral, as the grid sees it: the sum over an endless grid times its step
+        if normalized:  # the integral on the grid: the sum over an infinite grid times its step
             weight = weight / summed
-        elif s < step:  # the grid does not resolve it: the integral is kept, not the value at the centre
+        # the grid does not resolve the kernel: its integral is kept, not its value at the centre
+        elif s < step:
             weight = weight * math.sqrt(2 * math.pi) * s / summed
     return weight
 
@@ -47,7 +48,7 @@ def custom(lags, steps, kernel):
     places = np.stack(
         [np.round(lag / s, 12) for lag, s in zip(np.broadcast_arrays(*lags), spacing, strict=True)], axis=-1
     )
-    # a grid of one sample is its own neighbour on both sides
+    # the neighbours of the only sample of a grid are itself
     padded, wide = weights, []
     for d, grid in enumerate(grids):
         if len(grid) == 1:
@@ -61,7 +62,7 @@ def custom(lags, steps, kernel):
 
 
 def weight(kernel, lags, steps):
-    """k at the given lags (one array for each axis), before any boundary."""
+    """Return k at the given lags (one array for each axis), without a boundary."""
     match type(kernel).__name__:
         case "Gaussian":
             return gaussian(lags, steps, kernel.amplitude, kernel.sigma, kernel.normalized)
@@ -84,13 +85,13 @@ def boundaries(kernel, axes):
 
 
 def grid(axis):
-    """Samples of an axis and the distance between them."""
+    """Return the samples of an axis and their distance."""
     step = (axis.upper - axis.lower) / (axis.samples if axis.periodic else axis.samples - 1)
     return np.array([axis.lower + i * step for i in range(axis.samples)]), step
 
 
 def images(axis, boundary, many):
-    """Places at which each sample of the axis is seen: arrays of the axis's length."""
+    """Return the positions of the images of all samples of an axis: arrays of the axis's length."""
     x, step = grid(axis)
     if boundary == "zero":
         return [x]
@@ -102,7 +103,9 @@ def images(axis, boundary, many):
 
 
 def dense(kernels, axes, many=12):
-    """All weights between pairs of places, times the volume of a cell: a matrix (places, places)."""
+    """Return all weights between pairs of positions, times the volume of a cell: a matrix (positions,
+    positions).
+    """
     shape = tuple(a.samples for a in axes)
     n = int(np.prod(shape))
     if not axes:
@@ -120,7 +123,7 @@ def dense(kernels, axes, many=12):
 
 
 def self_excitation(kernel):
-    """On a node a kernel is its amplitude."""
+    """Return the self-excitation of a node: the amplitude of its kernel."""
     match type(kernel).__name__:
         case "MexicanHat":
             return kernel.excitation - kernel.inhibition

@@ -10,7 +10,7 @@ WORD = 0xFFFFFFFF
 
 
 def threefry(counter, key):
-    """Two words of counter and two of key to two words; plain Python integers."""
+    """Return two words from two words of a counter and two of a key; all are Python integers."""
     x0, x1 = counter
     keys = (key[0], key[1], key[0] ^ key[1] ^ 0x1BD11BDA)
     x0, x1 = (x0 + keys[0]) & WORD, (x1 + keys[1]) & WORD
@@ -25,13 +25,13 @@ def threefry(counter, key):
 
 
 def words(seed, trial, ident, cells, tick):
-    """The two words of each cell at the part's own tick."""
+    """Return the two words of each cell at the element's own tick."""
     key = threefry((ident, trial), (seed, 0x5EED))
     return np.array([threefry((cell, tick // 2), key) for cell in range(cells)], np.uint32)
 
 
 def normals(seed, trial, ident, shape, tick):
-    """Standard normal deviates: the first of a pair on even ticks, the second on odd."""
+    """Return standard normal deviates: the first of a pair on even ticks, the second on odd ticks."""
     pairs = words(seed, trial, ident, math.prod(shape), tick)
     uniform = ((pairs >> np.uint32(9)).astype(float) + 0.5) / 2**23
     radius, angle = np.sqrt(-2 * np.log(uniform[:, 0])), 2 * math.pi * uniform[:, 1]

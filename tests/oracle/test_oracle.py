@@ -1,4 +1,4 @@
-"""The reference itself, where the answer is known in closed form."""
+"""The reference against closed forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every paper in the folder says what it is, and gives jobs whose rows have keys of their own."""
+"""Every paper in the folder has a description, and its jobs give rows with different keys."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def test_a_paper_has_the_parts_that_the_command_uses(name, quick):
     jobs = paper.jobs(quick)
     keys = [key for job in jobs for key in job.keys]
     assert len(keys) == len(set(keys)) and all(job.cost > 0 for job in jobs)
-    again = pickle.loads(pickle.dumps(jobs))  # they travel to workers
+    again = pickle.loads(pickle.dumps(jobs))  # they are sent to workers
     assert [job.arguments for job in again] == [dict(json.loads(json.dumps(job.arguments))) for job in jobs]
     assert json.loads(json.dumps(paper.about(quick))) == json.loads(json.dumps(paper.about(quick)))
     named = {name for entry in paper.BY_CONDITION for name in paper.about(quick)[entry]}

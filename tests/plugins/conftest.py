@@ -1,4 +1,4 @@
-"""Packages as an installation leaves them: modules and metadata on the path, in this process."""
+"""Packages like installed ones: modules and metadata on the path, in this process."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
 
 @pytest.fixture
 def example(install: Install, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
-    """The package of the repository, installed by what its pyproject.toml says."""
+    """Install the package of the repository with the metadata of its pyproject.toml."""
     project = tomllib.loads((EXAMPLE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     install(project["name"], {}, project["entry-points"], project["version"], tuple(project["dependencies"]))
     monkeypatch.syspath_prepend(str(EXAMPLE))

@@ -1,4 +1,4 @@
-"""A package that cannot be used is one named line of `deodar doctor`, and the rest works."""
+"""A package that cannot be used is a line of `deodar doctor` with its name, and all others work."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Documents name the packages that they need, and one that is missing is named when they are opened."""
+"""Documents name the packages that they need; opening one reports a missing package."""
 
 from __future__ import annotations
 

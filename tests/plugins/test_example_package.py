@@ -1,6 +1,4 @@
-"""The package in examples/package: check, run, experiment and the studio know what it brings, without a
-flag.
-"""
+"""The package in examples/package: check, run, experiment and the studio find its kinds without an option."""
 
 from __future__ import annotations
 
@@ -22,7 +20,7 @@ pytestmark = pytest.mark.usefixtures("example")
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    """A document that names the kind of the package, as another tool might write it."""
+    """Write a document that names the kind of the package, as another tool may write it."""
     elements = {
         "step": {"kind": "Boost", "amplitude": 1.0},
         "change": {"kind": "Change", "tau": 50.0},
@@ -83,7 +81,7 @@ def test_a_world_that_cannot_be_opened_states_what_to_type(
 
 @pytest.fixture
 def experiment(tmp_path: Path) -> Path:
-    """An experiment whose model and measures name what the package brings: a field behind the detector."""
+    """Write an experiment whose model and measures use the package: a field that the detector drives."""
     x = {"x": {"name": "x", "lower": 0.0, "upper": 20.0, "samples": 41}}
     elements = {
         "step": {"kind": "GaussianStimulus", "axes": ["x"], "center": 10.0, "sigma": 2.0, "amplitude": 20.0},

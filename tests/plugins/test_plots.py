@@ -1,4 +1,4 @@
-"""Plots of the studio from packages: what the page receives, and which files the server serves."""
+"""Plots of the studio from packages: the message to the page, and the files that the server serves."""
 
 from __future__ import annotations
 

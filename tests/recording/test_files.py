@@ -1,4 +1,4 @@
-"""Records as files: read back exactly, never half-written, never over what is not theirs."""
+"""Records as files: they are read exactly, never half-written, and never overwrite other files."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def test_variables_over_other_dimensions_leave_cells_empty_for_pandas(
 
 
 def test_the_metadata_of_a_table_are_in_a_file_beside_it(data: xarray.Dataset, tmp_path: Path) -> None:
-    """As the W3C's metadata for tabular data: where its readers look, with a column for each of the table."""
+    """They follow the W3C's metadata for tabular data: the name of the file, and an entry for each column."""
     path = files.save_record(data[["n.activation", "u.activation"]], tmp_path / "record.csv")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["record.csv", "record.csv-metadata.json"]
     told = json.loads((tmp_path / "record.csv-metadata.json").read_text())

@@ -1,4 +1,4 @@
-"""A disk that is full: nothing half-written is left, and who asked still has the data."""
+"""A full disk: no half-written file remains, and the caller still has the data."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ print(data.identical(before))
 
 @pytest.mark.parametrize("suffix", [".zarr", ".nc", ".csv"])
 def test_a_failed_write_keeps_the_data_and_leaves_no_file(suffix: str, tmp_path: Path) -> None:
-    """A real one: the system lets no file grow beyond 1000 bytes."""
+    """The system lets no file grow beyond 1000 bytes."""
     code = SMALL.format(path=sys.path)
     command = [sys.executable, "-B", "-c", code, str(tmp_path / f"record{suffix}")]
     done = subprocess.run(
@@ -56,7 +56,7 @@ def test_a_failed_write_keeps_the_data_and_leaves_no_file(suffix: str, tmp_path:
 
 
 def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
-    """A file system that says only at the end that it is full."""
+    """Replace the file system by one that reports only at the end that it is full."""
 
     def refuse(handle: int) -> None:
         raise OSError(code, os.strerror(code))
@@ -95,7 +95,7 @@ def test_a_file_system_without_fsync_is_accepted(tmp_path: Path, monkeypatch: py
 def test_a_record_is_flushed_to_disk_before_it_is_renamed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each file of a record, then its folders; the name of the record comes last."""
+    """The files of a record are written to the disk first, then its folders, and its name last."""
     events: list[tuple[str, str]] = []
     sync, rename = output._sync, Path.rename
     monkeypatch.setattr(
@@ -125,7 +125,7 @@ def test_a_document_is_flushed_to_disk_before_it_is_renamed(
 
 
 def test_rows_that_were_written_in_part_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """So that the next row, once there is room, does not continue half a line."""
+    """Otherwise the next row would continue half a line."""
     rows = Rows(tmp_path / "rows.jsonl", {"name": "e"})
     rows.append([{"key": "1"}])
     before = (tmp_path / "rows.jsonl").read_bytes()

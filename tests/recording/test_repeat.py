@@ -1,4 +1,4 @@
-"""A record runs again from what it says about itself."""
+"""A record is repeated from its provenance."""
 
 from __future__ import annotations
 

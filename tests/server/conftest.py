@@ -19,7 +19,7 @@ def own_state(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
-    """A folder with a few documents."""
+    """Make a folder with a few documents."""
     for name in ("selection", "working_memory", "saliency", "node"):
         shutil.copy(EXAMPLES / f"{name}.json", tmp_path)
     return tmp_path

@@ -9,7 +9,7 @@ from deodar.couplings.weights import Weights
 
 
 def weighted(seed: int = 1) -> dd.Model:
-    """A model with an array."""
+    """Return a model with an array."""
     model = dd.Model("m")
     u = model.add(dd.Field("u", [dd.Axis("x", 0, 9, samples=10)]))
     (

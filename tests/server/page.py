@@ -19,7 +19,7 @@ from deodar.server.serve import prepare
 from deodar.server.service import Service
 
 WAIT = 600.0
-"""Longest time anything may take here; a failure, not a measure."""
+"""Wall time in seconds after which a wait fails; it is not a measurement."""
 
 
 @contextlib.contextmanager
@@ -32,7 +32,7 @@ def studio(
     token: bool = True,
     port: int = 0,
 ) -> Iterator[str]:
-    """A studio in a thread of its own; gives its address, with the token."""
+    """Run a studio in a thread of its own; yield its address, with the token."""
     up: list[str] = []
     ready = threading.Event()
 
@@ -54,7 +54,7 @@ def studio(
 
 
 class Page:
-    """What a page knows, kept up to date; `draws=False` plays a page that has stalled."""
+    """A page and its present state; `draws=False` simulates a page that has stalled."""
 
     def __init__(self, socket: Any, draws: bool = True) -> None:
         self.socket, self.draws = socket, draws
@@ -67,12 +67,12 @@ class Page:
         self.clocks = 0
         self._request = 0
         self._answers: dict[int, dict[str, Any]] = {}
-        # whether messages came since the last clock: a clock follows all messages of one moment
+        # whether messages arrived since the last clock: a clock ends each group of messages
         self._late = False
         self._news = asyncio.Event()
 
     async def listen(self) -> None:
-        """Take in what comes."""
+        """Read messages until the connection ends."""
         async for message in self.socket:
             if isinstance(message, bytes):
                 stream, _, time, values = frames.unpack(message)
@@ -106,11 +106,11 @@ class Page:
                 await self.send(type="drawn", frame=m["frame"])
 
     async def send(self, **message: Any) -> None:
-        """Say something."""
+        """Send a message."""
         await self.socket.send(json.dumps(message))
 
     async def ask(self, type: str, **message: Any) -> dict[str, Any]:
-        """Say something and wait for the answer."""
+        """Send a request and wait for the answer."""
         self._request += 1
         number = self._request
         await self.send(type=type, request=number, **message)
@@ -118,13 +118,13 @@ class Page:
         return self._answers.pop(number)
 
     async def do(self, type: str, **message: Any) -> dict[str, Any]:
-        """The same, and it must be done."""
+        """Send a request that must succeed."""
         answer = await self.ask(type, **message)
         assert not answer["problems"] and not answer["ask"], answer
         return answer
 
     async def until(self, condition: Callable[[], Any]) -> Any:
-        """Wait until something holds."""
+        """Wait until a condition holds."""
 
         async def wait() -> Any:
             while not (found := condition()):
@@ -134,7 +134,7 @@ class Page:
 
         return await asyncio.wait_for(wait(), WAIT)
 
-    # what it knows
+    # the state of the page
 
     @property
     def document(self) -> dict[str, Any]:
@@ -145,7 +145,7 @@ class Page:
         return self.said["clock"]
 
     def element(self, path: str) -> str:
-        """Id of an element."""
+        """Return the id of an element."""
         return next(e["id"] for e in self.document["elements"] if e["path"] == path)
 
     async def open(self, type: str, **message: Any) -> None:
@@ -154,7 +154,7 @@ class Page:
         await self.runs()
 
     async def runs(self) -> None:
-        """Wait until the document that is open is compiled."""
+        """Wait until the open document is compiled."""
         await self.until(
             lambda: self.said.get("opened", {}).get("document") and not self._late and not self.clock["busy"]
         )
@@ -180,7 +180,7 @@ async def page(address: str, draws: bool = True, kind: type[P] = Page, **how: An
 
 
 def play(address: str, scene: Callable[[Page], Coroutine[Any, Any, None]], **how: Any) -> None:
-    """Let one page play a scene."""
+    """Run a scene with one page."""
 
     async def main() -> None:
         async with page(address, **how) as one:

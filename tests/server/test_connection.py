@@ -14,20 +14,20 @@ from deodar.server.page import Page
 
 
 class Silent(PageConnection):
-    """Sends nothing."""
+    """A connection that sends nothing."""
 
     async def _text(self, message: Message) -> None: ...
 
     async def _say(self) -> None: ...
 
     def sending(self) -> asyncio.Task[None]:
-        """The task that sends."""
+        """Return the task that sends."""
         return asyncio.create_task(self._send())
 
 
 @pytest.mark.parametrize("between", range(5))
 def test_the_sending_task_ends_if_its_page_disconnects_during_an_update(between: int) -> None:
-    """`asyncio.wait_for` of Python 3.11 loses the cancellation then, and the task of a page that is gone
+    """`asyncio.wait_for` of Python 3.11 then loses the cancellation, and the task of a disconnected page
     would never end.
     """
 

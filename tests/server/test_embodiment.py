@@ -1,4 +1,4 @@
-"""The world that is used where none was chosen."""
+"""The world that the studio uses if none was chosen."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""The gallery: every example has a title, a sentence and a small picture, and names from outside lead
-nowhere.
-"""
+"""The gallery: every example has a title, a sentence and a small picture, and other names are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who may talk to the studio."""
+"""Requests that the studio accepts or refuses."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tests.server.page import studio
 
 
 def get(address: str, path: str = "/", token: bool = True, **headers: str) -> tuple[int, str, dict[str, str]]:
-    """Status, body and headers of a request to a studio, with the token of its address as a cookie."""
+    """Return status, body and headers of a request to a studio, with the token of its address as a cookie."""
     there = urlsplit(address)
     if token and there.query:
         headers = {"Cookie": cookie(address), **headers}
@@ -35,13 +35,13 @@ def get(address: str, path: str = "/", token: bool = True, **headers: str) -> tu
 
 
 def cookie(address: str) -> str:
-    """What a browser keeps of an address."""
+    """Return the cookie that a browser stores for an address."""
     there = urlsplit(address)
     return f"deodar_token_{there.port}={there.query.removeprefix('token=')}"
 
 
 def socket_status(address: str, path: str = "/ws", token: bool = True, **headers: str) -> int:
-    """101 where the socket opens, else the status of the refusal."""
+    """Return 101 if the socket opens, else the status of the refusal."""
     there = urlsplit(address)
     if token and there.query:
         headers = {"Cookie": cookie(address), **headers}
@@ -81,7 +81,7 @@ def test_foreign_hosts_and_origins_are_refused(root: Path) -> None:
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "0.0.0.0"])
 def test_every_request_needs_the_token(root: Path, host: str) -> None:
-    """On this machine too: other users share it."""
+    """Also on this machine, because other users share it."""
     with studio(root, host=host) as address:
         token = urlsplit(address).query.removeprefix("token=")
         port = urlsplit(address).port
@@ -114,7 +114,7 @@ def test_every_request_needs_the_token(root: Path, host: str) -> None:
 
 
 def test_a_browser_from_another_site_gets_a_page_without_a_redirect(root: Path) -> None:
-    """It would not send the strict cookie along a redirect."""
+    """The browser would not send the strict cookie after a redirect."""
     with studio(root) as address:
         path = f"/?{urlsplit(address).query}"
         status, body, headers = get(address, path, token=False, Sec_Fetch_Site="cross-site")
@@ -217,7 +217,7 @@ def test_an_invalid_host_header_is_refused() -> None:
 
 
 def test_an_unknown_path_is_status_404_without_a_redirect(root: Path) -> None:
-    """It is never an error of the server, nor a redirect to another host."""
+    """It is not an error of the server, nor a redirect to another host."""
     with studio(root) as address:
         for folder in ("/", "/assets/", "/examples/", "//"):
             for name in ("a" * 5000, "%00", "evil.example", "evil.example/", "%ff", "%2f%2fevil.example"):
@@ -243,8 +243,8 @@ def test_an_invalid_origin_is_refused(root: Path) -> None:
 
 
 def test_small_packets_are_sent_without_delay() -> None:
-    """The event loop switches Nagle's algorithm off only for sockets that say they are TCP; with it every
-    frame takes 40 ms.
+    """The event loop disables Nagle's algorithm only for sockets declared as TCP; with it every frame
+    takes 40 ms.
     """
     with bind("127.0.0.1", 0) as bound:
         assert bound.proto == socket.IPPROTO_TCP

@@ -1,4 +1,4 @@
-"""The messages: what is generated is fresh, arrays survive the wire."""
+"""The messages: generated files are up to date, and arrays are unchanged after transport."""
 
 from __future__ import annotations
 

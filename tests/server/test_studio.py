@@ -25,9 +25,7 @@ from tests.server.page import Page, page, play, studio
 
 
 def test_a_user_opens_a_file_creates_a_peak_removes_it_and_undoes_the_change(root: Path) -> None:
-    """Open, run, see a peak, turn the resting level until it is gone, take it back, save, and open what was
-    saved.
-    """
+    """Open, run to a peak, lower the resting level until it decays, undo, save, and open the saved file."""
 
     async def scene(p: Page) -> None:
         await p.open("open_file", path="selection.json")
@@ -572,7 +570,7 @@ def test_unsaved_edits_are_restored_after_a_crash(root: Path, own_state: Path) -
     with studio(root, root / "selection.json") as address:
         play(address, first)
     note = next((own_state / "unsaved").glob("*.note"))
-    # the process that kept them is gone
+    # the process that stored them has ended
     note.write_text(json.dumps(json.loads(note.read_text()) | {"process": [0, 0]}))
 
     async def second(p: Page) -> None:
@@ -595,7 +593,7 @@ def test_unsaved_edits_are_restored_after_a_crash(root: Path, own_state: Path) -
 def test_the_state_folder_is_accessed_outside_of_the_event_loop(
     root: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A folder in a network that does not answer must not stop every page."""
+    """A network folder that does not respond must not block all pages."""
     used: set[str] = set()
 
     def beside(name: str, real: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The document as the page sees it, and values on their way back."""
+"""The document as sent to the page, and values received from it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The folder that is read and written, and what is kept between runs."""
+"""The folder that the studio reads and writes, and the state stored between runs."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_a_digest_depends_on_the_content_alone(tmp_path: Path) -> None:
 
 
 def test_a_file_that_cannot_be_compared_does_not_count_as_missing(tmp_path: Path) -> None:
-    """Saving asks before it replaces what has a digest."""
+    """Saving asks before it replaces a file that has a digest."""
     space = Workspace(tmp_path)
     os.mkfifo(tmp_path / "pipe.json")
     (tmp_path / "folder.json").mkdir()
@@ -140,7 +140,7 @@ def test_a_link_that_appears_after_the_check_is_not_followed(tmp_path: Path) -> 
 def test_a_link_that_appears_while_a_document_is_opened_is_not_followed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, exchanged: str
 ) -> None:
-    """The exchange happens at the last moment: just before the file is opened."""
+    """The file is replaced at the last moment, just before it is opened."""
     root, outside = tmp_path / "root", tmp_path / "outside"
     for folder in (root / "sub", outside):
         folder.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""The world from above, over a real socket: what a page is sent, and what a hand on it moves."""
+"""The world from above, over a real socket: the messages to the page, and moves by the user."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LAYOUT: dict[str, Any] = {
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    """A robot that drives straight on."""
+    """Save a model of a robot that drives straight on."""
     model = dd.Model("driving", dt=64)
     for name in ("left", "right"):
         model.add(Boost(f"go {name}", [], 1000.0)) >> model.add(Motor(name, [], name))
@@ -41,7 +41,7 @@ def box(one: Page, name: str) -> dict[str, Any]:
 
 
 def path(one: Page) -> list[list[float]]:
-    """All positions that the page received, as a page stores them."""
+    """Return all positions that the page received, as a page stores them."""
     out: list[list[float]] = []
     for message in one.all:
         if message["type"] == "bodies":
@@ -95,7 +95,7 @@ def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> No
 
 
 def page_of(one: Page) -> Any:
-    """A further page before the same studio."""
+    """Connect a further page to the same studio."""
     return page(page_of.address)  # type: ignore[attr-defined]
 
 

@@ -1,4 +1,4 @@
-"""Small models that several tests of running share."""
+"""Small models that several tests of sessions share."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ y = dd.Axis("y", 0, 20, samples=11)
 
 
 def mixed(order: int = 1, prefix: str = "", extra: int = 0) -> dd.Model:
-    """Fields of one and two dimensions, a node, couplings, several rates, noise; `order` -1 declares all the
-    other way round.
+    """Return fields of one and two dimensions, a node, couplings, several rates and noise; `order` -1
+    reverses the declarations.
     """
     name = (prefix + "{}").format
     elements = {

@@ -1,4 +1,4 @@
-"""Runs paced to the wall clock: lateness, catching up, steps that grow.
+"""Runs paced to the wall clock: lag, catching up, and steps that grow.
 
 All tests but the last one use a simulated clock.
 """
@@ -44,7 +44,7 @@ class Wall:
         self.now += seconds + self.drowsy
 
     def live(self, duration: float, speed: float | None = 1.0, longest: float | None = None) -> Meter:
-        """As `run_live`, but a step takes `cost` seconds, and some moments take longer."""
+        """Run like `run_live`, with a step that takes `cost` seconds, and some that take longer."""
         step, took = self.session.step, self.pace.took
 
         def stepped(n: int = 1) -> None:
@@ -220,7 +220,7 @@ def test_invalid_arguments_of_run_live_are_refused_before_the_run(how: dict[str,
 
 
 def test_a_live_run_follows_the_wall_clock() -> None:
-    """Half a second on a machine that may be busy: the sharp figures are those of benchmarks/clock.py."""
+    """Half a second on a machine that may be busy; benchmarks/clock.py measures exact figures."""
     one = session()
     meter = one.run_live(500)
     assert one.time == 500 and meter.steps == 500

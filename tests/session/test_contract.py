@@ -1,4 +1,4 @@
-"""The calls that people script against, as they are printed in the manual."""
+"""The calls of scripts, as the manual prints them."""
 
 from __future__ import annotations
 

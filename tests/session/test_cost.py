@@ -1,5 +1,5 @@
-"""What each element costs: all are there, the dear ones come first, the parts add up to the whole, and the
-run is not touched.
+"""The cost of each element: all are listed, the expensive ones first; the parts add up to the whole, and
+the run is unchanged.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ COUNTED: list[int] = []
 
 
 def counted(state: Any, inputs: Any, time: Any) -> Any:
-    """A state that stays; it is noted each time that it is computed."""
+    """Return the state unchanged, and count each computation."""
     jax.debug.callback(lambda: COUNTED.append(1))
     return state + 0.0 * time.dt
 
@@ -52,8 +52,8 @@ def test_every_element_is_listed_once_with_its_group() -> None:
 
 
 class Work:
-    """In place of a clock: the operations of all programs that were called, as the compiler counts them, so
-    that no load on the machine matters.
+    """A replacement of the clock: the operations of all called programs, as the compiler counts them,
+    which do not depend on the load of the machine.
     """
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -90,7 +90,7 @@ def test_a_plane_costs_more_than_a_node_and_constant_parts_cost_nothing(work: Wo
 
 
 def test_a_part_with_a_longer_step_costs_less_per_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The clock counts how often a part is computed."""
+    """The clock counts how often an element is computed."""
     model = dd.Model("m")
     for name, every in (("often", 1), ("rarely", 10)):
         model.add(Function(name, function=f"{__name__}:counted"), ticks=every)
@@ -102,7 +102,7 @@ def test_a_part_with_a_longer_step_costs_less_per_step(monkeypatch: pytest.Monke
 
 
 def test_the_sum_of_the_parts_is_near_the_time_of_the_step(work: Work) -> None:
-    """The figures that are shown are those of `deodar run FILE --cost`; here only what is computed counts."""
+    """Only operations count here; `deodar run FILE --cost` shows times."""
     model = dd.Model("m")
     fields = [
         model.add(dd.Field(f"u{k}", [X, Y], kernel=[dd.Gaussian(1, 5), dd.Gaussian(-0.5, 9)]))

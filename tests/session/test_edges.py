@@ -1,4 +1,4 @@
-"""Changes that a session survives, or refuses without harm."""
+"""Changes that a session accepts, or refuses without an effect."""
 
 from __future__ import annotations
 

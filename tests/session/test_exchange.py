@@ -1,5 +1,5 @@
-"""When a model and its world exchange: the rule of every part with a step of its own, however the run is
-cut.
+"""The times of the exchange between model and world: the rule of elements with a step of their own, for
+all chunks.
 """
 
 from __future__ import annotations
@@ -22,9 +22,7 @@ x = dd.Axis("x", 0, 4, samples=5)
 
 
 class Tank(World):
-    """What flows in stays: the level moves by a tenth of a fifth of the flow less the level, in each period
-    of 4 ms.
-    """
+    """A tank: in each period of 4 ms the level changes by 0.08 times the difference of flow and level."""
 
     sensors: Mapping[str, Signal] = {"level": Signal("level", (5,))}
     motors: Mapping[str, Signal] = {"flow": Signal("flow", (5,))}
@@ -52,8 +50,8 @@ class Tank(World):
 
 
 def closed(outside: bool, **options: Any) -> dd.Model:
-    """A field that drives a tank and sees its level: outside, or as an element that runs at every fourth
-    step.
+    """Return a field that drives a tank and reads its level; the tank is a world, or an element that runs
+    at every fourth step.
     """
     model = dd.Model("tank", **options)
     u = model.add(dd.Field("u", [x], tau=15, resting_level=1.0))
@@ -73,7 +71,7 @@ def closed(outside: bool, **options: Any) -> dd.Model:
 
 @pytest.mark.parametrize("every", [1, 3])
 def test_a_world_gives_the_run_of_an_element_with_the_same_period(every: int) -> None:
-    """Law: read at multiples of k, visible k ticks later.
+    """The rule: read at multiples of k, visible k ticks later.
 
     The same plant as a world and as an element gives the same run.
     """
@@ -137,7 +135,7 @@ def test_axes_that_a_motor_does_not_have_are_refused() -> None:
 
 
 class Each(Tank):
-    """A tank for every copy."""
+    """A tank for each copy."""
 
     sensors: Mapping[str, Signal] = {"level": Signal("level", (5,), each=True)}
 

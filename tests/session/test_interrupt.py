@@ -1,4 +1,4 @@
-"""Ctrl-C: kept until the end of the chunk, never lost, and the handler is put back."""
+"""Ctrl-C: it acts at the end of the chunk, is never lost, and the old handler is restored."""
 
 from __future__ import annotations
 

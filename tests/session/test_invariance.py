@@ -1,4 +1,4 @@
-"""No result depends on the order of declaration, names, grouping, batches, or how a run is cut."""
+"""No result depends on the order of declaration, names, grouping, batches or chunks."""
 
 from __future__ import annotations
 
@@ -215,7 +215,7 @@ def test_noise_kept_for_the_next_step_has_the_bits_of_noise_drawn_in_every_step(
 
 @pytest.mark.parametrize("every", [1, 2])
 def test_noise_drawn_in_pairs_is_the_same_in_any_chunks(every: int) -> None:
-    """A field large enough that two steps share one drawing: single steps, odd pieces and one go give the
+    """In a field so large that two steps share one draw, single steps, odd pieces and one run give the
     same bits.
     """
     axes = [dd.Axis("x", 0, 60, samples=60), dd.Axis("y", 0, 50, samples=50)]

@@ -1,4 +1,4 @@
-"""What was learned: in snapshots, in the document, in its file, and on from there."""
+"""Learned values: in snapshots, in the document, in its file, and in later runs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LEARNED = {"h": "weights", "a": "weights", "p": "trace", "g": "gains"}
 
 
 def model():
-    """One of everything that learns, between two fields with peaks."""
+    """Return a model with each learning kind between two fields with peaks."""
     m = dd.Model("learning", dt=1)
     u, v = (
         m.add(dd.Field(n, [a], resting_level=-5, kernel=[dd.Gaussian(1, 2)], noise=0.5))

@@ -1,5 +1,5 @@
-"""Document time after 30 days at a step of 1 ms: in single precision everything happens in the step that
-double precision says.
+"""Document time after 30 days at a step of 1 ms: in single precision every event occurs in the same step
+as in double precision.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ def test_a_history_keeps_its_interval_at_late_times() -> None:
 
 
 def test_a_step_that_is_not_a_binary_fraction_is_counted_exactly() -> None:
-    """A tenth of a millisecond: 2^26 steps after the start the window opens in its own step."""
+    """With a step of 0.1 ms, a window opens in the right step 2^26 steps after the start."""
     t0 = 2.0**26 * 0.1
     model = begun(t0, dt=0.1)
     model.add(Boost("s", windows=[(t0 + 0.3, t0 + 0.5)]))
@@ -148,22 +148,22 @@ MULTIPLY_THE_STEP = {
     ("Hebbian", "rate"),
     ("Hebbian", "decay"),
 }
-"""Rates that multiply the step and never the time that has passed: single precision is enough for them."""
+"""Rates that multiply the step and never the elapsed time: single precision is sufficient."""
 
 
 WINDOWED = sorted(kind for kind, cls in KINDS.items() if any(p.name == "windows" for p in parameters(cls)))
-"""Kinds that windows switch on and off."""
+"""Kinds with windows that switch them on and off."""
 
 
 def windowed(kind: str, t0: float) -> Model:
-    """The example of a kind, on in two windows, with a source for each input."""
+    """Return the example of a kind, on in two windows, with a source for each input."""
     model = around(dc.replace(example(kind), windows=[(t0 + 3, t0 + 5), (t0 + 8, t0 + 9)]))  # type: ignore[call-arg]
     model.describe(t0=t0)
     return model
 
 
 def alone(t0: float, element: Element, given: np.ndarray | None = None) -> Model:
-    """An element called `example`, with a time series from t0 on as its input."""
+    """Return an element called `example`, with a time series from t0 on as its input."""
     model = begun(t0)
     model.add(element)
     if given is not None:
@@ -190,8 +190,7 @@ SCENES: dict[str, Callable[[float], Model]] = {
         t0, TimeSeries("example", [], t0 + np.array([1.0, 3.0, 3.5, 6.0]), [1.0, 2.0, -3.0, 5.0])
     ),
 }
-"""For each kind that reads time in another way than by windows a model in which something happens within
-twelve steps after t0.
+"""For each kind that reads time, other than by windows, a model with an event within twelve steps after t0.
 """
 
 LONG = 30 * DAY + 7
@@ -203,11 +202,11 @@ LASTING: dict[str, Callable[[], Model]] = {
         0.0, TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=LONG)
     ),
 }
-"""For each kind with a duration a model whose output changes when it has lasted 30 days and 7 ms."""
+"""For each kind with a duration, a model whose output changes after a duration of 30 days and 7 ms."""
 
 
 class Watched(Time):
-    """A time that knows whether it was read, and not only the step."""
+    """A time that records whether it was read, and not only the step."""
 
     read: set[str] = set()
 
@@ -218,7 +217,7 @@ class Watched(Time):
 
 
 def reads_time(kind: str) -> bool:
-    """Whether a step of the example of a kind depends on what time it is."""
+    """Return whether a step of the example of a kind depends on the time."""
     given = example(kind)
     element = dc.replace(given, windows=[(1, 2)]) if kind in WINDOWED else given  # type: ignore[call-arg]
     here = node(around(element))
@@ -265,7 +264,7 @@ def test_a_run_of_a_month_ends_at_the_exact_step(kind: str, precision: str) -> N
     session = dd.Session(LASTING[kind](), precision=precision)
     session.step(5)
     then = session.snapshot()
-    # what counts steps in its state misses the days between
+    # kinds that count steps in their state do not count the days between
     session.restore(dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5)))
     seen: list[float] = []
     for _ in range(12):

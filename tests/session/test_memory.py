@@ -1,4 +1,4 @@
-"""The memory of a run grows only with what is recorded."""
+"""The memory of a run grows only with its record."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ X = dd.Axis("x", 0, 100, samples=101)
 
 
 def ring(n: int) -> dd.Model:
-    """Fields in a ring, alike but for their resting level, and a node of another structure."""
+    """Return a ring of fields that differ in their resting levels, and a node of another structure."""
     model = dd.Model("ring")
     fields = [model.add(dd.Field(f"u{k}", [X], resting_level=-k)) for k in range(n)]
     for a, b in itertools.pairwise(fields):
@@ -56,7 +56,7 @@ def test_unknown_ports_are_omitted() -> None:
 
 @pytest.mark.parametrize("noise", [0.0, 0.5])
 def test_inject_gives_the_trajectory_of_a_connected_input(noise: float) -> None:
-    """Pushing gives the trajectory of the same input through a connection, noise included."""
+    """An injected input gives the trajectory of the same input through a connection, noise included."""
     model = dd.Model("pushed")
     u = model.add(dd.Field("u", [X], noise=noise, kernel=[dd.Gaussian(1, 5)]))
     model.add(dd.GaussianStimulus("s", [X], center=50, sigma=5, amplitude=3)) >> u

@@ -1,4 +1,4 @@
-"""A hand in the world of a session."""
+"""Moved, added and removed objects in the world of a session."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OPEN = {
 
 
 def driving(turn: float = 0.0) -> dd.Model:
-    """Straight on, or on a circle."""
+    """Return a model that drives straight on, or on a circle."""
     model = dd.Model("driving", dt=64)
     model.add(Sensor("pose", [dd.Axis("of", 0, 2, 3)], "pose"))
     for name, speed in (("left", 800 - turn), ("right", 800 + turn)):
@@ -53,7 +53,7 @@ def test_the_journal_records_objects_that_move_appear_and_disappear() -> None:
 
 
 def test_the_journal_repeats_the_run() -> None:
-    """What stood in the way of the robot is taken away after it was stopped by it."""
+    """An obstacle that has stopped the robot is removed."""
     first = dd.Session(driving(), world=Arena(OPEN))
     first.move("crate", (0.8, 1.0))
     first.step(100)

@@ -1,4 +1,4 @@
-"""Refining a grid changes cost, not behaviour: places, thresholds and switching rates at 1x, 2x and 4x the
+"""A finer grid changes cost, not behaviour: positions, thresholds and switching rates at 1x, 2x and 4x the
 samples.
 """
 
@@ -21,8 +21,8 @@ def axes(dimensions: int, finer: int) -> list[dd.Axis]:
 
 
 def localised(dimensions: int, finer: int, former: float) -> dd.Model:
-    """A bistable field with a tested input; `former` is the strength of one that makes a peak first, and
-    goes.
+    """Return a bistable field with a tested input; `former` is the strength of an earlier, temporary input
+    that creates a peak.
     """
     over = axes(dimensions, finer)
     model = dd.Model("resolution")
@@ -49,8 +49,8 @@ def localised(dimensions: int, finer: int, former: float) -> dd.Model:
 
 
 def lowest_with_a_peak(model: dd.Model, low: float, high: float) -> float:
-    """The smallest tested amplitude, to 1/121 of the range, at which the field has a peak at the end: by two
-    sweeps, of which the second is finer.
+    """Return the smallest tested amplitude, to 1/121 of the range, with a peak at the end, from two sweeps
+    of which the second is finer.
     """
     for _ in range(2):
         amplitudes = np.linspace(low, high, 12)
@@ -91,7 +91,9 @@ def test_positions_and_thresholds_converge_on_finer_grids(dimensions: int) -> No
 
 
 def noisy(dimensions: int, finer: int) -> dd.Model:
-    """A field just below detection, driven over it by noise that four coarse samples have in common."""
+    """Return a field just below detection, driven over it by noise that is correlated over four coarse
+    samples.
+    """
     samples, length, strength = {1: (26, 50.0, 8.0), 2: (11, 40.0, 14.0)}[dimensions]
     over = [dd.Axis(name, 0, length, samples=(samples - 1) * finer + 1) for name in "xy"[:dimensions]]
     four = 4 * length / (samples - 1)

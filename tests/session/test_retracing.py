@@ -1,4 +1,4 @@
-"""An unchanged model compiles once, whatever the duration, the seed and the values of live parameters."""
+"""An unchanged model compiles once for all durations, seeds and values of live parameters."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.session.models import mixed
 
 
 class Counter:
-    """Counts traces and compilations of this process while it is on."""
+    """A counter of traces and compilations of this process."""
 
     def __init__(self) -> None:
         self.on = False

@@ -72,9 +72,7 @@ def test_a_changed_dt_waits_for_the_tick_common_to_all_parts() -> None:
 
 
 def test_time_keeps_its_digits_over_a_day_in_float32() -> None:
-    """A pulse of eight steps (the distance of neighbouring float32 there) is seen in exactly these steps, a
-    day after the start.
-    """
+    """A pulse of eight steps (the spacing of float32 numbers), a day after the start, is exact."""
     model = relaxing(tau=1.0, resting_level=0.0)
     model.describe(t0=86_399_990.0)
     model.set("s.amplitude", 1.0)
@@ -172,7 +170,7 @@ def test_ctrl_c_returns_the_record_so_far(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 class Ramp(World):
-    """A world that shows its time, renewed every 4 units."""
+    """A world that shows its time, updated every 4 units."""
 
     sensors: ClassVar[Mapping[str, Signal]] = {"clock": Signal("time")}
     period = 4.0
@@ -201,7 +199,7 @@ def test_a_world_is_sensed_at_its_period_for_any_chunks() -> None:
     early.step(6)
     kept = early.snapshot()
     early.step(7)
-    early.restore(kept)  # inside a period: it sees again what it saw there
+    early.restore(kept)  # inside a period: the sensor has its old reading again
     for _ in range(9):
         assert early.read("eye.output")[0] == expected[early.tick]
         early.step(1)

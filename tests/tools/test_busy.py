@@ -1,4 +1,4 @@
-"""The command that runs the tests beside busy processes."""
+"""The command that runs the tests while other processes are busy."""
 
 from __future__ import annotations
 

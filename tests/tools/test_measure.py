@@ -1,4 +1,4 @@
-"""The numbers that the code base is held to are counted: each count sees what it is there for."""
+"""The measures of the code base: each count finds its examples."""
 
 from __future__ import annotations
 

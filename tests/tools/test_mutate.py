@@ -1,4 +1,4 @@
-"""The mutation command: what it changes, what it draws, which tests it runs, and what it counts."""
+"""The mutation command: its mutations, its draws, the tests that it runs, and its counts."""
 
 from __future__ import annotations
 
@@ -62,7 +62,8 @@ def test_the_same_commit_draws_the_same_mutants(tmp_path: Path) -> None:
 def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # the three processes start sooner
+    # this saves time at the start of the three processes
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / "toy.py").write_text(
         "def total(a, b):\n    return a + b\n\n"
@@ -107,7 +108,7 @@ def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None
         "tests/test_toy.py::own": (5.0, {"src/toy.py:1"}),
     }
     called = ["tests/test_toy.py::own", "tests/test_both.py::quicker", "tests/test_both.py::slow"]
-    # within a function, outside of functions, and in a function that no test was seen to call
+    # within a function, outside of functions, and in a function that no mapped test calls
     assert [mutate.covering(m, text, found) for m in sums] == [called, called, called]
     assert mutate.covering(sums[0], text, {"tests/test_other.py::quick": (0.1, {"src/other.py:1"})}) == [
         "tests/test_other.py::quick"

@@ -1,4 +1,4 @@
-"""Worlds of pure functions: those of one structure share what was compiled."""
+"""Worlds of pure functions: worlds of one structure share compiled functions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LINE = (Axis("x", 0, 2, 3),)
 
 
 class Counter(PureWorld):
-    """A number that grows by a step, which is compiled in, from a start, which is an array."""
+    """A number that grows by a step, which is a constant of the program, from a start, which is an array."""
 
     period = 1.0
     sensors = {"count": Signal("how often", each=True)}

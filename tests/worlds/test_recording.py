@@ -24,7 +24,7 @@ EIGHT = dd.Axis("sensor", 0, 7, 8)
 
 
 def driving() -> dd.Model:
-    """A field of eight samples that sees the infrared sensors, and drives."""
+    """Return a field of eight samples that reads the infrared sensors, and drives."""
     model = dd.Model("driving", dt=16)
     eyes = model.add(Sensor("eyes", [EIGHT], "infrared"))
     u = model.add(dd.Field("u", [EIGHT], tau=50, noise=0.3))

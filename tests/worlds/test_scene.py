@@ -1,4 +1,4 @@
-"""A world from above: what it shows, and where something fits."""
+"""A world from above: its scene, and positions that are free."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_the_goal_of_an_arena_moves_by_its_name() -> None:
     arena.move("goal", (100, 60))
     assert np.allclose(arena.scene().marks[0].center, (100, 60))
     arena.place("goal", (60, 20), (5, 5))
-    arena.move("goal", (60, 30))  # a thing of that name goes first
+    arena.move("goal", (60, 30))  # an object of that name is removed first
     assert np.allclose(arena.scene().marks[0].center, (100, 60)) and np.allclose(
         arena.scene().boxes[1].center, (60, 30)
     )

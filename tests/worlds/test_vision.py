@@ -24,7 +24,7 @@ FINE = dd.Axis("x", 0, 63, 64), dd.Axis("y", 0, 47, 48), dd.Axis("channel", 0, 2
 
 
 def middle(shown: np.ndarray) -> float:
-    """Column of the middle of what is red."""
+    """Return the column of the middle of the red pixels."""
     red = np.clip(shown[:, :, 0] - shown[:, :, 2] - 0.3, 0, None).sum(axis=1)
     return float((red * np.arange(len(red))).sum() / red.sum())
 
@@ -80,10 +80,10 @@ def test_files_that_are_not_a_video_are_refused(tmp_path: Path) -> None:
 def test_a_camera_gives_its_latest_picture_without_waiting(film: Path) -> None:
     camera = Camera(str(film), patience=60.0)
     camera.reset(0)
-    # a video as a camera is read at full speed, to its last picture
+    # a video in place of a camera is read at full speed, to its last picture
     while abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0:
         time.sleep(0.01)
-    camera.sense("picture", FINE, 0.0)  # no picture will come after it, and this does not wait for one
+    camera.sense("picture", FINE, 0.0)  # no picture follows, and the test does not wait for one
     camera.close()
     assert camera.sense("picture", AXES, 0.0).shape == (16, 12, 3), "a reading opens it again"
     camera.close()

@@ -1,4 +1,4 @@
-"""The saliency demo: its claims on one photograph here, on all of them from the command line."""
+"""The saliency demo: its claims on one photograph, and on all of them from the command line."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_every_claim_of_the_command_holds(tmp_path: Path) -> None:
 
 
 def test_claims_hold_for_another_seed_and_fail_for_a_wrong_mark() -> None:
-    """The claim is computed: with the box elsewhere it is false."""
+    """The claim is computed, so it is false with the box at another position."""
     chelsea = next(s for s in photographs() if s.name == "chelsea")
     wrong = Cue(5.0, "red", "present", "the eye", (((0, 0), (100, 0), (100, 100), (0, 100)),))
     scene = scenes.CueScene("chelsea", "", chelsea.picture, (*chelsea.cues, wrong, Cue(5.0, "red", "absent")))
@@ -64,7 +64,7 @@ def test_a_photograph_of_the_user_is_searched(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("way", ["film", "camera"])
 def test_a_video_and_a_camera_are_searched(way: str) -> None:
-    """A red square crosses the video in its first second and stays where it is then, at columns 48 to 63."""
+    """A red square crosses the video in its first second and then stays at columns 48 to 63."""
     film = _capture.example()
     scene = (
         filmed(film, [0.0, 240.0])

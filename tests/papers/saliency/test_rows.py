@@ -1,4 +1,4 @@
-"""Rows of the saliency paper: one for each cue; claims and figure are computed from them alone."""
+"""Rows of the saliency paper, one for each cue; claims and figure are computed from them alone."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ PAPER = papers.paper("saliency")
 
 
 def ideal(scene: CueScene) -> SceneResult:
-    """A result as the marks ask for: a peak at the middle of the region of a present colour, else none."""
+    """Return the result that the marks require: a peak in the middle of the region of a present colour,
+    else none.
+    """
     outcomes: list[Outcome] = []
     for cue in scene.cues:
         corners = [p for outline in cue.outlines[:1] for p in outline]
@@ -28,7 +30,7 @@ def ideal(scene: CueScene) -> SceneResult:
 
 
 def inside(holds: Callable[[tuple[float, float]], bool], scene: CueScene) -> tuple[float, float]:
-    """A pixel in a region."""
+    """Return a pixel in a region."""
     width, height = scene.picture.size
     found = ((float(x), float(y)) for x in range(0, width, 5) for y in range(0, height, 5) if holds((x, y)))
     return next(found, (0.0, 0.0))
@@ -36,7 +38,7 @@ def inside(holds: Callable[[tuple[float, float]], bool], scene: CueScene) -> tup
 
 @pytest.fixture
 def rows(monkeypatch: pytest.MonkeyPatch) -> dict[str, Row]:
-    """The rows of three photographs, after a file."""
+    """Return the rows of three photographs, read from a file."""
     monkeypatch.setattr(trials, "run_scene", ideal)
     made = [row for job in PAPER.jobs(True) for row in job.run()]
     return {row["key"]: row for row in json.loads(json.dumps(made))}

@@ -1,5 +1,5 @@
-"""The untuned photographs: their marks, their licences, and two of them run; all twelve by `deodar demo
-saliency --untuned`.
+"""The untuned photographs: their marks and licences, and runs of two of them; `deodar demo saliency
+--untuned` runs all twelve.
 """
 
 from __future__ import annotations

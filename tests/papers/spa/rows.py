@@ -1,4 +1,4 @@
-"""Rows made by hand, with the results that the paper reports."""
+"""Constructed rows with the results that the paper reports."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ PATH = [[-45.0, 55 + 0.36 * k] for k in range(110)] + [[-50 - 0.15 * k, 95.0] fo
 
 
 def row(c, trial, **other):
-    """A row of a run that goes straight to its goal."""
+    """Return a row of a run that goes straight to its goal."""
     made = {
         "key": c.key(trial),
         "condition": c.name,
@@ -47,13 +47,13 @@ def row(c, trial, **other):
 
 
 def expected(obstacle, onset, duration):
-    """The route that the paper reports."""
+    """Return the route that the paper reports."""
     if onset < 180:
         return "south" if obstacle == "partial" or duration > 75 else "north"
     return "switch" if obstacle != "partial" and onset < 480 and duration > 130 else "north"
 
 
 def all_rows(quick, change=lambda c, trial: {}):
-    """All rows of the design by their keys."""
+    """Return all rows of the design by their keys."""
     found = [row(c, k, **change(c, k)) for c in cases.conditions(quick).values() for k in c.trials]
     return {r["key"]: r for r in found}

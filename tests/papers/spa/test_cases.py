@@ -1,5 +1,5 @@
-"""The design: the published numbers of runs, pairs that can be driven, obstacles where and when the paper has
-them.
+"""The design: the published numbers of runs, pairs with a path, and the published positions and times of
+obstacles.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The planning demo: its first 300 steps, and claims that are computed from the record."""
+"""The planning demo: its first 300 steps, and claims computed from the record."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at s
 
 
 def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
-    """A record as of a run without noise: north has the given intention, the other behaviours none."""
+    """Return a record like that of a run without noise: north has the given intention, the other
+    behaviours none.
+    """
     time, x, y = np.arange(len(pose)) * float(narrative.EVERY), np.arange(-104.0, -4), np.arange(5.0, 105)
     data: dict[str, object] = {"pose.output": (("time", "pose"), pose)}
     for name in DIRECTIONS:
@@ -33,7 +35,7 @@ def record(pose: np.ndarray, intention: np.ndarray) -> xarray.Dataset:
 
 
 def way(*corners: tuple[float, float], each: int) -> np.ndarray:
-    """A path over corners, with `each` records from one to the next."""
+    """Return a path over corners, with `each` records from one to the next."""
     pieces = [np.linspace(a, b, each, endpoint=False) for a, b in itertools.pairwise(corners)]
     line = np.concatenate([*pieces, [corners[-1]]])
     return np.column_stack([line, np.zeros(len(line))])
@@ -107,7 +109,7 @@ def test_the_command_writes_the_printed_files(
     with Image.open(out / "spa.gif") as film:
         assert film.n_frames == 31 and film.size == (400, 400)
         frame = np.asarray(film.convert("RGB"))
-    # the walls around the arena reach the edges of the picture
+    # the walls of the arena reach the edges of the picture
     assert all(len(np.unique(edge, axis=0)) == 1 for edge in (frame[:, 0], frame[:, -1], frame[-1]))
     with Image.open(out / "spa.png") as picture:
         assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100

@@ -1,6 +1,4 @@
-"""The report of rows made by hand: claims hold where they should, fail where they should, and are open where
-too few runs cannot tell.
-"""
+"""The report of constructed rows: claims hold, fail, or are undecided with too few runs."""
 
 from __future__ import annotations
 
@@ -21,14 +19,14 @@ def required(change, quick=False):
 
 
 def only(found, words):
-    """The claims whose names hold all of these words."""
+    """Return the claims whose names contain all of these words."""
     out = [c for name, c in found.items() if all(w in name for w in words)]
     assert out
     return out
 
 
 def said(change, quick=False):
-    """All claims of the report, by name."""
+    """Return all claims of the report, by name."""
     runs = Runs(all_rows(quick, change), quick)
     return {c.name: c for part in (targets, sentences, variations) for c in part.claims(runs)}
 
@@ -50,20 +48,20 @@ def test_claims_with_inferred_settings_are_marked_and_not_required():
         "large maze, low noise: the planner reaches",
     ):
         assert any(words in name for name in inferred), words
-    # events at the second location are inferred in every sentence
+    # every sentence infers events at the second location
     assert all(c.inferred for name, c in said(lambda c, k: {}).items() if "second location" in name)
     assert all(c.assumes for name, c in said(lambda c, k: {}).items() if name.startswith("case 3"))
 
 
 def test_every_claim_states_the_origin_of_its_target():
     for c in said(lambda c, k: {}).values():
-        # the figures of the paper were not at hand to be read
+        # the figures of the paper were not available
         assert c.origin in ("printed", "ours", "none"), c.name
         assert (c.origin == "none") == (c.target == "none"), c.name
 
 
 FAILS = [
-    # what is run, and the beginning of the name of the claim that is false then
+    # the change of the rows, and the beginning of the name of the claim that it makes false
     ("opposed", lambda c, k: {"opposed": 0.2}, "3.2: opposing"),
     (
         "lost goal",
@@ -318,7 +316,7 @@ def test_every_sentence_has_a_number_and_all_figures_are_drawn():
     told = [c for c in report.claims if c.kind == "reported"]
     assert len(told) > 60 and all(c.source.startswith(("Billing", "no sentence of the paper")) for c in told)
     silent = [c.name for c in told if c.value is None]
-    # nothing failed, all values of a kind are alike: these have no number
+    # these have no number if nothing failed and all values are equal
     assert all(
         "failures" in name or "what sticks" in name or "ANOVA" in name or "F of" in name for name in silent
     ), silent

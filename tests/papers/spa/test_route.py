@@ -1,4 +1,4 @@
-"""Routes, obstacles that come down on the robot, and standing still, on paths made by hand."""
+"""Routes, obstacles placed on the robot, and standstill, on constructed paths."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from deodar.papers.spa.route import covered, route, stillness
 
 
 def through(*cells):
-    """A path of steps of 0.25 cm through rows and columns of the published fields."""
+    """Return a path of steps of 0.25 cm through rows and columns of the published fields."""
     corners = np.asarray([place(*c) for c in cells])
     pieces = [
         np.linspace(a, b, int(np.linalg.norm(b - a) / 0.25) + 1) for a, b in itertools.pairwise(corners)
@@ -38,7 +38,7 @@ def test_an_obstacle_that_appears_on_the_robot_is_detected():
     path = through((15, 60), (15, 20))
     assert covered(path, "full") and covered(path, "partial") and covered(path, "narrative")
     assert not covered(path[:20], "full")
-    # the lane of 10 cm that the partial obstacle leaves is not under it
+    # the partial obstacle leaves a passage of 10 cm free
     assert not covered(through((10, 60), (10, 20)), "partial") and covered(
         through((13, 60), (13, 20)), "partial"
     )

@@ -15,7 +15,7 @@ from deodar.papers.spa.runs import Runs
 
 @pytest.fixture
 def four(monkeypatch):
-    """The design with the first four runs of each condition."""
+    """Return the design with the first four runs of each condition."""
     short = {name: dc.replace(c, trials=c.trials[:4]) for name, c in cases.conditions(True).items()}
     monkeypatch.setattr(cases, "conditions", lambda quick: short)
 

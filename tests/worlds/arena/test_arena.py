@@ -1,4 +1,4 @@
-"""An arena with a vehicle: it drives, sees, is changed while it runs, and refuses what cannot be."""
+"""An arena with a vehicle: driving, sensors, changes during a run, and errors."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ POSE, EIGHT, PAIR = dd.Axis("of", 0, 2, 3), dd.Axis("sensor", 0, 7, 8), dd.Axis(
 
 
 def drive(world: Arena, periods: int, left: float = 400.0, right: float = 400.0) -> np.ndarray:
-    """Poses (copies, periods + 1, 3) with constant wheel speeds."""
+    """Return poses (copies, periods + 1, 3) with constant wheel speeds."""
     copies = len(world.sense("pose", (POSE,), 0.0))
     seen = [world.sense("pose", (POSE,), 0.0)]
     for k in range(periods):
@@ -35,15 +35,15 @@ def drive(world: Arena, periods: int, left: float = 400.0, right: float = 400.0)
 
 def begun(*args: Any, trials: Any = (0,), seed: int = 0, precision: str = "float32", **options: Any) -> Arena:
     world = Arena(*args, **options)
-    # worlds of one kind compute the same functions; compiling them once for this module keeps it quick
+    # worlds of one kind share their functions, which are compiled once for this module to save time
     world._compiled = COMPILED.setdefault((world.contact, world.period, world.place_every, world.unit), {})
     world.reset(seed, trials, precision)
     return world
 
 
 def avoiding() -> dd.Model:
-    """Wheels that turn where less is seen: what the right sensors see slows the left wheel, and the other way
-    round; in front it turns left.
+    """Return a model that avoids obstacles: the right sensors slow the left wheel, and the left sensors
+    the right wheel; for obstacles in front it turns left.
     """
     model = dd.Model("avoiding", dt=64)
     eyes = model.add(Sensor("eyes", [EIGHT], "infrared"))
@@ -369,7 +369,7 @@ def test_a_motor_that_gets_a_value_that_is_not_finite_is_named() -> None:
 
 
 class Broken(Arena):
-    """An arena whose vehicle is lost: its position is NaN after some periods."""
+    """An arena in which the position of the vehicle becomes NaN after some periods."""
 
     def advance(self, shared, own, state, motors):
         new = super().advance(shared, own, state, motors)

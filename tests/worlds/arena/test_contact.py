@@ -1,4 +1,4 @@
-"""A disc among boxes: it never gets into a wall or through one, whatever the step; it slides, or sticks."""
+"""A disc among boxes: it never enters or crosses a wall, for any step; it slides or sticks."""
 
 from __future__ import annotations
 
@@ -31,9 +31,7 @@ def mover(sticks: bool):
 
 
 def chamber(rng: np.random.Generator, boxes: int = 12) -> np.ndarray:
-    """A closed room of one metre with walls of a few millimetres, thin and thick boxes in it, and a free
-    outside.
-    """
+    """Return a closed room of one metre with walls of a few millimetres, and thin and thick boxes in it."""
     t = rng.uniform(0.001, 0.01)
     walls = [(0, 0, 1, t), (0, 1 - t, 1, 1), (0, 0, t, 1), (1 - t, 0, 1, 1)]
     for _ in range(boxes):
@@ -44,7 +42,7 @@ def chamber(rng: np.random.Generator, boxes: int = 12) -> np.ndarray:
 
 
 def free(rng: np.random.Generator, boxes: np.ndarray, n: int) -> np.ndarray:
-    """Places in the room where the disc stands free."""
+    """Return positions in the room at which the disc is free."""
     out: list[np.ndarray] = []
     while len(out) < n:
         p = rng.uniform(0, 1, 2).astype(np.float32)
@@ -55,8 +53,8 @@ def free(rng: np.random.Generator, boxes: np.ndarray, n: int) -> np.ndarray:
 
 
 def gap(positions: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-    """The smallest gap between the disc and a box, in double precision; a middle inside a box counts as
-    -radius.
+    """Return the smallest gap between the disc and a box, in double precision; -radius if its centre is
+    inside a box.
     """
     p = np.asarray(positions, np.float64)[..., None, :]
     away = p - np.clip(p, boxes[:, :2].astype(float), boxes[:, 2:].astype(float))
@@ -104,7 +102,7 @@ def test_a_disc_slides_along_a_wall_or_sticks_to_it() -> None:
 
 def test_a_disc_slides_around_an_outer_corner_and_stops_in_an_inner_one() -> None:
     box = np.asarray([(0, 0, 1, 1)], np.float32)
-    # a grazing path that meets the round corner slides off it
+    # a disc on a grazing path slides off the round corner
     end, touched = mover(False)(
         np.asarray([[-0.5, -0.03]], np.float32), np.asarray([[[1.0, 0.0]]], np.float32), box, np.ones(1, bool)
     )

@@ -1,4 +1,4 @@
-"""Arenas as files: what they hold, and what cannot be."""
+"""Arenas as files: their content and errors."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ def test_a_full_turn_of_both_wheels_covers_their_circumference() -> None:
 
 @pytest.mark.parametrize("steps", [(100.0, 300.0), (-500.0, 500.0), (0.0, 4000.0), (300.0, 299.0)])
 def test_constant_wheel_speeds_give_a_circle(steps: tuple[float, float]) -> None:
-    """Against the circle in double precision: radius axle/2 (r + l) / (r - l), from any heading."""
+    """Compare with the circle in double precision: radius axle/2 (r + l) / (r - l), from any heading."""
     heading = 0.7
     left, right = (s * EPUCK.step_length for s in steps)
     radius, angle = EPUCK.axle / 2 * (right + left) / (right - left), (right - left) / EPUCK.axle
@@ -59,7 +59,7 @@ def test_sensors_point_outwards_and_the_first_one_to_the_right_of_the_front() ->
     s = EPUCK.infrared
     looks = np.asarray(ahead(jnp.asarray(s.angles))).T
     stands = np.stack([s.forward, s.left], -1)
-    # those at the back look 30 degrees past it
+    # the directions of those at the back differ from it by 30 degrees
     assert (np.sum(looks * stands, 1) / np.linalg.norm(stands, axis=1) > 0.7).all()
     assert s.left[0] < 0 < s.left[-1] and looks[0, 0] > 0.9 and looks[0, 1] < 0
     assert (np.linalg.norm(stands, axis=1) < EPUCK.radius).all(), (
