@@ -68,7 +68,7 @@ def test_the_winner_is_amplified_and_the_others_are_silent():
 
 
 def test_without_self_excitation_several_units_are_active():
-    """Weak competition keeps several active: r = s - beta_1 beta_2 sum r for units whose s exceeds that term."""
+    """Weak competition keeps several active: r = s - beta_1 beta_2 sum r, where this is above 0."""
     rates, v = settled(self_excitation=0.0, inhibition=0.8, drive=0.25)
     np.testing.assert_allclose(rates, np.maximum(0, EVIDENCE - 0.2 * rates.sum()), atol=1e-6)
     assert (rates > 1e-6).sum() == 4 and v == pytest.approx(0.25 * rates.sum(), abs=1e-6)
