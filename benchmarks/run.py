@@ -238,8 +238,9 @@ def workload_table(rows: list[steps.Row]) -> list[str]:
             f"{x:.{digits}f}" if x is not None else "-"
             for x, digits in ((r.c_us, 3), (r.ratio, 2), (r.earlier, 2))
         )
+        target = "-" if r.target is None else f"{r.target:g}"
         lines.append(
-            f"| {r.name:12} | {r.us:9.3f} | {c:>8} | {ratio:>7} | {r.to:6} | {earlier:>9} | {r.target:6g} |"
+            f"| {r.name:12} | {r.us:9.3f} | {c:>8} | {ratio:>7} | {r.to:6} | {earlier:>9} | {target:>6} |"
             f" {r.spread:6.0%} | {r.meaning:68} |"
         )
     return lines

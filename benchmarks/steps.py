@@ -18,7 +18,10 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import IO, Any
+from typing import IO
+
+import deodar as dd
+import workloads
 
 HERE = Path(__file__).parent
 CLOSED, BETWEEN = 1000, 10
@@ -44,39 +47,51 @@ class Row:
     ratio: float | None
     earlier: float | None
     to: str
-    target: float
+    target: float | None
     spread: float
 
 
 # ---------------------------------------------------------------------------------- the process that is timed
 
 
+class Timed:
+    """The workloads of a process; each is made at its first call."""
+
+    def __init__(self) -> None:
+        self.models: dict[str, dd.Model] = {}
+        self.sessions: dict[str, dd.Session] = {}
+
+    def run(self, name: str, count: int) -> float:
+        """Return the CPU seconds of `count` steps of a workload."""
+        workload = workloads.CLOSED_LOOP if name == CLOSED_LOOP else workloads.WORKLOADS[name]
+        if workload.session:
+            return self._session(name, workload, count)
+        world = workload.world() if workload.world else None
+        model = self.models.setdefault(name, workload.model())
+        before = time.process_time()
+        dd.simulate(model, count, trials=workload.trials or None, world=world, progress=False)
+        return time.process_time() - before
+
+    def _session(self, name: str, workload: workloads.Workload, count: int) -> float:
+        if name not in self.sessions:
+            world = workload.world() if workload.world else None
+            session = self.sessions[name] = dd.Session(workload.model(), world=world)
+            _closed_loop(session, 4 * BETWEEN) if name == CLOSED_LOOP else session.step(4)
+        session = self.sessions[name]
+        before = time.process_time()
+        _closed_loop(session, count) if name == CLOSED_LOOP else session.step(count)
+        return time.process_time() - before
+
+
 def serve() -> None:
     """Answer lines "WORKLOAD STEPS" with CPU seconds."""
-    import deodar as dd
-
-    sys.path.insert(0, str(HERE))
-    import workloads
-
-    models: dict[str, dd.Model] = {}
-    session: Any = None
+    timed = Timed()
     for line in sys.stdin:
         name, steps = line.split()
-        if name == CLOSED_LOOP:
-            if session is None:
-                session = dd.Session(workloads.CLOSED_LOOP.model())
-                _closed_loop(session, 4 * BETWEEN)
-            before = time.process_time()
-            _closed_loop(session, int(steps))
-        else:
-            model = models.setdefault(name, workloads.WORKLOADS[name].model())
-            trials = workloads.WORKLOADS[name].trials or None
-            before = time.process_time()
-            dd.simulate(model, int(steps), trials=trials, progress=False)
-        print(f"{time.process_time() - before:.9f}", flush=True)
+        print(f"{timed.run(name, int(steps)):.9f}", flush=True)
 
 
-def _closed_loop(session: Any, steps: int) -> None:
+def _closed_loop(session: dd.Session, steps: int) -> None:
     for k in range(steps // BETWEEN):
         session.set("u3.resting_level", -5 + 0.01 * (k % 7))
         session.step(BETWEEN)
@@ -158,8 +173,6 @@ def measure(names: Sequence[str], rounds: int, seconds: float, folder: Path) -> 
     """The figures of the named workloads and of those they are compared with; about `seconds` of CPU for each
     T(n).
     """
-    import workloads
-
     table = workloads.WORKLOADS
     closed = CLOSED_LOOP in names
     chosen = {*names} - {CLOSED_LOOP} | ({workloads.CLOSED_LOOP.to} if closed else set())
@@ -205,12 +218,13 @@ def count(ask: Callable[[int], float], seconds: float) -> int:
     return max(2, 2 * round(0.5 * n * seconds / max(slope, 0.1 * seconds)))
 
 
-def _row(name: str, w: Any, times: Sequence[float], medians: dict[str, list[float]]) -> Row:
+def _row(name: str, w: workloads.Workload, times: Sequence[float], medians: dict[str, list[float]]) -> Row:
     us = statistics.median(times)
     c_us = medians[name][1] if len(medians.get(name, ())) > 1 else None
     base = c_us if w.to == "C" else medians[w.to][0]
     ratio = us / base if base else None
-    earlier = ratio / w.earlier if ratio is not None and w.to == "C" else None
+    judged = ratio is not None and w.to == "C" and w.target is not None
+    earlier = ratio / w.earlier if judged else None
     return Row(name, w.meaning, us, c_us, ratio, earlier, w.to, w.target, (max(times) - min(times)) / us)
 
 

@@ -2,7 +2,8 @@
 default.
 
 `steps`: wall time of a step for each copy, in the Z-maze by the size of a batch, and in the large maze, on
-one core. `hundred`: 100 runs of the Z-maze (the published pairs of start and goal, 3,000 steps at most) in as
+one core; beside each its ratio to a step of one field of 100 x 100 in C (yardstick.c), where there is a C
+compiler. `hundred`: 100 runs of the Z-maze (the published pairs of start and goal, 3,000 steps at most) in as
 many worker processes as there are cores, their start included, and beside it the same in batches that
 finished runs leave. `live`: how many times faster than the robot one run in a session is that a page of the
 studio would watch. Nothing is asserted.
@@ -17,6 +18,8 @@ import time
 from pathlib import Path
 
 import deodar as dd
+import steps as timing
+import workloads
 from deodar.architectures.spa import STEP_MS, maze, spa
 from deodar.compiler.device import available
 from deodar.experiments.batch import run_batch
@@ -47,13 +50,33 @@ def a_step(name: str, copies: int) -> float:
     return min((seconds(2 * n) - seconds(n)) / n / copies for _ in range(3)) * 1e3
 
 
+def yardstick() -> float | None:
+    """Ms of a step of one field of 100 x 100 in C, the fastest of nine; None without a C compiler."""
+    if (cc := timing.compiler()) is None:
+        return None
+    w = workloads.WORKLOADS["W2_100"]
+    with tempfile.TemporaryDirectory() as folder:
+        program = timing.build(cc, Path(folder), "field", w.shape, w.sigmas, w.trials)
+        with timing.process(str(program)) as ask:
+            n = timing.count(lambda n: ask(f"{n} 1"), 0.05)
+            return min((ask(f"{2 * n} 1") - ask(f"{n} 1")) / n for _ in range(9)) * 1e3
+
+
+def beside_c(ms: float, c: float | None) -> str:
+    """A time and its ratio to the yardstick."""
+    return f"{ms:.2f} ms" + (f" ({ms / c:.0f} times C)" if c else "")
+
+
 def steps() -> None:
     """A step by the size of a batch, and of both mazes."""
+    c = yardstick()
+    if c:
+        print(f"one field of 100 x 100 in C: {c:.4f} ms a step", flush=True)
     found = {copies: a_step("z", copies) for copies in SIZES}
     for copies, ms in found.items():
-        print(f"Z-maze, {copies} at once: {ms:.2f} ms a step of each", flush=True)
+        print(f"Z-maze, {copies} at once: {beside_c(ms, c)} a step of each", flush=True)
     large = a_step("large", 1)
-    print(f"large maze, 1 at once: {large:.2f} ms, {large / found[1]:.1f} times the Z-maze", flush=True)
+    print(f"large maze, 1 at once: {beside_c(large, c)}, {large / found[1]:.1f} times the Z-maze", flush=True)
 
 
 def batch(first: int, count: int) -> list[dict[str, object]]:

@@ -1,8 +1,9 @@
-"""The models whose steps are timed: single fields in one, two and three dimensions, a batch of trials, and
-two architectures.
+"""The models whose steps are timed: single fields in one, two and three dimensions, a batch of trials, two
+architectures of coupled fields, and the planner of a vehicle beside its arena.
 
-All fields are rings or tori of unit spacing with tau = 20, h = -5, a logistic output of steepness 4, noise of
-strength 1 in every step, global inhibition 0.1, and a kernel of two normalised Gaussians, 15 and -8.
+All fields but those of the planner are rings or tori of unit spacing with tau = 20, h = -5, a logistic
+output of steepness 4, noise of strength 1 in every step, global inhibition 0.1, and a kernel of two
+normalised Gaussians, 15 and -8.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import random
 from collections.abc import Callable, Sequence
 
 import deodar as dd
+from deodar.architectures.spa import maze, spa
 from deodar.couplings.convolve import Convolve
 
 NAMES = "xyz"
@@ -24,8 +26,11 @@ class Workload:
     Attributes:
         model: makes the model.
         meaning: in words.
-        target: the highest ratio wanted, of the time of a step to that of `to`.
+        target: the highest ratio wanted, of the time of a step to that of `to`; None: none is set.
         to: "C" (the yardstick), or another workload of the same run.
+        world: makes the world beside the model.
+        session: steps are taken by a `dd.Session`, which exchanges values with the world at each of them, and
+            not by `dd.simulate`.
         trials: how many copies run at once; 0: one, without the axis.
         shape, sigmas: what the yardstick is compiled for.
         earlier: how many times the yardstick that the targets were set against was slower than this one
@@ -34,8 +39,10 @@ class Workload:
 
     model: Callable[[], dd.Model]
     meaning: str
-    target: float
+    target: float | None
     to: str = "C"
+    world: Callable[[], dd.World] | None = None
+    session: bool = False
     trials: int = 0
     shape: tuple[int, ...] = ()
     sigmas: tuple[int, int] = (0, 0)
@@ -110,6 +117,11 @@ def planes(seed: int | None = None) -> dd.Model:
     return model
 
 
+def planner() -> dd.Model:
+    """The planner of a vehicle in the Z-maze: 16 fields of 100 x 100, nodes, and the sensors of an arena."""
+    return spa(maze("z"))
+
+
 def _single(
     shape: tuple[int, ...], sigmas: tuple[int, int], target: float, earlier: float, trials: int = 0
 ) -> Workload:
@@ -138,7 +150,27 @@ WORKLOADS = {
     "W4a_shuffled": Workload(lambda: lines(1), "the same, couplings shuffled", 1.25, to="W4a"),
     "W4b": Workload(planes, "ring of 16 fields of 50 x 50", 16, to="W2_50"),
     "W4b_shuffled": Workload(lambda: planes(1), "the same, couplings shuffled", 1.25, to="W4b"),
+    "SPA": Workload(
+        planner,
+        "planner of 16 fields of 100 x 100, its arena inside the run",
+        None,
+        world=lambda: maze("z"),
+        shape=(100, 100),
+        sigmas=(3, 6),
+    ),
+    "SPA_session": Workload(
+        planner,
+        "the same, a session beside the arena",
+        None,
+        to="SPA",
+        world=lambda: maze("z"),
+        session=True,
+    ),
 }
 CLOSED_LOOP = Workload(
-    lines, "W4a in a session: every 10 steps one parameter set, one field read", 3, to="W4a"
+    lines,
+    "W4a in a session: every 10 steps one parameter set, one field read",
+    3,
+    to="W4a",
+    session=True,
 )

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -118,6 +118,54 @@ def test_shuffled_targets_are_a_permutation_with_few_neighbours_of_the_ring() ->
         to = workloads.targets(count, seed)
         assert sum(target == (k + 1) % count for k, target in enumerate(to)) < 4 or seed is None
         assert sorted(to) == list(range(count)) and all(k != target for k, target in enumerate(to))
+
+
+class Ramp(dd.World):
+    """A world whose reading is its time; it notes when it was read."""
+
+    sensors: Mapping[str, dd.Signal] = {"ramp": dd.Signal("ramp", ())}
+    motors: Mapping[str, dd.Signal] = {}
+    period = 1.0
+
+    def __init__(self) -> None:
+        self.read: list[float] = []
+
+    def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        self.read = []
+
+    def sense(self, sensor: str, axes: Sequence[dd.Axis], time: float) -> np.ndarray:
+        self.read.append(time)
+        return np.array(time)
+
+    def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
+        pass
+
+
+def watched() -> dd.Model:
+    model = dd.Model("watched")
+    model.add(dd.Sensor("s", [], "ramp")) >> model.add(dd.Field("u", tau=20, resting_level=-5))
+    return model
+
+
+@pytest.mark.parametrize(("session", "expected"), [(False, [13, 13]), (True, [16, 28])])
+def test_a_workload_with_a_world_steps_beside_it(
+    session: bool, expected: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each call of `dd.simulate` is a new run, which reads once more at its end; a session continues."""
+    worlds: list[Ramp] = []
+
+    def world() -> Ramp:
+        worlds.append(Ramp())
+        return worlds[-1]
+
+    made = workloads.Workload(watched, "a field and a ramp", None, world=world, session=session)
+    monkeypatch.setitem(workloads.WORKLOADS, "ramp", made)
+    timed = steps.Timed()
+    steps_taken = []
+    for _ in range(2):
+        assert timed.run("ramp", 12) >= 0
+        steps_taken.append(len(worlds[-1].read))
+    assert steps_taken == expected and len(worlds) == (1 if session else 2)
 
 
 def test_without_a_compiler_the_ratio_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
