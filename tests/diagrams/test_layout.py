@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 from pathlib import Path
 
 import pytest
 
 import deodar as dd
-from deodar.diagrams import boxes, given, layers, paint, text
+from deodar.diagrams import boxes, given, layers, layout, paint, text
 from deodar.diagrams.graph import Graph, Item, Wire
 from deodar.diagrams.scene import Shape, TextLine
 from deodar.diagrams.straight import settle
@@ -223,3 +224,48 @@ def test_marks_differ_in_shape_and_not_only_in_colour():
     }
     kinds = {sign: [len(s.path) for s in found] for sign, found in shapes.items()}
     assert kinds == {"+": [4], "-": [6], "±": [4, 6]}
+
+
+def test_a_caption_is_in_the_middle_of_a_segment_of_its_connection():
+    graph = big(20, 60)
+    _, found, sizes = paint.lay_out(graph)
+    assert (
+        set(found.captions)
+        == set(sizes)
+        == {k for k, w in enumerate(graph.wires) if w.captions and w.source != w.target}
+    )
+    for wire, (x, y) in found.captions.items():
+        half = sizes[wire][0] / 2
+        assert any(
+            run.y == pytest.approx(y) and run.x0 - 0.01 <= x - half and x + half <= run.x1 + 0.01
+            for run in found.runs[wire]
+        ), (wire, x, y, found.runs[wire])
+
+
+def test_the_space_between_columns_grows_with_the_climb_of_connections():
+    items = [Item(name, "field", name) for name in ("a", *(f"b{k}" for k in range(9)))]
+    wires = [Wire("a", item.id) for item in items[1:]]
+    fan = paint.lay_out(Graph("fan", tuple(items), tuple(wires), {}))[1]
+    pair = paint.lay_out(Graph("pair", tuple(items[:2]), tuple(wires[:1]), {}))[1]
+    spaces: dict[str, list[float]] = {}
+    for name, found in (("fan", fan), ("pair", pair)):
+        steps = [step for runs in found.runs.values() for step in itertools.pairwise(runs)]
+        spaces[name] = [other.x0 - one.x1 for one, other in steps]
+        # a space and the one after it, with the lanes of connections between them
+        for (one, other), space in zip(steps, spaces[name], strict=True):
+            assert space >= 2 * layout.GAP + layout.STEEPEST * abs(other.y - one.y) - 0.01
+    assert min(spaces["fan"]) > max(spaces["pair"]) + 5
+
+
+@pytest.mark.parametrize("count", [2, 3, 9])
+@pytest.mark.parametrize("form", ["node", "field"])
+def test_connections_at_one_side_share_the_height_of_a_box(form, count):
+    items = [Item("end", form, "end"), *(Item(f"s{k}", "node", f"s{k}") for k in range(count))]
+    graph = Graph("ends", tuple(items), tuple(Wire(i.id, "end") for i in items[1:]), {})
+    drawn, found, _ = paint.lay_out(graph)
+    box, top = drawn["end"].box, found.boxes["end"][1]
+    ends = sorted(runs[-1].y for runs in found.runs.values())
+    steps = [b - a for a, b in itertools.pairwise(ends)]
+    assert steps == pytest.approx([min(layout.SPACING, (box.body - 6) / (count - 1))] * (count - 1))
+    assert min(steps) >= boxes.CLOSEST - 0.01
+    assert (ends[0] + ends[-1]) / 2 == pytest.approx(top + box.top + box.body / 2)
