@@ -11,6 +11,9 @@ import xarray
 import deodar as dd
 from deodar.figures import projection, snapshot, snapshots, space_time, time_course
 from deodar.figures._color import scale
+from deodar.figures._panels import choose
+from deodar.figures._style import PANEL, SINGLE
+from deodar.figures._view import View
 from tests.recording.models import record, x
 
 
@@ -70,6 +73,49 @@ def test_a_projection_takes_the_largest_value_along_the_other_axes() -> None:
     assert np.allclose(total, u.values[0].sum(axis=1).T * 2.0, rtol=1e-5)
 
 
+def test_the_title_of_a_projection_states_its_time() -> None:
+    model = dd.Model("deep")
+    model.add(dd.Field("w", [x, dd.Axis("y", 0, 10, samples=6), dd.Axis("z", 0, 4, samples=5)], noise=0.5))
+    u = dd.simulate(model, 10, record="w.activation", every=5)["w.activation"]
+    one = projection(u, axes=["x", "y"], at=[5])
+    assert one.axes[0].get_title() == "5 ms" and not one.get_suptitle()
+    every_pair = projection(u, at=[10])
+    assert every_pair.get_suptitle() == "10 ms" and not any(axes.get_title() for axes in every_pair.axes)
+    for axes in ([], ["x", "x"], ["x", "y", "z"]):
+        with pytest.raises(dd.errors.RecordError, match="goes onto one axis or two"):
+            projection(u, axes=axes)
+
+
+@pytest.mark.parametrize(
+    ("dims", "options", "kind"),
+    [
+        (0, {}, "time_course"),
+        (1, {}, "space_time"),
+        (2, {}, "snapshots"),
+        (3, {}, "projection"),
+        (0, {"at": [5]}, "snapshot"),
+        (1, {"at": [5]}, "snapshot"),
+        (1, {"at": [5, 10]}, "snapshots"),
+        (2, {"at": [5]}, "snapshot"),
+        (3, {"at": [5]}, "projection"),
+        (2, {"axes": ["a"]}, "projection"),
+        (3, {"places": [[1, 1, 1]]}, "time_course"),
+    ],
+)
+def test_the_default_kind_suits_the_dimensions_and_the_request(
+    dims: int, options: dict[str, Any], kind: str
+) -> None:
+    values = np.zeros((3, *[4] * dims))
+    variable = xarray.DataArray(values, dims=["time", *"abc"[:dims]], coords={"time": [0.0, 5.0, 10.0]})
+    assert choose(View(variable, **options)) == kind
+
+
+@pytest.mark.parametrize("kind", [space_time, time_course])
+def test_a_panel_fills_one_column_and_is_wider_than_high(data: xarray.Dataset, kind: Any) -> None:
+    width, height = kind(data["u.activation"].isel({"s.amplitude": 1, "trial": 0})).get_size_inches()
+    assert width == SINGLE and height == pytest.approx(PANEL, abs=0.25)
+
+
 def test_the_range_of_colours_contains_the_threshold() -> None:
     """The noise of a silent field must not look like peaks."""
     silent = np.random.default_rng(1).normal(-5, 0.02, (20, 20))
@@ -83,6 +129,7 @@ def test_the_range_of_colours_contains_the_threshold() -> None:
     [
         (time_course, {"where": {"s.amplitude": 5.0}}, "Valid values: 4, 8"),
         (time_course, {"places": [1000.0]}, "outside"),
+        (time_course, {"places": [[10.0, 5.0]]}, "has 1 numbers .x., not 2"),
         (snapshot, {"at": [999.0]}, "999"),
         (projection, {"axes": ["q"]}, "q"),
     ],
