@@ -52,6 +52,12 @@ def test_the_output_of_every_kind_lies_inside_its_bounds(kind: str) -> None:
     _inside(model, ["example.output"])
 
 
+@pytest.mark.parametrize("kind", [dd.Pattern, dd.TimeSeries])
+def test_without_an_array_the_output_of_a_stimulus_may_have_any_value(kind: type[Element]) -> None:
+    element = kind("given later", [X], values=[], windows=[(0, 10)])  # type: ignore[call-arg]
+    assert element.bounds({}, {}, {}) == {"output": (-math.inf, math.inf)}
+
+
 def test_at_least_twenty_kinds_state_bounds() -> None:
     assert len(STATED) >= 20
 
