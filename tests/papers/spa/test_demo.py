@@ -12,8 +12,9 @@ import pytest
 import xarray
 from PIL import Image
 
-from deodar.architectures.spa import DIRECTIONS, maze
+from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze
 from deodar.cli import main
+from deodar.figures import animation
 from deodar.papers.spa import narrative
 
 INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at step"
@@ -79,12 +80,38 @@ def test_the_figure_names_its_times_and_those_that_did_not_occur(published: bool
     start = (-45.0, 55.0)
     pose = np.concatenate([way(start, start, each=110), way(start, (-48.0, 60.0), each=100)])
     intention = (np.arange(len(pose)) >= 105).astype(float)
-    found = dc.replace(narrative.read(record(pose, intention), maze("z")), published=published)
+    arena = maze("z")
+    if published:
+        arena.place("obstacle", *OBSTACLES["full"], windows=(narrative.COMES * STEP_MS, 1e9))
+    found = dc.replace(narrative.read(record(pose, intention), arena), published=published)
     drawn = found.figure()
     titles = [place.get_suptitle() for half in drawn.subfigs for place in half.subfigs]
     assert [title for title in titles if title] == ["plan complete, step 210", second]
+    obstacle = [text for text in drawn.subfigs[0].subfigs[0].axes[0].texts if "from" in text.get_text()]
+    assert [text.get_text() for text in obstacle] == ([f"from\n{narrative.COMES}"] if published else [])
+    if published:
+        assert obstacle[0].get_position() == pytest.approx(OBSTACLES["full"][0])
     grey = [patch for patch in drawn.subfigs[0].subfigs[0].axes[0].patches if patch.get_width() > 0]
-    assert len(grey) == len(found.arena.layout.objects), "the walls are drawn"
+    assert len(grey) == len(arena.layout.objects) + published, "walls and obstacle are drawn"
+
+
+def test_a_frame_of_the_video_shows_robot_goal_and_step_at_their_positions() -> None:
+    """The robot stands, and its motivation does not change: two frames differ in the printed step alone."""
+    robot = (-45.0, 55.0)
+    found = narrative.read(record(way(robot, robot, each=30), np.zeros(31)), maze("z"))
+    first, later = (np.asarray(animation._frame(found, k).convert("RGB"), int) for k in (0, 30))
+    height, width, _ = first.shape
+    assert (height, width) == (100 * animation.SCALE,) * 2
+    rows, columns = np.nonzero(np.abs(first - later).sum(axis=-1) > 60)
+    assert len(rows) and rows.max() < 20 and columns.min() >= width - 80
+    dark = first.max(axis=-1) < 45
+    for (x, y), reach in ((found.goal, 14), (robot, 26)):
+        column, row = (x + 104 + 0.5) * animation.SCALE, (104 + 0.5 - y) * animation.SCALE
+        down, across = np.nonzero(dark)
+        near = (abs(down - row) < reach) & (abs(across - column) < reach)
+        assert near.sum() > 20
+        middle = (across[near].min() + across[near].max()) / 2, (down[near].min() + down[near].max()) / 2
+        assert middle == pytest.approx((column, row), abs=1.5)
 
 
 def test_the_command_writes_the_printed_files(

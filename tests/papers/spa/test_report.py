@@ -9,7 +9,8 @@ import pytest
 from deodar.analysis.claims import failed, results
 from deodar.papers import spa
 from deodar.papers.spa import sentences, targets, variations
-from deodar.papers.spa.runs import Runs
+from deodar.papers.spa.runs import SOURCE, Runs
+from deodar.papers.spa.sentence import Sentence
 from deodar.papers.spa.targets import claims
 from tests.papers.spa.rows import all_rows
 
@@ -58,6 +59,20 @@ def test_every_claim_states_the_origin_of_its_target():
         # the figures of the paper were not available
         assert c.origin in ("printed", "ours", "none"), c.name
         assert (c.origin == "none") == (c.target == "none"), c.name
+
+
+@pytest.mark.parametrize(
+    ("sentence", "source"),
+    [
+        (Sentence("5.2", "it arrives"), f"{SOURCE}, section 5.2"),
+        (Sentence("5.2", "it arrives", source="figure 8"), "figure 8"),
+        (Sentence("", "it arrives", source="figure 8"), "figure 8"),
+        (Sentence("", "it arrives"), "no sentence of the paper"),
+    ],
+)
+def test_the_source_of_a_claim_is_where_the_paper_has_its_sentence(sentence, source):
+    claim = sentence.value(1.0, 3)
+    assert (claim.source, claim.n, claim.value, claim.target) == (source, 3, 1.0, "none")
 
 
 FAILS = [
