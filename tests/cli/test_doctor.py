@@ -6,6 +6,7 @@ import importlib.metadata
 import json
 from pathlib import Path
 
+import psutil
 import pytest
 
 from deodar.cli import main
@@ -26,6 +27,8 @@ def test_doctor_prints_versions_device_and_cache_folder(
         "mib": 1.0,
         "writable": True,
     }
+    total = psutil.virtual_memory().total / 2**30
+    assert 0 < found["memory_gib"]["free"] <= found["memory_gib"]["total"] == pytest.approx(total, abs=0.06)
     assert main(["doctor"]) == 0
     page = capsys.readouterr().out
     assert "1 compiled programs" in page and "extra      test: installed" in page

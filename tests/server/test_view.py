@@ -15,7 +15,9 @@ from deodar.kinds.description import descriptions
 from deodar.model import edit
 from deodar.numerics.kernels.custom import Custom
 from deodar.server import view
+from deodar.server.requests import _blob
 from deodar.server.to_page import Kind
+from deodar.server.to_server import PushInput
 
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
 Y = dd.Axis("y", 0, 1, samples=11)
@@ -153,3 +155,25 @@ def test_every_description_of_a_kind_can_be_sent() -> None:
     assert [(p.name, p.symbol, p.default) for p in field.parameters] == [
         (p.name, p.symbol, p.default) for p in described.parameters
     ]
+
+
+def test_a_pushed_input_is_a_gaussian_over_every_axis() -> None:
+    ring = dd.Axis("ring", 0, 360, samples=36, periodic=True)
+
+    def pushed(axes: Any, **values: Any) -> np.ndarray:
+        return _blob(axes, PushInput(element="e", amplitude=3.0, **values))
+
+    x, y, angle = X.points, Y.points, ring.points
+    bell = 3 * np.exp(-0.5 * ((x - 40) / 5) ** 2)
+    np.testing.assert_allclose(pushed((X,), center=[40.0], sigma=[5.0]), bell)
+    np.testing.assert_allclose(pushed((X,), center=[40.0]), bell, err_msg="a twentieth of the axis")
+    np.testing.assert_allclose(
+        pushed((X, Y), center=[40.0, 0.5], sigma=[5.0, 0.2]),
+        bell[:, None] * np.exp(-0.5 * ((y - 0.5) / 0.2) ** 2),
+    )
+    across = np.minimum(abs(angle - 350), 360 - abs(angle - 350))
+    np.testing.assert_allclose(
+        pushed((ring,), center=[350.0], sigma=[20.0]), 3 * np.exp(-0.5 * (across / 20) ** 2)
+    )
+    np.testing.assert_array_equal(pushed((X, Y)), np.full((101, 11), 3.0))
+    assert pushed(()) == 3.0

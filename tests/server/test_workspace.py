@@ -40,6 +40,16 @@ def test_paths_inside_of_the_workspace_are_accepted(tmp_path: Path) -> None:
     assert space.inside("") == tmp_path.resolve()
 
 
+def test_a_workspace_holds_only_what_lies_below_its_root(tmp_path: Path) -> None:
+    root = tmp_path / "root"
+    (root / "sub").mkdir(parents=True)
+    (root / "out").symlink_to(tmp_path / "elsewhere")
+    space = Workspace(root)
+    assert space.holds(root / "x.json") and space.holds(root / "sub" / "x.json")
+    for path in (root, tmp_path / "x.json", root / ".." / "x.json", root / "out", root / "a\0b"):
+        assert not space.holds(path), path
+
+
 def test_a_folder_lists_what_can_be_opened(tmp_path: Path) -> None:
     for name in ("b.json", "A.JSON", ".hidden.json", "photo.JPG", "notes.txt"):
         (tmp_path / name).touch()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from deodar.numerics.axes import Axis
 from deodar.worlds import _pure
@@ -90,3 +91,13 @@ def test_a_world_with_a_reading_of_its_own_is_read_by_it() -> None:
     world = Doubled(6.0)
     assert counted(world) == [12.0]
     assert [reading.tolist() for reading in world.sense_all([("count", ())] * 2, 0.0)] == [[12.0], [12.0]]
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_a_world_computes_in_the_precision_of_the_model(precision: str) -> None:
+    world = Counter(1 / 3, 0.1)
+    world.reset(1, (0,), precision)
+    world.act({}, 0.0)
+    seen = world.sense("count", (), 0.0)
+    dtype = np.dtype(precision).type
+    assert seen.dtype == dtype and seen == dtype(0.1) + dtype(1 / 3)

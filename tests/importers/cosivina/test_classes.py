@@ -482,6 +482,29 @@ def test_a_class_that_is_not_translated_becomes_a_placeholder(kind, tmp_path):
     dd.Session(done.model).step(2)
 
 
+@pytest.mark.parametrize(
+    ("times", "verdict", "on"),
+    [
+        ([[2, 5]], "carried", [(1, 5)]),
+        ([[2, 5], [7, 9]], "carried", [(1, 5), (6, 9)]),
+        ([], "carried", []),
+        ([2], "approximated", []),
+        ([[2, 5, 7]], "approximated", []),
+        ("soon", "approximated", []),
+    ],
+)
+def test_times_that_are_no_pairs_are_reported(times, verdict, on, tmp_path):
+    parts = [
+        element("u", "SingleNodeDynamics", {"tau": 10, "h": 0, "beta": 4}, [("b", "output")]),
+        element("b", "TimedBoost", {"amplitude": 1.5, "onTimes": times}),
+    ]
+    done = read(written(tmp_path, parts))
+    (line,) = (line for line in done.report.lines if (line.where, line.what) == ("b", "onTimes"))
+    assert line.verdict == verdict
+    windows = done.model["b"].element.windows
+    assert [(w.start, w.stop) for w in windows if w.stop > w.start] == on
+
+
 NAMES = """
 AdaptiveWeightMatrix AttractorDynamics BoostStimulus CameraGrabber ColorExtraction Convolution CustomStimulus
 CustomStimulusSequence DiagonalExpansion DiagonalSum DynamicRobotController DynamicVariable ExpandDimension

@@ -17,6 +17,7 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import UnknownName, WorldError
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.layout import load
+from deodar.worlds.arena.room import FINE, Room
 
 EMPTY: dict[str, Any] = {"arena": {"x": [0, 3], "y": [0, 3]}}
 COMPILED: dict[Any, Any] = {}
@@ -289,6 +290,23 @@ GAP = {
     **EMPTY,
     "walls": [{"center": [1.5, 0.7], "size": [0.05, 1.4]}, {"center": [1.5, 2.25], "size": [0.05, 1.6]}],
 }
+
+
+@pytest.mark.parametrize("shift", [(0, 0), (300, 200), (-300, -200)])
+def test_an_arena_far_from_the_origin_has_the_same_free_places(shift: tuple[int, int]) -> None:
+    """A vehicle without a start begins at the free position nearest the middle."""
+    dx, dy = shift
+    moved = {
+        "arena": {"x": [dx, dx + 3], "y": [dy, dy + 1]},
+        "walls": [{"center": [dx + 1.5, dy + 0.5], "size": [0.4, 0.6]}],
+    }
+    world = Arena(moved)
+    world.reset(0)
+    (body,) = world.scene().bodies
+    assert np.subtract(body.center, shift) == pytest.approx([1.243, 0.5], abs=0.01)
+    room = Room(world.layout, world.vehicle.radius, np.asarray([t.box for t in world.layout.objects]))
+    assert room.cell == world.vehicle.radius / FINE
+    assert room.joined((dx + 0.5, dy + 0.5), (dx + 2.5, dy + 0.5))
 
 
 @pytest.mark.parametrize(

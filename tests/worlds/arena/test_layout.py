@@ -79,6 +79,15 @@ def test_the_description_of_a_layout_is_read_as_the_same_layout() -> None:
         assert [t.box for t in again.objects] == [t.box for t in load(name).objects]
 
 
+@pytest.mark.parametrize("color", [(0.0, 0.0, 0.0), (0.0, 0.5, 1.0), (0.25, 1.0, 0.0)])
+def test_start_goal_and_colours_are_written_and_read(color: tuple[float, float, float]) -> None:
+    block = {"name": "b", "center": [0.5, 0.2], "size": [0.1, 0.2], "color": list(color)}
+    layout = load({**ROOM, "blocks": [block], "start": [0.3, 0.4], "heading": 1.5, "goal": [1.8, 0.5]})
+    again = load(layout.to_data())
+    assert again == layout and (again.start, again.goal) == ((0.3, 0.4, 1.5), (1.8, 0.5))
+    assert [t.color for t in again.objects] == [(0.45, 0.45, 0.45), color]
+
+
 @pytest.mark.parametrize(
     ("changed", "says"),
     [
