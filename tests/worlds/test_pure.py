@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import deodar as dd
+from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
 from deodar.worlds import _pure
 from deodar.worlds._base import Signal
@@ -101,3 +103,50 @@ def test_a_world_computes_in_the_precision_of_the_model(precision: str) -> None:
     seen = world.sense("count", (), 0.0)
     dtype = np.dtype(precision).type
     assert seen.dtype == dtype and seen == dtype(0.1) + dtype(1 / 3)
+
+
+def test_one_compiled_function_advances_a_world_and_reads_its_sensors() -> None:
+    world, apart = Counter(7.0), Counter(7.0)
+    counted(world)
+    counted(apart)
+    requests = [("count", ()), ("count", LINE)]
+    assert world.exchanges
+    before = compiled()
+    seen = world.exchange({}, requests)
+    assert compiled() == before + 1
+    apart.act({}, 1.0)
+    assert [reading.tolist() for reading in seen] == [[14.0], [[14.0, 14.0, 14.0]]]
+    assert [a.tolist() for a in apart.sense_all(requests, 2.0)] == [a.tolist() for a in seen]
+    assert world.keep() == apart.keep()
+
+
+def test_an_unknown_sensor_leaves_the_world_as_it_was() -> None:
+    world = Counter(8.0)
+    assert counted(world) == [8.0]
+    with pytest.raises(WorldError, match="no sensor 'sum'"):
+        world.exchange({}, [("count", ()), ("sum", ())])
+    assert world.sense("count", (), 1.0).tolist() == [8.0]
+
+
+def test_a_world_with_a_step_or_a_reading_of_its_own_keeps_it() -> None:
+    class Doubled(Counter):
+        def sense(self, sensor, axes, time):
+            return 2 * super().sense(sensor, axes, time)
+
+    class Twice(Counter):
+        def act(self, motors, time):
+            super().act(motors, time)
+            super().act(motors, time)
+
+    for kind in (Doubled, Twice):
+        assert not kind(9.0).exchanges
+        world = kind(0.25)
+        session = dd.Session(watching(), world=world)
+        session.step(4)
+        assert session.read("s.output") == 2.0
+
+
+def watching() -> dd.Model:
+    model = dd.Model("watching")
+    model.add(dd.Sensor("s", [], "count"))
+    return model

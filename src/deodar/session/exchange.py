@@ -135,17 +135,22 @@ class Exchange:
         back = now.tick < self._last  # after the restore of a snapshot
         if not self.unread and not back and (not period or now.tick < self._due):
             return
+        requests = [(sensor.sensor, tuple(sensor.axes)) for sensor in self.sensors.values()]
+        readings: Sequence[np.ndarray] | None = None
         if period and (back or now.tick >= self._due):
             late = (now.tick - self._origin) % period
             if not back and self._commands is not None:
                 with errors_of(self.world, "act"):
-                    self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
+                    if isinstance(self.world, PureWorld) and self.world.exchanges:
+                        readings = self.world.exchange(self._commands, requests)
+                    else:
+                        self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
             self._commands = None
             self._last, self._due = now.tick - late, now.tick - late + period
-        moment = (now.time - (now.tick - self._last) * dt) * now.unit
-        requests = [(sensor.sensor, tuple(sensor.axes)) for sensor in self.sensors.values()]
-        with errors_of(self.world, "sense"):
-            readings = self.world.sense_all(requests, moment)
+        if readings is None:
+            with errors_of(self.world, "sense"):
+                moment = (now.time - (now.tick - self._last) * dt) * now.unit
+                readings = self.world.sense_all(requests, moment)
         for (ident, sensor), given in zip(self.sensors.items(), readings, strict=True):
             sensed[ident] = self._checked(sensor, given, dtype)
         self.unread = False

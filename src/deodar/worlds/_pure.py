@@ -85,38 +85,66 @@ class PureWorld(World):
 
     def _readings(self, requests: Sequence[tuple[str, Axes]]) -> list[np.ndarray]:
         """Read several sensors in one call of a compiled function."""
-        for sensor, _ in requests:
-            self.require(sensor)
-        names = tuple((sensor, tuple(axes)) for sensor, axes in requests)
-
-        def readings(world: PureWorld) -> Callable[..., Any]:
-            def read(shared: Arrays, own: PyTree, state: PyTree) -> Any:
-                return [
-                    jnp.broadcast_to(world.read(shared, own, state, sensor, axes), shape(axes))
-                    for sensor, axes in names
-                ]
-
-            return jax.vmap(read, in_axes=(None, 0, 0))
-
-        seen = self.call(names, readings, *self._values(), self._now())
+        names = self._names(requests)
+        seen = self.call(
+            names,
+            lambda world: jax.vmap(_reading(world, names), in_axes=(None, 0, 0)),
+            *self._values(),
+            self._now(),
+        )
         return [np.asarray(reading) for reading in seen]
 
+    def _names(self, requests: Sequence[tuple[str, Axes]]) -> tuple[tuple[str, Axes], ...]:
+        for sensor, _ in requests:
+            self.require(sensor)
+        return tuple((sensor, tuple(axes)) for sensor, axes in requests)
+
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
-        shared, own, state = *self._values(), self._now()
+        self._state = self.call(
+            "advance",
+            lambda world: jax.vmap(world.advance, in_axes=(None, 0, 0, 0)),
+            *self._values(),
+            self._now(),
+            self._commands(motors),
+        )
+
+    @property
+    def exchanges(self) -> bool:
+        """Whether `exchange` replaces `act` and `sense_all`; False where a subclass defines one of them."""
+        kind = type(self)
+        methods = (kind.act, kind.sense, kind.sense_all)
+        return methods == (PureWorld.act, PureWorld.sense, PureWorld.sense_all)
+
+    def exchange(
+        self, motors: Mapping[str, np.ndarray], requests: Sequence[tuple[str, Axes]]
+    ) -> list[np.ndarray]:
+        """Advance by one period, as `act` does, and return the readings of several sensors after it, in one
+        call of a compiled function. After an error nothing changed.
+        """
+        names = self._names(requests)
+
+        def both(world: PureWorld) -> Callable[..., Any]:
+            read = _reading(world, names)
+
+            def advance(shared: Arrays, own: PyTree, state: PyTree, commands: Arrays) -> Any:
+                new = world.advance(shared, own, state, commands)
+                return new, read(shared, own, new)
+
+            return jax.vmap(advance, in_axes=(None, 0, 0, 0))
+
+        self._state, seen = self.call(
+            ("exchange", *names), both, *self._values(), self._now(), self._commands(motors)
+        )
+        return [np.asarray(reading) for reading in seen]
+
+    def _commands(self, motors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Return the value of every motor in the precision of the model, 0 for one that nothing drives."""
         copies = len(self._trials)
         commands = {
             name: motors.get(name, np.zeros((copies, *(signal.shape or ()))))
             for name, signal in self.motors.items()
         }
-        commands = {name: np.asarray(value, self._dtype) for name, value in commands.items()}
-        self._state = self.call(
-            "advance",
-            lambda world: jax.vmap(world.advance, in_axes=(None, 0, 0, 0)),
-            shared,
-            own,
-            state,
-            commands,
-        )
+        return {name: np.asarray(value, self._dtype) for name, value in commands.items()}
 
     def keep(self) -> Any:
         return jax.tree.map(np.asarray, self._now())
@@ -181,6 +209,18 @@ class _Program:
 def _compiled(program: _Program) -> Callable[..., Any]:
     """Compile a function of a copy of the world, which later changes of the original do not affect."""
     return jax.jit(program.make(copy.copy(program.world)))
+
+
+def _reading(world: PureWorld, requests: Sequence[tuple[str, Axes]]) -> Callable[..., Any]:
+    """Return the function that reads several sensors of one copy."""
+
+    def read(shared: Arrays, own: PyTree, state: PyTree) -> Any:
+        return [
+            jnp.broadcast_to(world.read(shared, own, state, sensor, axes), shape(axes))
+            for sensor, axes in requests
+        ]
+
+    return read
 
 
 def _keys(_: PureWorld) -> Callable[..., Any]:
