@@ -9,7 +9,7 @@ endif
 # files over two processes, in the order that tests/conftest.py gives them
 SPREAD := -n 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test fast lint types studio page docs schema bench lowest lock audit clean
+.PHONY: demo test fast lint types studio page docs schema bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
@@ -47,6 +47,11 @@ schema: .venv/installed
 
 bench: .venv/installed
 	$(BIN)/python benchmarks/run.py
+
+# the compiled kernels, and their tests; needs a C++ compiler
+native: .venv/installed-test
+	$(BIN)/python -m pip install -q ./native
+	$(BIN)/python -m pytest native/tests
 
 # the lower bounds of dependencies, in an environment of its own
 lowest:

@@ -80,6 +80,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Keep compiled programs in pytest's own folder, and byte code, also for processes that tests start."""
     os.environ.setdefault("DEODAR_CACHE", str(config.rootpath / ".pytest_cache" / "programs"))
+    # compiled kernels have tests of their own, in `native/tests`
+    os.environ["DEODAR_NATIVE"] = "off"
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
     flags = os.environ.get("XLA_FLAGS", "").split()

@@ -108,6 +108,7 @@ def examine() -> dict[str, Any]:
 
     # start-up time: these bring JAX
     from deodar.compiler import cache, device
+    from deodar.numerics import native
 
     def version(name: str) -> str | None:
         try:
@@ -139,6 +140,11 @@ def examine() -> dict[str, Any]:
         "devices": {name: device.find(name).device_kind for name in device.names()},
         "cores": device.available(),
         "memory_gib": {"total": round(memory.total / GIB, 1), "free": round(memory.available / GIB, 1)},
+        "native": {
+            "kernels": native.version(native.kernels("cpu", "float32")),
+            "problem": native.problem(),
+            "off": native.switched_off(),
+        },
         "compiled_programs": {
             "folder": str(place) if place is not None else None,
             "count": len(kept),
@@ -201,6 +207,14 @@ def _plugins() -> list[dict[str, str]]:
     ]
 
 
+def _kernels(kernels: str, problem: str, off: bool) -> str:
+    if off:
+        return "compiled kernels are not used (DEODAR_NATIVE=off)"
+    if problem:
+        return f"PROBLEM: deodar-native {problem}"
+    return f"deodar-native {kernels}" if kernels else "deodar-native is not installed (docs/speed.md)"
+
+
 def _page(found: dict[str, Any]) -> str:
     # start-up time: these bring JAX
     from deodar.compiler import device
@@ -241,6 +255,7 @@ def _page(found: dict[str, Any]) -> str:
             f"extra      {extra}: "
             + ("installed" if there else f"not installed. Type: pip install 'deodar[{extra}]'")
         )
+    lines.append(f"kernels    {_kernels(**found['native'])}")
     programs = found["compiled_programs"]
     if programs["folder"] is None:
         lines.append("programs   compiled programs are not kept (DEODAR_CACHE=off)")

@@ -41,13 +41,19 @@ def folder() -> Path | None:
     return Path(given) if given else Path(platformdirs.user_cache_dir("deodar")) / "programs"
 
 
-def compile(lowered: Lowered, options: CompilerOptions | None, device: Device) -> tuple[Compiled, bool]:
-    """Return the executable of a program lowered for a device, and whether it was compiled."""
+def compile(
+    lowered: Lowered, options: CompilerOptions | None, device: Device, kernels: str = ""
+) -> tuple[Compiled, bool]:
+    """Return the executable of a program lowered for a device, and whether it was compiled.
+
+    `kernels` is the version of the compiled kernels that the program may call. XLA knows them by name when a
+    program that calls them is read, because tracing it made them known.
+    """
     place = folder()
     given = cast("dict[str, str | bool] | None", options)  # JAX accepts whole numbers, too
     if place is None:
         return lowered.compile(compiler_options=given), True
-    path = place / key(lowered, options, device)
+    path = place / key(lowered, options, device, kernels)
     found = _read(path, lowered, device)
     if found is not None:
         return found, False
@@ -56,7 +62,7 @@ def compile(lowered: Lowered, options: CompilerOptions | None, device: Device) -
     return compiled, True
 
 
-def key(lowered: Lowered, options: CompilerOptions | None, device: Device) -> str:
+def key(lowered: Lowered, options: CompilerOptions | None, device: Device, kernels: str = "") -> str:
     """Return the file name of a program, equal for equal programs, devices and versions."""
     about = [
         jax.__version__,
@@ -73,6 +79,7 @@ def key(lowered: Lowered, options: CompilerOptions | None, device: Device) -> st
         str(os.cpu_count()),
         repr(options),
         str(lowered.in_tree),
+        kernels,
     ]
     # an argument that is not used is missing in the text of the program, and is checked all the same when it
     # is called

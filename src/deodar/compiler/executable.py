@@ -35,6 +35,7 @@ from deodar.leaves import arrays, resting, structure
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar.numerics import native
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._base import World
@@ -122,6 +123,7 @@ class Executable:
         plan: the plan they compute.
         device: where they run.
         exact: whether every kernel is applied by its matrix, by choice or because of double precision.
+        kernels: the compiled kernels that it calls, if there are any.
         traced: how many functions were traced so far; running does not change it.
         compiled: how many of them were not found in the cache.
         seconds: CPU time spent on planning, tracing and compiling.
@@ -140,6 +142,7 @@ class Executable:
         self.device: Device = device or devices.find()
         self.precision, self.exact = precision, exact
         self.batch = batch
+        self.kernels = native.kernels(self.device.platform, precision)
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
             doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None
@@ -151,6 +154,7 @@ class Executable:
             self.layout.swept,
             body,
             copies=batch.size if self.device.platform == "cpu" else 0,
+            kernels=self.kernels,
         )
         self.body = body
         self.traced = 0
@@ -385,7 +389,10 @@ class Executable:
             # to the cache
             lowered = jax.jit(function, keep_unused=True).lower(*args)
             executable, fresh = cache.compile(
-                lowered, {**cache.options(self.device), **(options or {})}, self.device
+                lowered,
+                {**cache.options(self.device), **(options or {})},
+                self.device,
+                native.version(self.kernels),
             )
         self.traced += 1
         self.compiled += fresh
@@ -453,6 +460,7 @@ def executable(
         batch,
         neutral,
         devices.name(place),
+        native.version(native.kernels(place.platform, precision)),
         body and body.key,
     )
     if key not in model.programs:

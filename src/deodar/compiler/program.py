@@ -27,7 +27,8 @@ from deodar.element import Arrays, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
-from deodar.numerics.noise import block, element_keys, normal, of_block
+from deodar.numerics.native import Kernels
+from deodar.numerics.noise import block, element_keys, no_block, normal, of_block
 
 T = TypeVar("T")
 
@@ -102,6 +103,7 @@ class Program:
             tick.
 
     `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
+    `kernels`: compiled kernels for parts of the step, if there are any.
     """
 
     def __init__(
@@ -111,8 +113,10 @@ class Program:
         sweep: Sequence[Sequence[int]] = (),
         body: Body | None = None,
         copies: int = 1,
+        kernels: Kernels | None = None,
     ) -> None:
         self.plan = plan
+        self.kernels = kernels
         self.body = body
         self.precision = precision
         self.dtype: np.dtype[np.floating] = np.dtype(precision)
@@ -176,19 +180,16 @@ class Program:
 
     def undrawn(self) -> Arrays:
         """The blocks before the first is drawn."""
-        kind = jnp.result_type(self.dtype, jnp.complex64)
-        groups = self.plan.groups
-        return {str(g): jnp.zeros((groups[g].rows, _cells(groups[g])), kind) for g in self.kept}
+        rows = {g: self.plan.groups[g].rows for g in self.kept}
+        empty = {g: no_block(_cells(self.plan.groups[g]), self.dtype, self.kernels) for g in self.kept}
+        return {str(g): jnp.broadcast_to(empty[g], (rows[g], *empty[g].shape)) for g in self.kept}
 
     def draw(self, keys: NoiseKeys, tick: Array, start: Array, drawn: Arrays) -> Arrays:
         """The blocks that `tick` lies in: drawn at even ticks and at the tick `start` of the chunk."""
 
         def anew() -> Arrays:
             return {
-                str(g): jax.vmap(lambda key, g=g: block(_cells(self.plan.groups[g]), key, tick, self.dtype))(
-                    keys[str(g)]
-                )
-                for g in self.kept
+                str(g): jax.vmap(lambda key, g=g: self._block(g, key, tick))(keys[str(g)]) for g in self.kept
             }
 
         if not self.kept:
@@ -300,13 +301,16 @@ class Program:
         due = (tick + jnp.uint32(1)) % jnp.uint32(k) == 0
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
+    def _block(self, g: int, key: Array, tick: Array) -> Array:
+        return block(_cells(self.plan.groups[g]), key, tick, self.dtype, self.kernels)
+
     def _noise(self, g: int, keys: NoiseKeys, tick: Array, drawn: Array | None = None) -> Array | None:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
         cells = shape(group.noise)
         if drawn is not None:
-            return of_block(drawn, tick).reshape(group.rows, *cells)
+            return jax.vmap(lambda row: of_block(row, tick))(drawn).reshape(group.rows, *cells)
         own = tick // jnp.uint32(group.like.every)
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
 

@@ -98,7 +98,7 @@ def _jobs(setup: Setup, workers: int | None, records: Path | None) -> Iterator[J
 def _about(setup: Setup, workers: int | None, folder: Path) -> JsonObject:
     """Return the identity of the experiment: a file never mixes rows of two experiments."""
     digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
-    made_by = provenance.made_by(find()) | ({"cores": "1"} if workers else {})
+    made_by = provenance.made_by(find(), setup.experiment.precision) | ({"cores": "1"} if workers else {})
     unit = setup.model.document.time_unit
     return {
         **_plan(setup),

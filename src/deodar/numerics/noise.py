@@ -24,6 +24,7 @@ from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.kernels.gaussian import profile
+from deodar.numerics.native import Kernels
 from deodar.numerics.scalar import Scalar
 from deodar.parameters import PerAxis
 
@@ -93,22 +94,34 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
     return (radius * wave).reshape(shape)
 
 
-@functools.partial(jax.jit, static_argnames=("cells", "dtype"))
-def block(cells: int, key: Array, tick: Array, dtype: DTypeLike) -> Array:
-    """Return the deviates of both ticks of the block of `tick`, shape (cells,): the even one as the real part
-    of a complex number, the odd one as the imaginary part.
+@functools.partial(jax.jit, static_argnames=("cells", "dtype", "kernels"))
+def block(cells: int, key: Array, tick: Array, dtype: DTypeLike, kernels: Kernels | None = None) -> Array:
+    """Return the deviates of both ticks of the block of `tick`, as one array: `of_block` separates them.
 
-    As one array they have one loop, where the integers are computed once. They equal those of `normal` up to
-    rounding.
+    Shape (cells,): the even one is the real part of a complex number, the odd one the imaginary part. As one
+    array they have one loop, where the integers are computed once. With compiled kernels: shape (2, cells),
+    the even one first. Both equal the deviates of `normal` up to rounding.
     """
+    if kernels is not None:
+        return kernels.noise(cells, key, tick >> jnp.uint32(1))
     a, b = bits(cells, key, tick >> jnp.uint32(1))
     radius, turn = _radius(a, dtype), _uniform(b)
     return lax.complex(radius * _sine(turn, dtype), radius * _cosine(turn, dtype))
 
 
+def no_block(cells: int, dtype: DTypeLike, kernels: Kernels | None = None) -> Array:
+    """Return an array of the shape and type that `block` returns, with zeros."""
+    if kernels is not None:
+        return jnp.zeros((2, cells), dtype)
+    return jnp.zeros((cells,), jnp.result_type(dtype, jnp.complex64))
+
+
 def of_block(drawn: Array, tick: Array) -> Array:
-    """Return the deviates of one of the two ticks of a block."""
-    return jnp.where((tick & jnp.uint32(1)).astype(bool), lax.imag(drawn), lax.real(drawn))
+    """Return the deviates of one of the two ticks of a block, shape (cells,)."""
+    odd = tick & jnp.uint32(1)
+    if not jnp.iscomplexobj(drawn):
+        return lax.dynamic_index_in_dim(drawn, odd.astype(jnp.int32), keepdims=False)
+    return jnp.where(odd.astype(bool), lax.imag(drawn), lax.real(drawn))
 
 
 def prepare(axes: Axes, length: PerAxis, dtype: DTypeLike) -> dict[str, list[Array]]:

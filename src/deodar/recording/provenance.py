@@ -12,6 +12,7 @@ from deodar.codec import Json, JsonObject
 from deodar.compiler.device import cores
 from deodar.model import files
 from deodar.model.document import Document
+from deodar.numerics import native
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 
@@ -38,13 +39,18 @@ def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
         "precision": run.program.precision,
         "world": described(run.world),
         **settings,
-        "made_by": made_by(run.program.device),
+        "made_by": made_by(run.program.device, run.program.precision),
     }
 
 
-def made_by(device: Any) -> dict[str, str]:
-    """Return versions, device and machine, and the cores, because their number changes the order of sums."""
+def made_by(device: Any, precision: str = "float32") -> dict[str, str]:
+    """Return versions, device and machine, and the cores, because their number changes the order of sums.
+
+    The compiled kernels are named where programs of this precision call them.
+    """
     versions = {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
+    if kernels := native.version(native.kernels(device.platform, precision)):
+        versions[native.DISTRIBUTION] = kernels
     where = {"device": f"{device.platform} {device.device_kind}"} | (
         {"cores": str(cores())} if device.platform == "cpu" else {}
     )
