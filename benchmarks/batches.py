@@ -1,7 +1,8 @@
-"""What cores and batches bring: `python benchmarks/batches.py [cores] [sizes] [workers]`.
+"""What cores and batches bring: `python benchmarks/batches.py [cores] [sizes] [sweeps] [workers]`.
 
 `cores`: wall and CPU time of a step of one run on one core and on all, each in a process of its own. `sizes`:
-CPU time of a step for each copy over the number of copies in one batch, on one core. `workers`: wall time of
+CPU time of a step for each copy over the number of copies in one batch, on one core. `sweeps`: the same for
+400 points of a sweep, by the parameter that differs between them. `workers`: wall time of
 64 trials in this process, and shared among as many workers as there are cores, their start included. Medians
 of three; nothing is asserted.
 """
@@ -37,6 +38,7 @@ BATCHED = {"W1_200": 1.0, "W2_50": 9.0, "W2_100": 40.0, "W2_200": 160.0, "W4a": 
 
 SIZES = (1, 2, 4, 8, 16, 24, 32, 48, 64, 100, 200, 400)
 MOST_CELLS = 12_000_000
+POINTS = 400
 TRIALS, LONG = 64, {"W1_200": 40_000, "W2_50": 4_000}
 
 
@@ -85,6 +87,18 @@ def sizes() -> None:
         print(f"{name:8} {size / 1024:7.1f} KiB a copy; us a step and copy  {'  '.join(shown)}", flush=True)
 
 
+def sweeps() -> None:
+    """A step by what differs between the points: nothing of the kernels, an amplitude, or a width."""
+    values = {"resting_level": (-6.0, -4.0), "kernel.0.amplitude": (10.0, 20.0), "kernel.0.sigma": (4.0, 6.0)}
+    for name in ("W1_100", "W1_200"):
+        model = workloads.WORKLOADS[name].model()
+        for path, (low, high) in values.items():
+            points = [low + (high - low) * k / (POINTS - 1) for k in range(POINTS)]
+            run = functools.partial(dd.simulate, model, sweep={f"u.{path}": points}, progress=False)
+            _, cpu = step(run, 300)
+            print(f"{name:8} {path:20} {cpu / POINTS:6.2f} us a step of one copy", flush=True)
+
+
 def workers() -> None:
     for name, n in LONG.items():
         model = workloads.WORKLOADS[name].model()
@@ -100,7 +114,7 @@ def workers() -> None:
             )
 
 
-PARTS: dict[str, Callable[[], None]] = {"cores": cores, "sizes": sizes, "workers": workers}
+PARTS: dict[str, Callable[[], None]] = {"cores": cores, "sizes": sizes, "sweeps": sweeps, "workers": workers}
 
 
 def main() -> None:

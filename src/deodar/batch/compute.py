@@ -80,7 +80,8 @@ def compute(
     count = 0 if start > steps else 1 + (steps - start) // gap
     copies = Batch(points.size if sweep else None, len(numbers) if names else None)
     nodes, _ = resolve(doc)
-    cut = _cut(memory.copy_bytes(nodes, precision), names, points, request)
+    size = memory.copy_bytes(nodes, precision, points.rebuilt(), len(numbers))
+    cut = _cut(size, names, points, request)
     recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * count * copies.size
     beside = min(request.workers or 0, cut.count) if cut.count > 1 else 0
     memory.require(

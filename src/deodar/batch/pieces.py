@@ -30,7 +30,8 @@ class PieceResult(NamedTuple):
 
 
 BATCH_BYTES = 8 * 2**20
-"""Largest number of bytes of the ports of all copies in one batch, so that a step stays in the cache.
+"""Largest number of bytes of the ports of all copies in one batch, and of the matrices that each has for
+itself, so that a step stays in the cache.
 
 `python benchmarks/batches.py` prints the time of a step per copy over the size of the batch. On a processor
 with 1 MiB of cache per core and 32 MiB for all, planes of 200 x 200 take the same time in batches up to 8 (6
@@ -98,7 +99,7 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
 
     Args:
         lengths: the leading dimensions of the run and their lengths.
-        bytes_a_copy: bytes of the ports of one copy of the model; 0: no bound.
+        bytes_a_copy: bytes of one copy of the model, as `memory.copy_bytes` returns them; 0: no bound.
         workers: number of processes that share the pieces.
         batch: copies in one piece; none: as many as fit into `BATCH_BYTES`, fewer where that gives every
             worker as many pieces.

@@ -145,7 +145,12 @@ class Executable:
         self.kernels = native.kernels(self.device.platform, precision)
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
-            doc, lifted, exact or precision == "float64", batch.size, embodied=body is not None
+            doc,
+            lifted,
+            exact or precision == "float64",
+            batch.size,
+            embodied=body is not None,
+            trials=batch.trials or 1,
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
         self.program = Program(

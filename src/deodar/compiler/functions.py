@@ -51,10 +51,11 @@ class Functions:
     Attributes:
         axes: axes of what is convolved.
         choices: for each kind of boundaries how kernels are applied, where not by matrices.
+        apart: whether matrices are not multiplied by the amplitudes.
     """
 
-    def __init__(self, node: Node, choices: Mapping[str, Choice]) -> None:
-        self.axes, self.choices = convolved_axes(node), dict(choices)
+    def __init__(self, node: Node, choices: Mapping[str, Choice], apart: bool = False) -> None:
+        self.axes, self.choices, self.apart = convolved_axes(node), dict(choices), apart
         self.convolves = node.element.convolution is not None
 
     def prepare(self, element: Element, at: Setting) -> Constants:
@@ -69,7 +70,7 @@ class Functions:
         own = element.hoist(at, constants.own)
         if not self.convolves:
             return Constants((), own)
-        return Constants(interaction.mix(element.kernels(), self.axes, constants.kernels), own)
+        return Constants(interaction.mix(element.kernels(), self.axes, constants.kernels, self.apart), own)
 
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         """Every output port at time t."""

@@ -20,6 +20,7 @@ from deodar.model.document import Document
 from deodar.model.order import NodeRole, order
 from deodar.model.resolve import Instant, Node, resolve
 from deodar.numerics.axes import Axes
+from deodar.numerics.choice import MANY
 from deodar.numerics.exact import LOW
 from deodar.parameters import Parameter
 
@@ -186,6 +187,7 @@ def plan(
     copies: int = 1,
     partition: Partition | None = None,
     embodied: bool = False,
+    trials: int = 1,
 ) -> Plan:
     """The plan of a document.
 
@@ -197,6 +199,7 @@ def plan(
         copies: how many copies of the model run at once.
         partition: which nodes share a group; none: `by_structure`.
         embodied: whether the world is inside the step, so that readings of sensors change during a chunk.
+        trials: how many of the copies have the same parameters.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
@@ -206,7 +209,11 @@ def plan(
         n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes
     }
     still = _still(nodes, embodied)
-    found = strategies(nodes, still, {n.id for n in nodes} if exact else _swept(nodes, lifted), copies)
+    swept = _swept(nodes, lifted)
+    found = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies)
+    if copies // trials >= MANY > trials:
+        for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
+            found[i] = dc.replace(found[i], apart=True)
     nodes = shared(nodes, found)
     groups, row = _groups(nodes, neutral, still, found, partition or by_structure)
     size = _place(groups, neutral)

@@ -127,13 +127,13 @@ def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
 def functions(node: Node, strategy: Strategy) -> Functions:
     """Return the functions of a group whose rows have the structure of the node."""
     if not strategy.shared:
-        return Functions(node, dict(strategy.choices))
+        return Functions(node, dict(strategy.choices), strategy.apart)
     return (SharingSource if role(node) == "source" else SharingFilter)(node, strategy)
 
 
 class _Sharing(Functions):
     def __init__(self, node: Node, strategy: Strategy) -> None:
-        super().__init__(node, dict(strategy.choices))
+        super().__init__(node, dict(strategy.choices), strategy.apart)
         self.key, self.waves = strategy.shared, dict(strategy.choices)[strategy.shared].waves
 
 

@@ -31,10 +31,13 @@ class Strategy:
     Attributes:
         choices: for each kind of boundaries the choice, where it is not matrices.
         shared: the kind of boundaries whose waves it shares with others, or "".
+        apart: whether its matrices are not multiplied by the amplitudes of the kernels, so that copies which
+            differ by amplitudes alone have the same matrices.
     """
 
     choices: tuple[tuple[str, Choice], ...] = ()
     shared: str = ""
+    apart: bool = False
 
 
 EXACT = Strategy()

@@ -53,10 +53,12 @@ class FieldMixture(TypedDict):
 
     Attributes:
         terms: for each term one matrix per axis.
+        amplitudes: for each term its amplitude, where the matrices are not multiplied by it; else empty.
         spectra, waves, taps: the sum for each kind of boundaries.
     """
 
     terms: list[list[Array]]
+    amplitudes: list[Scalar]
     spectra: dict[str, Array]
     waves: dict[str, Array]
     taps: dict[str, Array]
@@ -123,24 +125,31 @@ def prepare(
     ]
 
 
-def mix(kernels: Sequence[Kernel], axes: Axes, weights: Sequence[KernelWeights]) -> Mixture:
+def mix(
+    kernels: Sequence[Kernel], axes: Axes, weights: Sequence[KernelWeights], apart: bool = False
+) -> Mixture:
     """Return the sum of the kernels, multiplied by their amplitudes.
 
-    Over one axis it is a single matrix, whatever the number of kernels.
+    Over one axis it is a single matrix, whatever the number of kernels. With `apart` matrices stay as they
+    are, so that copies that differ by amplitudes alone share them.
     """
     if not axes:
         return {"gain": sum((t.amplitude for kernel in kernels for t in kernel.terms()), 0.0)}
-    out: FieldMixture = {"terms": [], "spectra": {}, "waves": {}, "taps": {}}
+    out: FieldMixture = {"terms": [], "amplitudes": [], "spectra": {}, "waves": {}, "taps": {}}
     for kernel, w in zip(kernels, weights, strict=True):
         key = boundaries(kernel, axes)
         if "spectrum" in w:
             out["spectra"][key] = out["spectra"].get(key, 0.0) + kernel.amplitude * w["spectrum"]  # type: ignore[attr-defined]
         for term, matrices in zip(kernel.terms(), w.get("matrices", ()), strict=False):
-            out["terms"].append([term.amplitude * matrices[0], *matrices[1:]])
+            if apart:
+                out["terms"].append(matrices)
+                out["amplitudes"].append(term.amplitude)
+            else:
+                out["terms"].append([term.amplitude * matrices[0], *matrices[1:]])
         for way in ("waves", "spectra", "taps"):
             for term, gains in zip(kernel.terms(), w.get(way, ()), strict=False):
                 out[way][key] = out[way].get(key, 0.0) + term.amplitude * _product(gains)
-    if len(axes) == 1 and out["terms"]:
+    if len(axes) == 1 and out["terms"] and not apart:
         out["terms"] = [[sum((t[0] for t in out["terms"][1:]), out["terms"][0][0])]]
     return out
 
@@ -162,6 +171,8 @@ def apply(
     if "gain" in mixture:
         return mixture["gain"] * y
     parts = [convolution.separable(matrices, y) for matrices in mixture["terms"]]
+    if mixture["amplitudes"]:
+        parts = [a * part for a, part in zip(mixture["amplitudes"], parts, strict=True)]
     for ends, spectrum in mixture["spectra"].items():
         sizes = (
             [w.length for w in chosen[ends].waves]

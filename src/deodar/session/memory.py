@@ -66,9 +66,17 @@ def require(
         )
 
 
-def copy_bytes(nodes: list[Node], precision: str) -> int:
-    """Return the bytes of all ports of one copy of a model."""
-    return _size(precision) * sum(_cells(n) for n in nodes)
+def copy_bytes(nodes: list[Node], precision: str, rebuilt: Collection[str] = (), trials: int = 1) -> int:
+    """Return the bytes of all ports of one copy of a model, and of the constants that it has for itself.
+
+    Args:
+        nodes: the nodes of the model.
+        precision: float32 or float64.
+        rebuilt: the elements (by id) whose constants differ between the points of a sweep.
+        trials: number of copies that share the constants of a point.
+    """
+    constants = sum(_constants(n) for n in nodes if n.id in rebuilt)
+    return _size(precision) * (sum(_cells(n) for n in nodes) + constants // trials)
 
 
 def _size(precision: str) -> int:
