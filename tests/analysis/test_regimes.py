@@ -15,7 +15,7 @@ import deodar as dd
 from deodar.analysis.discretisation import discretisation, obstacle, refined
 from deodar.analysis.isolated import isolate
 from deodar.analysis.memory import forgetting
-from deodar.analysis.phase import phase
+from deodar.analysis.phase import COARSE, phase
 from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
 from deodar.analysis.selection import selects
@@ -151,6 +151,33 @@ def test_thresholds_of_a_node_agree_with_a_root_finder() -> None:
     assert measured.detection == pytest.approx(max(folds), rel=0.01) and measured.reverse == pytest.approx(
         min(folds), rel=0.01
     )
+
+
+@pytest.mark.parametrize("index", [1, 2, COARSE // 2, COARSE - 3, COARSE - 2])
+@pytest.mark.parametrize("step", [2.0**-4, 2.0**-7])
+def test_a_fixed_point_on_a_sample_of_the_span_is_found(index: int, step: float) -> None:
+    """A node without interaction has one fixed point, h + s; the rate there is exactly zero."""
+    span = -5 - index * step, -5 + (COARSE - 1 - index) * step
+    (found,) = phase(dd.Field("n", [], resting_level=-8), 3.0, span).fixed_points
+    assert found.u == -5 and found.stable
+
+
+@pytest.mark.parametrize("amplitude", [0.02, 0.2, 2.0, 20.0])
+def test_the_width_of_the_input_is_that_of_the_kernel_at_any_strength(amplitude: float) -> None:
+    """A kernel without excitation, or none, gives a twentieth of the axis."""
+    for kernel, width in (
+        ([dd.Gaussian(amplitude, 4)], 4.0),
+        ([dd.Gaussian(2 * amplitude, 4), dd.Gaussian(-amplitude, 4)], 4.0),
+        ([dd.Gaussian(-amplitude, 4)], 3.0),
+        ([], 3.0),
+    ):
+        assert isolate(dd.Field("u", [x], kernel=kernel)).sigma == pytest.approx((width,), rel=0.02)
+
+
+@pytest.mark.parametrize("sigma", [0, -1.0, float("nan"), (2.0, 3.0), ()])
+def test_an_input_without_a_width_for_each_axis_is_refused(sigma: object) -> None:
+    with pytest.raises(dd.errors.ParameterError, match="expected a number above 0, or one for each"):
+        isolate(lateral(12, 0, 0.6), sigma=sigma)  # type: ignore[arg-type]
 
 
 def test_settle_returns_whether_the_field_has_settled() -> None:

@@ -59,6 +59,12 @@ def test_vector_graphics_hold_real_text_and_units(here: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("reduce", ["maximum", "integral"])
+def test_a_projection_is_labelled_with_its_reduction(here: Path, reduce: str) -> None:
+    assert main(["plot", "deep.zarr", "--axes", "x", "z", "--reduce", reduce, "-o", "deep.svg"]) == 0
+    assert f"{reduce} over y of " in (here / "deep.svg").read_text()
+
+
 def test_the_same_record_gives_the_same_file(here: Path) -> None:
     for name in ("a.svg", "b.svg"):
         assert main(["plot", "small.zarr", "u.activation", "--trial", "1", "-o", name]) == 0

@@ -69,6 +69,7 @@ def test_undo_and_redo_give_the_identical_document(name: str) -> None:
     assert model.redo()
     assert model.document is after
     assert not model.redo()
+    assert model.undo() and model.document is before, "a change that was done again can be undone again"
 
 
 def test_undo_reverts_every_change_to_the_start() -> None:

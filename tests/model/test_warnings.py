@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import pytest
 
 import deodar as dd
 from deodar.elements.boost import Boost
@@ -52,6 +53,24 @@ def test_a_model_with_problems_has_no_warnings() -> None:
     model = _model()
     model.add(dd.Gain(2, name="loose"))
     assert {p.severity for p in check(model.document)} == {"problem"}
+
+
+@pytest.mark.parametrize("tenth", [0.01, 1.0, 10.0])
+@pytest.mark.parametrize("step", [1, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5, 8, 9])
+def test_a_periodic_axis_that_counts_its_end_twice_is_found_at_any_round_step(
+    step: float, tenth: float
+) -> None:
+    """With one sample less the step is a number that a person would choose."""
+    doubled = [p for p in _ring(70 * step * tenth, 71).check() if "counts its end twice" in p.what]
+    assert [p.fix for p in doubled] == ["Write samples=70"]
+    for samples in (70, 69):
+        assert not any("end twice" in p.what for p in _ring(70 * step * tenth, samples).check())
+
+
+def _ring(length: float, samples: int) -> dd.Model:
+    model = dd.Model("ring")
+    model.add(dd.Field("u", [dd.Axis("x", 0, length, samples=samples, periodic=True)]))
+    return model
 
 
 def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:
