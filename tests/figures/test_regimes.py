@@ -57,7 +57,9 @@ def test_a_node_has_a_phase_plot_at_every_threshold(node: Regimes) -> None:
         f"at detection, input {node.detection:.3g}",
         f"at reverse detection, input {node.reverse:.3g}",
     } <= labels
-    fixed = [line for line in right.get_lines() if line.get_marker() == "o" and len(line.get_xdata()) == 1]
+    fixed = [
+        line for line in right.get_lines() if line.get_marker() == "o" and np.size(line.get_xdata()) == 1
+    ]
     stable = [float(line.get_xdata()[0]) for line in fixed if line.get_markerfacecolor() != "white"]  # type: ignore[arg-type]
     inputs = (0.0, node.detection, node.reverse)
     points = [p for s in inputs for p in phase(node.isolated.field, s).fixed_points]  # type: ignore[arg-type]

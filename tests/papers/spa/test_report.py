@@ -260,6 +260,71 @@ def test_every_sentence_with_a_target_has_a_contradicting_case():
     ] == []
 
 
+def test_rows_as_in_the_paper_contradict_only_sentences_on_failures_and_walls():
+    """In the constructed rows no run fails, and all clearances and velocities are equal."""
+    found = said(lambda c, k: {})
+    refuted = {name for name, c in found.items() if c.holds is False}
+    assert {name.partition(",")[0][:24] for name in refuted} == {
+        "5.2: it then goes east",
+        "6.2: the south route kee",
+        "6.2: the narrow passage ",
+        "6.4: high noise reduces ",
+        "6.4: on a few occasions ",
+        "7: in the large maze the",
+    }
+    (latest,) = only(found, ["5.1: 3000 steps"])
+    assert (latest.value, latest.holds) == (660, True)
+    (late,) = only(
+        said(lambda c, k: {"success": k != 5} if c.name == "large/planner/low" else {}), ["3000 steps"]
+    )
+    assert (late.value, late.holds) == (3000, False)
+
+
+ALL = (0, 1000)
+COUNTED = {
+    # words of a claim: obstacles, and the onsets and durations that it states, both ends included
+    "full obstacle, low noise: an obstacle before t = 130": (["full"], (0, 129), (101, 1000)),
+    "full obstacle, high noise: an obstacle at t = 200 to 450": (["full"], (200, 450), (200, 500)),
+    "full obstacle, low noise: an obstacle after t = 500": (["full"], (501, 1000), ALL),
+    "partial obstacle, high noise: an obstacle before t = 130": (["partial"], (0, 129), ALL),
+    "partial obstacle, low noise: an obstacle at t = 200 to 450": (["partial"], (200, 450), ALL),
+    "whatever its type: full, low noise, onset to 150": (["full"], (0, 150), ALL),
+    "whatever its type: partial, high noise, onset to 150": (["partial"], (0, 150), ALL),
+    "a partial obstacle in the first 200 steps": (["partial"], (0, 200), (0, 100)),
+    "during late planning or execution does not change the route, low": (["partial"], (200, 1000), ALL),
+    "after t = 200 it first takes the north route in almost all cases, low": (
+        ["partial", "full"],
+        (201, 1000),
+        ALL,
+    ),
+    "a full obstacle at 200 < t < 500 that lasts more than 200 steps": (["full"], (201, 499), (201, 1000)),
+    "after t = 500 it always takes the north route, high": (["partial", "full"], (501, 1000), ALL),
+    "full obstacles of up to 100 steps after t = 200, high": (["full"], (201, 1000), (0, 100)),
+}
+ONSETS = [130, 129, 150, 151, 199, 200, 201, 202, 450, 451, 498, 499, 500, 501, 502]
+DURATIONS = [99, 100, 101, 102, 199, 200, 201, 202, 500, 501]
+
+
+def test_a_claim_counts_the_runs_whose_obstacle_has_the_onset_and_duration_that_it_states():
+    windows = {k: (ONSETS[k % 15], DURATIONS[k // 15 % 10]) for k in range(240)}
+    found = said(
+        lambda c, k: (
+            dict(zip(("onset", "duration"), windows[k], strict=True))
+            if c.obstacle in ("full", "partial")
+            else {}
+        )
+    )
+    for words, (obstacles, onset, duration) in COUNTED.items():
+        # the obstacle of run 3 comes down on the robot
+        inside = [
+            k
+            for k, (begins, lasts) in windows.items()
+            if k != 3 and onset[0] <= begins <= onset[1] and duration[0] <= lasts <= duration[1]
+        ]
+        for claim in only(found, [words]):
+            assert claim.n == len(inside) * len(obstacles) > 0, words
+
+
 def test_a_large_p_leaves_equality_undecided():
     rows = said(lambda c, k: {})
     for c in rows.values():
