@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from deodar.diagrams import paint, wires
@@ -31,6 +33,24 @@ def test_a_connection_to_the_left_runs_from_the_other_side() -> None:
     (start, end), reach = ends(line), min(float(m[-2]) for m in mark.path if m[1:])
     assert start == (100, 25) and end[1] == 5
     assert reach == pytest.approx(0, abs=0.1) and 0 < end[0] < 15
+
+
+@pytest.mark.parametrize("direction", [(1, 0), (-1, 0), (0, 1), (0, -1), (0.6, 0.8), (-0.8, 0.6)])
+def test_an_arrow_points_in_its_direction(direction: tuple[float, float]) -> None:
+    (dx, dy), (x, y) = direction, (10, 20)
+    (arrow,) = wires.mark((x, y), direction, "+")
+    tip, one, other = ((float(m[-2]), float(m[-1])) for m in arrow.path if m[1:])
+    assert tip == (x, y)
+    for corner, side in ((one, 1), (other, -1)):
+        along = (x - corner[0]) * dx + (y - corner[1]) * dy
+        across = (corner[1] - y) * dx - (corner[0] - x) * dy
+        assert along == pytest.approx(wires.ARROW)
+        assert across == pytest.approx(side * wires.ARROW * math.tan(math.radians(24)))
+    for sign in ("-", "±"):
+        *_, dot = wires.mark((x, y), direction, sign)
+        near = wires.DOT if sign == "-" else wires.ARROW + wires.DOT
+        for point in ends(dot):
+            assert math.dist(point, (x - dx * near, y - dy * near)) == pytest.approx(wires.DOT)
 
 
 def test_the_margin_moves_text_and_shapes_alike() -> None:

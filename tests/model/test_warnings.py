@@ -12,6 +12,8 @@ import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.model.check import check, problems
 from deodar.numerics.axes import Axes
+from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids.semilinear import SemiLinear
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -71,6 +73,22 @@ def _ring(length: float, samples: int) -> dd.Model:
     model = dd.Model("ring")
     model.add(dd.Field("u", [dd.Axis("x", 0, length, samples=samples, periodic=True)]))
     return model
+
+
+@pytest.mark.parametrize("sigmoid", [Linear(), Linear(slope=0.5), SemiLinear()], ids=str)
+@pytest.mark.parametrize(
+    ("axes", "excitation", "grows"),
+    [([], 0.95, False), ([], 1.1, True), ([X], 0.95, False), ([X], 1.1, False), ([X], 1.3, True)],
+)
+def test_a_linear_field_grows_if_its_kernel_excites_more_than_it_decays(
+    axes: Axes, excitation: float, grows: bool, sigmoid: Linear | SemiLinear
+) -> None:
+    """Over axes a part of the kernel is lost at the borders, so excitation up to 1.2 is no mistake."""
+    kernel = dd.Gaussian(excitation / sigmoid.slope, 1.0, normalized=bool(axes))
+    model = dd.Model("linear")
+    model.add(dd.Field("u", axes, sigmoid=sigmoid, kernel=[kernel]))
+    found = [p.what for p in model.check() if "grows without bound" in p.what]
+    assert len(found) == grows and all(f"by {excitation:g}" in what for what in found)
 
 
 def test_a_window_that_ends_before_it_begins_is_a_problem() -> None:

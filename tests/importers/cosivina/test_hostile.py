@@ -12,6 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DeodarError, DocumentError
+from deodar.importers.cosivina import file
 from deodar.importers.opening import Imported, read, tools
 from deodar.model.check import problems
 from tests.importers.cosivina.files import SAMPLES, element, text, written
@@ -334,3 +335,20 @@ def test_impossible_connections_are_reported(tmp_path):
         "nothing is connected to it; zero arrives",
     ]
     dd.simulate(done.model, 2)
+
+
+def test_a_file_with_too_many_elements_or_connections_is_refused(monkeypatch):
+    monkeypatch.setattr(file, "MOST_ELEMENTS", 5)
+    monkeypatch.setattr(file, "MOST_INPUTS", 12)
+
+    def parsed(elements, inputs):
+        own = [element(f"e{k}", "SumInputs", {"size": [1, 5]}) for k in range(elements - 1)]
+        many = [(f"e{k % (elements - 1)}", "output") for k in range(inputs)]
+        content = text([*own, element("u", "SumInputs", {"size": [1, 5]}, many)])
+        return file.parse(content.encode())
+
+    assert len(parsed(5, 12).elements) == 5
+    with pytest.raises(DocumentError, match="holds 6 elements; at most 5 are read"):
+        parsed(6, 12)
+    with pytest.raises(DocumentError, match="holds more than 12 connections"):
+        parsed(5, 13)
