@@ -58,6 +58,22 @@ def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):
     capsys.readouterr()
 
 
+def test_the_report_lists_each_loss_once_with_its_reason(tmp_path, capsys):
+    lossy = written(
+        tmp_path,
+        [
+            element("c", "CameraGrabber", {"deviceNumber": 1, "size": [3, 4]}),
+            element("u", "NeuralField", {**FIELD, "depth": 3}),
+        ],
+    )
+    assert main(["import", str(lossy)]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    camera = [row[1:3] for row in rows if row[:1] == ["c"]]
+    assert camera == [["CameraGrabber", "Placeholder:"], ["parameter", "deviceNumber"], ["parameter", "size"]]
+    (depth,) = (row for row in rows if "depth" in row)
+    assert depth[:4] == ["u", "parameter", "depth", "dropped"] and "no such parameter" in " ".join(depth)
+
+
 def test_known_errors_are_reproduced_with_bugs(tmp_path, capsys):
     param = {
         "size": [1, 9],

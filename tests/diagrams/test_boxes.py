@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from deodar.diagrams import boxes
+from deodar.diagrams import boxes, paint, wires
 from deodar.diagrams.graph import Item
 from deodar.diagrams.scene import Shape
 from deodar.numerics.axes import Axis
@@ -28,3 +28,25 @@ def test_the_glyph_of_a_field_lies_inside_its_place(dims: int) -> None:
             points = [float(v) for v in numbers]
             assert all(100 <= x <= 100 + width for x in points[::2])
             assert all(200 <= y <= 200 + height for y in points[1::2])
+
+
+@pytest.mark.parametrize("form", ["node", "field"])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_loops_stand_side_by_side_over_the_middle_of_their_box(form: str, count: int) -> None:
+    loops = [boxes.Loop(sign) for sign in ("+", "-", "±")[:count]]
+    item = Item("a", form, "a field", "", () if form == "node" else (Axis("x", 0, 10, 5),))  # type: ignore[arg-type]
+    drawn = boxes.prepare(item, [], [], loops, 1)
+    curves = [
+        s
+        for s in paint._item(drawn, 100, 50).content
+        if isinstance(s, Shape)
+        and s.width == wires.WIDTH
+        and not s.fill
+        and s.stroke in wires.COLORS.values()
+    ]
+    middles = [(float(s.path[0][1]) + float(s.path[-1][-2])) / 2 for s in curves]
+    assert len(middles) == count and middles == sorted(middles)
+    assert (middles[0] + middles[-1]) / 2 == pytest.approx(100 + drawn.box.width / 2)
+    assert all(100 < x < 100 + drawn.box.width for x in middles)
+    for shape in curves:
+        assert all(50 <= float(m[-1]) <= 50 + drawn.box.top + drawn.box.body / 2 for m in shape.path)

@@ -8,6 +8,8 @@ import pytest
 
 import deodar as dd
 from deodar.compiler import executable, program
+from deodar.elements.boost import Boost
+from deodar.session.run import Run
 from tests.session.models import RECORD, mixed
 
 STEPS = 120
@@ -71,6 +73,29 @@ def test_a_run_does_not_depend_on_the_record_and_its_interval(
     for path in record:
         assert np.array_equal(data["time"].values, np.arange(0, STEPS + 1, every))
         assert np.abs(data[path].values - reference[path][::every]).max() <= 1e-10 * 20
+
+
+@pytest.mark.parametrize("records", [1, 2, 3, 100])
+def test_a_record_does_not_depend_on_the_size_of_the_buffer(
+    records: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    samples = 40 + records  # a program of its own
+    monkeypatch.setattr(executable, "BUFFER_BYTES", records * samples * 4)
+    chunk, sizes = Run._chunk, list[int]()
+
+    def counted(self: Run, program: object, counts: dict[str, int], used: int) -> object:
+        sizes.append(counts["records"])
+        assert 1 <= counts["records"] <= records and len(sizes) <= 70, sizes
+        return chunk(self, program, counts, used)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Run, "_chunk", counted)
+    model = dd.Model("buffer")
+    u = model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=samples)], tau=10, resting_level=-5))
+    model.add(Boost("b", [], amplitude=2.0)) >> u
+    data = dd.simulate(model, 60, record="u.activation", every=2)["u.activation"].values
+    expected = -5 + 2 * (1 - 0.9 ** np.arange(0, 61, 2))
+    np.testing.assert_allclose(data, np.broadcast_to(expected[:, None], (31, samples)), rtol=1e-5)
+    assert max(sizes) == min(records, max(sizes)) and sum(sizes) >= 31
 
 
 def test_a_session_does_not_depend_on_its_division_into_calls(reference: dict[str, np.ndarray]) -> None:
