@@ -269,3 +269,25 @@ def test_connections_at_one_side_share_the_height_of_a_box(form, count):
     assert steps == pytest.approx([min(layout.SPACING, (box.body - 6) / (count - 1))] * (count - 1))
     assert min(steps) >= boxes.CLOSEST - 0.01
     assert (ends[0] + ends[-1]) / 2 == pytest.approx(top + box.top + box.body / 2)
+
+
+def test_connections_pass_a_box_at_the_same_distance_above_and_below():
+    draw, n = random.Random(1), 14
+    items = tuple(Item(f"e{k}", "field", f"e{k}") for k in range(n))
+    wires = [Wire(f"e{a}", f"e{b}") for a in range(n) for b in range(a + 1, n) if draw.random() < 0.35]
+    drawn, found, _ = paint.lay_out(Graph("lanes", items, tuple(wires), {}))
+    above, below, boxes_apart = [], [], []
+    for ident, (x, y) in found.boxes.items():
+        width, height = drawn[ident].box.width, drawn[ident].box.height
+        passing = [
+            r.y for runs in found.runs.values() for r in runs if r.x0 <= x + 0.01 and r.x1 >= x + width
+        ]
+        above += [y - at for at in passing if at < y]
+        below += [at - y - height for at in passing if at > y + height]
+        beside = [
+            (by, i) for i, (bx, by) in found.boxes.items() if bx < x + width and x < bx + drawn[i].box.width
+        ]
+        boxes_apart += [by - y - height for by, i in beside if i != ident and by > y]
+    assert len(above) > 10 and len(below) > 10
+    assert min(above) == pytest.approx(min(below)) == pytest.approx(layout.APART[True, False])
+    assert min(boxes_apart) >= layout.APART[True, True] - 0.01

@@ -12,6 +12,7 @@ import deodar as dd
 from deodar.elements.sensor import Sensor
 from deodar.numerics.axes import Axes
 from deodar.numerics.sigmoids.linear import Linear
+from deodar.session.run import Run
 from deodar.worlds._base import Signal, World
 from deodar.worlds.picture import Picture
 
@@ -226,3 +227,20 @@ def test_a_picture_is_sampled_with_its_proportions_and_colours() -> None:
     assert seen.shape == (20, 20, 3) and seen[:, :5].max() == 0 and seen[:, 15:].max() == 0
     assert (seen[:10, 5:15] == [1, 0, 0]).all() and (seen[10:, 5:15] == [0, 0, 1]).all()
     assert Picture(wide).to_pixels(axes, 0, 5) == (0.5, 0.5)
+
+
+def test_a_long_run_takes_few_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first chunk measures the speed; the others have the steps that take a fifth of a second."""
+    chunk, used = Run._chunk, list[int]()
+
+    def counted(self: Run, program: object, counts: dict[str, int], steps: int) -> object:
+        used.append(steps)
+        return chunk(self, program, counts, steps)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Run, "_chunk", counted)
+    model = dd.Model("m")
+    model.add(dd.Field("n", []))
+    session = dd.Session(model)
+    session.step(40_000)
+    assert sum(used) == session.tick == 40_000 and used[0] == 20
+    assert len(used) < 500, "chunks of the length of the first would be 2000"
