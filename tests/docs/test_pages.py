@@ -40,6 +40,27 @@ def test_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert not missing, f"{page.name} shows pictures that nothing on it draws: {missing}"
 
 
+def test_the_pictures_of_architectures_are_those_that_their_page_draws(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Words, shapes and colours agree, and positions to 0.02 points, since an SVG rounds them."""
+    number = re.compile(r"-?\d+(?:\.\d+)?")
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    for block in pages.blocks(DOCS / "drawing.md"):
+        if block.language == "python" and "dd.draw(" in block.text:
+            pages._run(block, names)
+    vectors = sorted(tmp_path.glob("*.svg"))
+    assert len(vectors) >= 3
+    for path in vectors:
+        shown, drawn = ((place / path.name).read_text("utf-8") for place in (DOCS / "pictures", tmp_path))
+        again = f"{path.name} changed: python docs/build.py --pages drawing"
+        assert number.sub("#", shown) == number.sub("#", drawn), again
+        positions = [[float(n) for n in number.findall(text)] for text in (shown, drawn)]
+        assert positions[0] == pytest.approx(positions[1], abs=0.02), again
+
+
 @pytest.mark.parametrize("page", TEXTS, ids=lambda p: f"{p.parent.name}/{p.stem}")
 def test_links_and_pictures_of_a_page_exist(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
