@@ -48,6 +48,8 @@ def test_a_workspace_holds_only_what_lies_below_its_root(tmp_path: Path) -> None
     assert space.holds(root / "x.json") and space.holds(root / "sub" / "x.json")
     for path in (root, tmp_path / "x.json", root / ".." / "x.json", root / "out", root / "a\0b"):
         assert not space.holds(path), path
+    with pytest.raises(DocumentError, match="lies outside the folder"):
+        space.folder(tmp_path / "x.json")
 
 
 def test_a_folder_lists_what_can_be_opened(tmp_path: Path) -> None:

@@ -42,9 +42,7 @@ class LeafLayout:
         group = self._group(leaf[0])
         return leaf[1] in group.offset or leaf[1] in group.arrays
 
-    def values(
-        self, doc: Document, points: int = 1, swept: Sequence[np.ndarray] | None = None
-    ) -> ProgramValues:
+    def values(self, doc: Document, points: int, swept: Sequence[np.ndarray] | None = None) -> ProgramValues:
         """The parameters of a document of this structure, on the host; `swept`: the values of each entry of
         the sweep at its points.
         """
