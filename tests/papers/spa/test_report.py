@@ -274,6 +274,9 @@ def test_rows_as_in_the_paper_contradict_only_sentences_on_failures_and_walls():
     }
     (latest,) = only(found, ["5.1: 3000 steps"])
     assert (latest.value, latest.holds) == (660, True)
+    (speed,) = only(found, ["speed of the wave, cm a step"])
+    # Lo is 100, 120 or 140 cm, and the plan is complete at step 150, 210 or 270
+    assert (speed.value, speed.n, speed.holds) == (pytest.approx(1 / 3, abs=1e-4), 392, None)
     (late,) = only(
         said(lambda c, k: {"success": k != 5} if c.name == "large/planner/low" else {}), ["3000 steps"]
     )
