@@ -5,6 +5,7 @@ under it.
 from __future__ import annotations
 
 import json
+import runpy
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pytest
 
 from deodar import registry
 from deodar.element import Element
-from deodar.model import files, schema
+from deodar.model import files, output, schema
 from deodar.model.model import Model
 from tests.house.source import ROOT, texts
 
@@ -38,6 +39,13 @@ def test_the_shipped_schema_is_up_to_date() -> None:
     assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), (
         "write it again: python -m deodar.model.schema"
     )
+
+
+def test_the_command_writes_the_schema(monkeypatch: pytest.MonkeyPatch) -> None:
+    written: dict[Path, bytes] = {}
+    monkeypatch.setattr(output, "write", written.__setitem__)
+    runpy.run_path(schema.__file__, run_name="__main__")
+    assert written == {schema.SHIPPED: schema.SHIPPED.read_bytes()}
 
 
 def test_the_schema_is_a_valid_json_schema() -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import jsonschema
 import numpy as np
 import pytest
 
+from deodar.model import output
 from deodar.server import frames, protocol, to_page, to_server
 
 SAY = "write them again: python -m deodar.server.protocol"
@@ -19,6 +21,13 @@ def test_the_schema_is_up_to_date() -> None:
 
 def test_the_typescript_is_up_to_date() -> None:
     assert protocol.TYPESCRIPT.read_text(encoding="utf-8") == protocol.typescript(), SAY
+
+
+def test_the_command_writes_the_schema_and_the_typescript(monkeypatch: pytest.MonkeyPatch) -> None:
+    written: dict[Path, bytes] = {}
+    monkeypatch.setattr(output, "write", written.__setitem__)
+    protocol.write()
+    assert written == {path: path.read_bytes() for path in (protocol.SCHEMA, protocol.TYPESCRIPT)}
 
 
 def test_the_schema_is_valid_and_refuses_unknown_messages() -> None:
