@@ -8,9 +8,13 @@ from typing import Any, cast
 
 import pytest
 
+from deodar.errors import DocumentError
+from deodar.server import requests
 from deodar.server.connection import PageConnection
 from deodar.server.message import Message
 from deodar.server.page import Page
+from deodar.server.project import ConfirmationRequired
+from deodar.server.to_page import Answer, ListedProblem
 
 
 class Silent(PageConnection):
@@ -45,3 +49,53 @@ def test_the_sending_task_ends_if_its_page_disconnects_during_an_update(between:
         assert task.cancelled()
 
     asyncio.run(main())
+
+
+class Said:
+    """A socket with messages of a page that then disconnects."""
+
+    def __init__(self, *texts: str) -> None:
+        self.left = [{"type": "websocket.receive", "text": text} for text in texts]
+
+    async def receive(self) -> dict[str, str]:
+        return self.left.pop(0) if self.left else {"type": "websocket.disconnect"}
+
+
+@pytest.mark.parametrize(
+    ("outcome", "expected"),
+    [
+        ([Answer(request=7)], Answer(request=7)),
+        (ConfirmationRequired("replace"), Answer(request=7, ask="replace")),
+        (
+            DocumentError("is broken", where="a", fix="Mend it"),
+            Answer(request=7, problems=[ListedProblem(what="is broken", where="a", fix="Mend it")]),
+        ),
+        (
+            FileNotFoundError(2, "No such file", "x.json"),
+            Answer(request=7, problems=[ListedProblem(what="No such file: x.json")]),
+        ),
+        (OSError("full"), Answer(request=7, problems=[ListedProblem(what="full")])),
+    ],
+    ids=["answer", "question", "error", "file", "disk"],
+)
+def test_a_request_with_a_number_is_answered_and_one_without_is_not(
+    outcome: list[Answer] | Exception, expected: Answer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def do(hub: object, page: object, message: Any) -> list[Answer]:
+        if isinstance(outcome, Exception):
+            raise outcome
+        return outcome
+
+    async def main() -> list[Any]:
+        socket = Said(
+            '{"type": "pause", "request": 7}', '{"type": "pause"}', '{"type": "nonsense", "request": 9}'
+        )
+        hub = SimpleNamespace(new_page=lambda: Page(1), project=SimpleNamespace(model=None))
+        one = PageConnection(cast("Any", socket), cast("Any", hub))
+        await one._receive()
+        return list(one._answers)
+
+    monkeypatch.setattr(requests, "do", do)
+    first, *rest, last = asyncio.run(main())
+    assert first == expected and not rest
+    assert last.request == 9 and "is not understood" in last.problems[0].what
