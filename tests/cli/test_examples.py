@@ -71,6 +71,13 @@ def test_a_script_is_copied_with_the_documents_it_reads(here: Path) -> None:
     assert sorted(p.name for p in (here / "mine").iterdir()) == ["choices.py", "selection.json"]
 
 
+def test_a_second_example_is_copied_into_the_same_folder(here: Path) -> None:
+    assert main(["examples", "copy", "selection", "mine"]) == 0
+    assert main(["examples", "copy", "spa", "mine"]) == 0
+    assert sorted(p.suffix for p in (here / "mine").iterdir()) == [".json", ".json", ".npz"]
+    assert dd.load(here / "mine" / "spa.json").document == dd.load("example:spa").document
+
+
 def test_a_copy_does_not_replace_an_existing_file(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here / "spa.json").write_text("mine")
     assert main(["examples", "copy", "spa"]) == 1

@@ -116,6 +116,18 @@ def test_a_parameter_is_set_at_a_time():
     assert x[30] > x[29] > x[1] and (x[30:] == x[30]).all()
 
 
+@pytest.mark.parametrize("t0", [0, 100])
+def test_an_action_has_a_document_time_from_any_start(t0):
+    model = dd.Model("late")
+    model.add(dd.Field("n", []))
+    model.add(dd.Boost("b", [], amplitude=0.0)) >> model["n"]
+    model.describe(t0=t0)
+    course = run_trial(model, 20, actions=[Set(t0 + 12, "b.amplitude", 5.0)], watch=["n.input"])
+    np.testing.assert_array_equal(course.times, t0 + np.arange(21))
+    # the sample at the time of an action is taken before it
+    np.testing.assert_array_equal(course.values["n.input"], 5.0 * (np.arange(21) > 12))
+
+
 def test_a_trial_does_not_depend_on_earlier_trials():
     world = room(slip=0.3, place_noise=0.5, start=[(10, 15, 0), (10, 25, 0.2)])
     given = {"limit": 80, "world": world, "watch": ["pose", "place"], "seed": 4}

@@ -18,3 +18,50 @@ def test_after_a_hundred_problems_no_further_connection_is_read(wrong: int) -> N
     assert len(listed) == min(wrong, MOST_PROBLEMS + 1) - 1
     assert ("were not read" in last.what) == (wrong > MOST_PROBLEMS)
     assert last.where == f"connections.{len(listed)}"
+
+
+USED = {
+    "deodar": 3,
+    "elements": {"g.a": {"kind": "Field", "id": "00000001"}},
+    "uses": {"g": {"template": "switch", "elements": {"00000001": "g.a"}}},
+}
+
+
+def test_uses_of_a_template_are_read() -> None:
+    (use,) = files.from_data(USED, {}).uses
+    assert (use.group, use.template, use.elements) == (("g",), "switch", (("00000001", "00000001"),))
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        None,
+        {},
+        {"template": "switch"},
+        {"template": "", "elements": {}},
+        {"template": 1, "elements": {}},
+        {"template": "switch", "elements": ["g.a"]},
+        {"template": "switch", "elements": {"00000001": 1}},
+        {"template": "switch", "elements": {"00000001": "g.a"}, "color": "red"},
+    ],
+)
+def test_a_use_with_other_content_is_refused(use: object) -> None:
+    with pytest.raises(DocumentError, match=r"uses.g: needs a template .* and nothing else"):
+        files.from_data({**USED, "uses": {"g": use}}, {})
+
+
+@pytest.mark.parametrize(
+    "parameter",
+    [
+        None,
+        {},
+        {"value": True},
+        {"value": "1"},
+        {"value": 1, "links": "g.a.tau"},
+        {"value": 1, "links": [1]},
+        {"value": 1, "unit": "ms"},
+    ],
+)
+def test_a_document_parameter_with_other_content_is_refused(parameter: object) -> None:
+    with pytest.raises(DocumentError, match=r"parameters.tempo: needs a value \(a number\) and links"):
+        files.from_data({**USED, "parameters": {"tempo": parameter}}, {})
