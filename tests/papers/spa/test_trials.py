@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import dataclasses as dc
 import json
+import lzma
 
 import numpy as np
 import pytest
 
+import deodar as dd
 from deodar.analysis.paths import path_length
 from deodar.papers.spa import cases, trials
 from deodar.papers.spa.runs import Runs
+from tests.house.source import ROOT
 
 
 @pytest.fixture
@@ -58,3 +61,16 @@ def test_jobs_cover_the_design():
     keys = {key for job in jobs for key in job.keys}
     assert keys == {c.key(k) for c in cases.conditions(True).values() for k in c.trials}
     assert {job.function for job in jobs} == {trials.carrot, trials.planner}
+
+
+def test_the_second_location_is_where_the_stored_run_is_at_step_500():
+    """Figures 10 and 11 of the paper; positions of a stored run, samples of the fields 1 cm apart."""
+    with lzma.open(ROOT / "evidence" / "spa" / "runs.jsonl.xz", "rt") as rows:
+        found = next(r for r in map(json.loads, rows) if r.get("condition") == "narrative/planner/low")
+    assert found["trial"] == 0
+    model = dd.Model("field")
+    axes = [dd.Axis("x", -104, -5, samples=100), dd.Axis("y", 5, 104, samples=100)]
+    model.add(dd.Field("motivation", axes))
+    grids = np.meshgrid(*(axis.points for axis in axes), indexing="ij")
+    for grid, robot in zip(grids, found["path"][500 // trials.KEPT], strict=True):
+        assert trials._at(model, "motivation.activation", grid[None]) == pytest.approx(robot, abs=1.0)
