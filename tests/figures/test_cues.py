@@ -63,6 +63,8 @@ def test_the_spatial_peak_is_a_dotted_line_for_each_motor_variable(drawn: Figure
         lines = panels(drawn)[row, 3].get_lines()
         dotted = [(float(one.get_ydata()[0]), one.get_color()) for one in lines if one.get_linestyle() == ":"]
         assert dotted == [(value, color) for p in peaks for value, color in zip(p, COLORS, strict=False)]
+        thickness = {one.get_linestyle(): one.get_linewidth() for one in lines if one.get_linestyle() in "-:"}
+        assert thickness.get(":", 0.0) < thickness["-"], "a reference line is thinner than a curve"
         ends = {str(one.get_label()): float(one.get_ydata()[-1]) for one in lines}
         assert ends["pan (x)"] == 31.0 and ends["tilt (y)"] == 52.0
         assert [one for one in lines if list(one.get_xdata()) == [CUE_AT / 1000] * 2]
