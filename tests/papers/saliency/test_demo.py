@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 import deodar as dd
+from deodar.architectures.saliency import scene as scene_axes
 from deodar.papers.saliency import scenes
 from deodar.papers.saliency.scenes import Cue, filmed, own, photographs, run_scene, watched
 from deodar.papers.saliency.targets import claims, sentence
@@ -59,6 +60,9 @@ def test_a_photograph_of_the_user_is_searched(tmp_path: Path) -> None:
     blue, red = result.outcomes
     assert len(blue.places) == 1 and 60 <= blue.places[0][0] <= 80 and 20 <= blue.places[0][1] <= 40
     assert not red.places and abs(blue.motor[0] - blue.places[0][0]) < 3
+    (peak,), x_and_y = blue.spatial, scene_axes()[:2]
+    assert result.scene.picture.to_pixels(x_and_y, *peak) == pytest.approx(blue.places[0], abs=3)
+    assert not red.spatial
     assert all(c.holds is None for c in claims(result)[1:])
 
 
