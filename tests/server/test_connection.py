@@ -67,8 +67,8 @@ class Said:
         ([Answer(request=7)], Answer(request=7)),
         (ConfirmationRequired("replace"), Answer(request=7, ask="replace")),
         (
-            DocumentError("is broken", where="a", fix="Mend it"),
-            Answer(request=7, problems=[ListedProblem(what="is broken", where="a", fix="Mend it")]),
+            DocumentError("is broken", where="a", fix="Write it again"),
+            Answer(request=7, problems=[ListedProblem(what="is broken", where="a", fix="Write it again")]),
         ),
         (
             FileNotFoundError(2, "No such file", "x.json"),
