@@ -349,8 +349,8 @@ class Executable:
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
         def steps(n: Array, given: Stepped) -> Stepped:
-            # the tick is the only counter: XLA runs more than eight operations by a scheduler, which takes 0.3
-            # us of a step
+            # the tick is the only counter: XLA runs more than eight operations by a scheduler, which takes
+            # 0.3 us of a step
             end = given[0] + n.astype(jnp.uint32)
 
             def one(carry: Stepped) -> Stepped:
