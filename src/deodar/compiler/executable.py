@@ -6,20 +6,21 @@ program.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses as dc
 import functools
 import math
 import time
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Generator, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
-from jax.stages import Compiled
+from jax.stages import Compiled, Traced
 
-from deodar.compiler import cache
+from deodar.compiler import cache, host
 from deodar.compiler import device as devices
 from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.body import Body, batched
@@ -67,7 +68,9 @@ them.
 """
 
 RARELY: cache.CompilerOptions = {"xla_backend_optimization_level": 0}
-"""Options for functions that run once, or when a width changes: they compile in half the time."""
+"""Options for functions that run once, or when a width changes, where `host` does not support them: they
+compile in half the time.
+"""
 
 BUFFER_BYTES = 16 * 2**20
 """Size of the recording buffer of a chunk."""
@@ -167,8 +170,8 @@ class Executable:
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
         values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.trials or 1, np.uint32)
-        self._prepare, constants = self.compile(self.program.prepare, values, options=RARELY)
-        self._init, (state, keys) = self.compile(self._start, values, seed, trials, options=RARELY)
+        self._prepare, constants = self.once(self.program.prepare, values)
+        self._init, (state, keys) = self.once(self._start, values, seed, trials)
         if body is not None:
             with errors_of(body.world, "reset"):
                 body.world.reset(0, [0] * batch.size, precision)
@@ -242,7 +245,7 @@ class Executable:
         """The same, for a caller that keeps it itself."""
         return self.compile(lambda *a: self._read(ports, ProgramArguments(*a)), *self._example)[0]
 
-    def call(self, executable: Compiled, *args: Any) -> Any:
+    def call(self, executable: Callable[..., Any], *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
         with precision_context(self.precision):
             return executable(*args)
@@ -388,25 +391,59 @@ class Executable:
     ) -> tuple[Compiled, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         began = time.process_time()
+        with self._settings():
+            executable, shapes = self._compiled(self._traced(function, *args), options)
+        self.seconds += time.process_time() - began
+        return executable, shapes
+
+    def once(self, function: Callable[..., Any], *args: Any) -> tuple[Callable[..., Any], PyTree]:
+        """The same for a function that runs once, or when a width changes: evaluated with NumPy where that is
+        possible, else compiled.
+        """
+        began = time.process_time()
+        with self._settings():
+            traced = self._traced(function, *args)
+            if host.supports(traced.jaxpr.jaxpr):
+                found = self._evaluated(traced), traced.out_info
+            else:
+                found = self._compiled(traced, RARELY)
+        self.seconds += time.process_time() - began
+        return found
+
+    @contextlib.contextmanager
+    def _settings(self) -> Generator[None]:
         # full precision of products: otherwise some processors multiply with fewer digits (TF32)
         with (
             precision_context(self.precision),
             jax.default_device(self.device),
             jax.default_matmul_precision("highest"),
         ):
-            # unused arguments stay: two programs that differ in which argument they use must not look alike
-            # to the cache
-            lowered = jax.jit(function, keep_unused=True).lower(*args)
-            executable, fresh = cache.compile(
-                lowered,
-                {**cache.options(self.device), **(options or {})},
-                self.device,
-                native.version(self.kernels),
-            )
+            yield
+
+    def _traced(self, function: Callable[..., Any], *args: Any) -> Traced:
         self.traced += 1
+        # unused arguments stay: two programs that differ in which argument they use must not look alike to
+        # the cache
+        return jax.jit(function, keep_unused=True).trace(*args)
+
+    def _compiled(self, traced: Traced, options: cache.CompilerOptions | None) -> tuple[Compiled, PyTree]:
+        executable, fresh = cache.compile(
+            traced.lower(),
+            {**cache.options(self.device), **(options or {})},
+            self.device,
+            native.version(self.kernels),
+        )
         self.compiled += fresh
-        self.seconds += time.process_time() - began
-        return executable, lowered.out_info
+        return executable, traced.out_info
+
+    def _evaluated(self, traced: Traced) -> Callable[..., Any]:
+        function, tree = traced.jaxpr, jax.tree.structure(traced.out_info)
+
+        def evaluate(*args: Any) -> Any:
+            found = host.evaluate(function, jax.tree.leaves(args))
+            return jax.device_put(jax.tree.unflatten(tree, found), self.device)
+
+        return evaluate
 
     def blind(self) -> dict[str, np.ndarray]:
         """Return the readings of sensors without a world: zeros."""

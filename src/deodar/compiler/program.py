@@ -367,7 +367,7 @@ class Program:
             for places, value in zip(self.sweep, values["swept"], strict=False):
                 for place in places:
                     if offset <= place < offset + group.rows:
-                        leaf = leaf.at[place - offset].set(value)
+                        leaf = jnp.where(np.arange(group.rows) == place - offset, value, leaf)
             out[path] = leaf
         for path in group.arrays:
             out[path] = arrays[array_key(g, path)]
