@@ -93,10 +93,10 @@ def test_matrix_products_use_the_full_precision(precision: str, monkeypatch: pyt
     compile_ = cache.compile
 
     def listen(
-        lowered: jax.stages.Lowered, options: dict[str, object] | None, place: object
+        lowered: jax.stages.Lowered, options: dict[str, object] | None, place: object, kernels: str
     ) -> tuple[object, bool]:
         texts.append(lowered.as_text())
-        return compile_(lowered, options, place)
+        return compile_(lowered, options, place, kernels)
 
     monkeypatch.setattr(cache, "compile", listen)
     dd.simulate(model(), 5, precision=precision, trials=3)

@@ -12,7 +12,6 @@ from typing import Any, TypeAlias
 import numpy as np
 from jax.extend.core import ClosedJaxpr, Jaxpr, JaxprEqn, Literal, Var
 
-Value: TypeAlias = np.ndarray | np.generic
 Rule: TypeAlias = Callable[..., Any]
 """A function of the parameters of a primitive and of its operands."""
 
@@ -99,7 +98,7 @@ def _rule(equation: JaxprEqn) -> Rule | None:
     return RULES.get(name)
 
 
-def _broadcast(params: Mapping[str, Any], x: Value) -> Value:
+def _broadcast(params: Mapping[str, Any], x: np.ndarray) -> np.ndarray:
     shape, places = params["shape"], params["broadcast_dimensions"]
     spread = [1] * len(shape)
     for place, length in zip(places, x.shape, strict=True):
@@ -107,19 +106,19 @@ def _broadcast(params: Mapping[str, Any], x: Value) -> Value:
     return np.broadcast_to(x.reshape(spread), shape)
 
 
-def _slice(params: Mapping[str, Any], x: np.ndarray) -> Value:
+def _slice(params: Mapping[str, Any], x: np.ndarray) -> np.ndarray:
     strides = params["strides"] or (1,) * x.ndim
     bounds = zip(params["start_indices"], params["limit_indices"], strides, strict=True)
     return x[tuple(slice(*bound) for bound in bounds)]
 
 
-def _iota(params: Mapping[str, Any]) -> Value:
+def _iota(params: Mapping[str, Any]) -> np.ndarray:
     shape, dimension = params["shape"], params["dimension"]
     along = [length if d == dimension else 1 for d, length in enumerate(shape)]
     return np.broadcast_to(np.arange(shape[dimension], dtype=params["dtype"]).reshape(along), shape)
 
 
-def _converted(params: Mapping[str, Any], x: np.ndarray) -> Value:
+def _converted(params: Mapping[str, Any], x: np.ndarray) -> np.ndarray:
     """Convert a type; integers are those towards 0, the nearest that exist, and 0 for what is undefined."""
     new = np.dtype(params["new_dtype"])
     if x.dtype.kind == "f" and new.kind in "iu":
@@ -128,13 +127,13 @@ def _converted(params: Mapping[str, Any], x: np.ndarray) -> Value:
     return x.astype(new)
 
 
-def _fourier(params: Mapping[str, Any], x: np.ndarray) -> Value:
+def _fourier(params: Mapping[str, Any], x: np.ndarray) -> np.ndarray:
     kind, lengths = params["fft_type"].name, params["fft_lengths"]
     function = {"FFT": np.fft.fftn, "IFFT": np.fft.ifftn, "RFFT": np.fft.rfftn}[kind]
     return function(x, lengths, range(x.ndim - len(lengths), x.ndim))
 
 
-def _gathered(params: Mapping[str, Any], x: np.ndarray, indices: np.ndarray) -> Value:
+def _gathered(params: Mapping[str, Any], x: np.ndarray, indices: np.ndarray) -> np.ndarray:
     """Take one slice of `x` for each vector of `indices`, whose last axis is that of the vectors."""
     about, sizes = params["dimension_numbers"], params["slice_sizes"]
     lead, inside = indices.shape[:-1], np.ones(indices.shape[:-1], bool)
@@ -161,7 +160,7 @@ def _gathered(params: Mapping[str, Any], x: np.ndarray, indices: np.ndarray) -> 
     return found.transpose([next(slices if k in about.offset_dims else others) for k in range(found.ndim)])
 
 
-def _product(params: Mapping[str, Any], a: np.ndarray, b: np.ndarray) -> Value:
+def _product(params: Mapping[str, Any], a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Sum over contracted dimensions; dimensions of both that are not summed come first (as in XLA)."""
     (sum_a, sum_b), (both_a, both_b) = params["dimension_numbers"]
     letters = iter(range(a.ndim + b.ndim))
