@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import csv
 import dataclasses as dc
 import io
 import json
@@ -247,16 +248,65 @@ def workload_table(rows: list[steps.Row]) -> list[str]:
 
 
 def write_readme(about: dict[str, str], rows: list[steps.Row]) -> None:
-    """The last table, between its marks in README.md."""
-    path = HERE / "README.md"
-    before, rest = path.read_text(encoding="utf-8").split(MARKS[0])
-    after = rest.split(MARKS[1])[1]
+    """The last table in README.md, and that of docs/speed.md."""
     facts = [f"- {name}: {value}" for name, value in about.items()]
     promised = ["| figure | value | target |", "|---|---|---|"]
     promised += [
         f"| {name} | {value:.3f} {unit} | {target:g} {unit} |" for name, value, unit, target in SHOWN
     ]
     body = [*facts, "", *workload_table(rows), *(["", *promised] if SHOWN else [])]
+    between_marks(HERE / "README.md", body)
+    between_marks(SPEED, speed_table(about, rows))
+
+
+PEERS = HERE / "peers.csv"
+SPEED = HERE.parent / "docs" / "speed.md"
+PROGRAMS = "juniper", "cosivina_python"
+
+
+def peers() -> dict[tuple[str, str], float]:
+    """Return for each workload and program its time of a step over that of the yardstick (peers.csv).
+
+    Those times were taken beside the earlier yardstick; `Workload.earlier` converts them.
+    """
+    with PEERS.open(encoding="utf-8", newline="") as text:
+        return {
+            (row["workload"], row["program"]): float(row["us"])
+            / float(row["c_us"])
+            * workloads.WORKLOADS[row["workload"]].earlier
+            for row in csv.DictReader(text)
+        }
+
+
+def speed_table(about: dict[str, str], rows: list[steps.Row]) -> list[str]:
+    """Lines of the table on docs/speed.md: workloads with a yardstick, as ratios to it."""
+    known = peers()
+    lines = [
+        f"Measured on {about['date']}, {about['processor']}, one of them used; Python {about['python']},",
+        f"{about['versions']}; {about['compiler']}.",
+        "",
+        f"| model | C, us a step | deodar, us | deodar / C | {' | '.join(f'{p} / C' for p in PROGRAMS)} |",
+        "|---|---|---|---|" + "---|" * len(PROGRAMS),
+    ]
+    for r in rows:
+        if r.c_us is None or r.ratio is None or workloads.WORKLOADS[r.name].world:
+            continue
+        beside = [digits(known[r.name, p]) if (r.name, p) in known else "-" for p in PROGRAMS]
+        lines.append(
+            f"| {r.meaning} | {digits(r.c_us)} | {digits(r.us)} | {r.ratio:.2f} | {' | '.join(beside)} |"
+        )
+    return lines
+
+
+def digits(value: float) -> str:
+    """Return a number with three digits, or all before the point."""
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
+
+
+def between_marks(path: Path, body: list[str]) -> None:
+    """Replace the lines between the marks of a page."""
+    before, rest = path.read_text(encoding="utf-8").split(MARKS[0])
+    after = rest.split(MARKS[1])[1]
     path.write_text("\n".join([before + MARKS[0], "", *body, "", MARKS[1] + after]), encoding="utf-8")
 
 
@@ -274,7 +324,9 @@ def main() -> None:
     parser.add_argument(
         "--json", action="store_true", help="one JSON object on the standard output, nothing else"
     )
-    parser.add_argument("--readme", action="store_true", help="write the table into benchmarks/README.md")
+    parser.add_argument(
+        "--readme", action="store_true", help="write the tables into benchmarks/README.md and docs/speed.md"
+    )
     given = parser.parse_args()
     steps.require_known(parser, given.names, known)
     os.environ["NPROC"] = "1"
