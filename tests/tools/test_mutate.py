@@ -98,6 +98,42 @@ def test_mutants_are_killed_or_survive_by_the_tests_that_cover_them(
     ]
 
 
+def test_a_test_that_fails_without_the_change_kills_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "toy.py").write_text("def total(a, b):\n    return a + b\n")
+    (tmp_path / "test_toy.py").write_text(
+        "import toy\ndef test_later(): assert toy.total(1, 2) == 4\n"
+        "def test_zero(): assert toy.total(1, 0) == 1\ndef test_sum(): assert toy.total(1, 2) == 3\n"
+    )
+    found = mutate.mutants("src/toy.py", "def total(a, b):\n    return a + b\n")
+    [change] = [m for m in found if m.kind == "arithmetic"]
+    later, zero, right = (f"test_toy.py::test_{name}" for name in ("later", "zero", "sum"))
+    called = {test: (k / 10, {"src/toy.py:1"}) for k, test in enumerate((later, zero, right))}
+    killed = mutate.judge(tmp_path, change, called, "abc")
+    assert (killed.outcome, killed.test) == ("killed", right)
+    survived = mutate.judge(tmp_path, change, {later: called[later]}, "abc")
+    assert (survived.outcome, survived.test) == ("survived", "")
+
+
+@pytest.mark.parametrize("condition", ["case", "case in (2, 3)"])
+def test_a_change_of_the_cases_of_a_test_alone_kills_nothing(
+    condition: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "toy.py").write_text("CASES = [3]\n")
+    (tmp_path / "test_toy.py").write_text(
+        "import pytest, toy\n@pytest.mark.parametrize('case', toy.CASES)\n"
+        f"def test_case(case): assert {condition}\n"
+    )
+    [change] = mutate.mutants("src/toy.py", "CASES = [3]\n")
+    row = mutate.judge(tmp_path, change, {"test_toy.py::test_case[3]": (0.1, {"src/toy.py:1"})}, "abc")
+    assert row.outcome == ("survived" if condition == "case" else "killed")
+
+
 def test_the_test_file_of_the_module_comes_first_and_then_the_quickest() -> None:
     text = "def total(a, b):\n    return a + b\n\nSTART = 1 + 1\n\ndef late(a):\n    return a + 1\n"
     sums = [m for m in mutate.mutants("src/toy.py", text) if m.kind == "arithmetic"]
