@@ -44,6 +44,15 @@ def test_quick_takes_the_first_trials_of_each_condition():
         assert c.trials == long[name].trials[: len(c.trials)] and len(c.trials) <= 20
 
 
+@pytest.mark.parametrize("quick", [True, False])
+def test_the_conditions_with_the_shortest_runs_come_first(quick):
+    found = list(cases.conditions(quick).values())
+    short = [c.method == "carrot" or c.name.startswith(("free", "narrative", "moved")) for c in found]
+    first = short.index(False)
+    assert first > 15 and not any(short[first:])
+    assert {c.name.partition("/")[0] for c in found[:first]} == {"z", "large", "free", "narrative", "moved"}
+
+
 @pytest.mark.parametrize("maze", ["z", "large"])
 def test_pairs_keep_their_distance_and_can_be_reached(maze):
     starts, goals = pairs.pairs(maze)
