@@ -44,6 +44,19 @@ except dd.errors.CoresError as error:
     assert "already started with 1 cores" in str(found["says"]) and "NPROC=3" in str(found["says"])
 
 
+def test_use_cores_sets_the_environment_until_jax_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NPROC", "1")
+    monkeypatch.setattr(cores, "started", lambda: False)
+    for n in (3, 2):
+        cores.use_cores(n)
+        assert os.environ["NPROC"] == str(n) and cores.cores() == n
+    monkeypatch.setattr(cores, "started", lambda: True)
+    cores.use_cores(2)
+    with pytest.raises(dd.errors.CoresError, match="already started with 2 cores"):
+        cores.use_cores(3)
+    assert os.environ["NPROC"] == "2"
+
+
 def test_the_number_of_cores_sets_the_number_of_threads() -> None:
     """XLA names its threads after their pool; with one core it has fewer of them."""
     if not os.path.isdir("/proc/self/task"):  # only Linux lists threads; elsewhere the number is checked
