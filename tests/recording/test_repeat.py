@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from deodar.elements.function import Function
 from deodar.recording import files
 from deodar.recording.provenance import KEY, document
 from deodar.recording.record import about
-from deodar.recording.repeat import compare, repeat
+from deodar.recording.repeat import _world, compare, repeat
 from deodar.worlds.picture import Picture
 from tests.recording.models import record, x
 
@@ -113,3 +114,23 @@ def test_different_bits_of_nan_are_not_a_difference_of_values() -> None:
     old["u.activation"].values[-1, 0], new["u.activation"].values[-1, 0] = np.nan, -np.float32(np.nan)
     new["u.activation"].values[-1, 1] += 0.5
     assert compare(old, new).largest["u.activation"] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("described", "shown"),
+    [
+        ({"world": "Nowhere"}, "Nowhere"),
+        ({"world": "Nowhere", "file": "a/b.png"}, "Nowhere a/b.png"),
+        (
+            {"world": "Nowhere", "file": "b.png", "sha256": "0123456789abcdef"},
+            "Nowhere b.png sha256 0123456789ab",
+        ),
+    ],
+)
+def test_a_world_of_an_unknown_kind_is_named_as_the_record_describes_it(
+    described: dict[str, str], shown: str
+) -> None:
+    says = f"the record was made with the world {shown}, which is not known here"
+    with pytest.raises(dd.errors.WorldError, match=re.escape(says)) as caught:
+        _world(described)
+    assert caught.value.problems[0].fix == "Give it: --world nowhere:FILE"
