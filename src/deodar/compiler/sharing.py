@@ -19,6 +19,7 @@ from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
 from deodar.model.resolve import Node, Slot
 from deodar.numerics import interaction
+from deodar.numerics.transforms import from_waves, to_waves
 
 if TYPE_CHECKING:
     from jax import Array
@@ -144,7 +145,7 @@ class SharingSource(_Sharing):
 
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         out = super().output(element, at, read, time)
-        return out | {"output" + WAVES: interaction.to_waves(self.waves, out["output"])}
+        return out | {"output" + WAVES: to_waves(self.waves, out["output"])}
 
     def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         given, calls = read.inputs, list[Any]()
@@ -175,8 +176,8 @@ class SharingFilter(_Sharing):
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         arriving = read.inputs["input" + WAVES]
         if self.convolves:
-            arriving = arriving + interaction.to_waves(self.waves, read.inputs["input" + REST])
+            arriving = arriving + to_waves(self.waves, read.inputs["input" + REST])
             gains = read.constants.kernels["waves"][self.key]
             at = dc.replace(at, convolve=lambda y: gains * y)
         out = run_output(element, at, read._replace(inputs={"input": arriving}), time)["output"]
-        return {"output": interaction.from_waves(self.waves, out), "output" + WAVES: out}
+        return {"output": from_waves(self.waves, out), "output" + WAVES: out}

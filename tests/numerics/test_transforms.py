@@ -1,0 +1,108 @@
+"""Folded transforms are those by whole bases."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from jax import Array
+
+from deodar.numerics.transforms import from_waves, to_waves
+from deodar.numerics.waves import Waves
+
+RING, BORDER = Waves("periodic", 6, 6, 2), Waves("zero", 5, 9, 3, by_symmetry=True)
+
+
+def waves(boundary: str, samples: int, parity: bool, symmetry: bool, highest: int | None = None) -> Waves:
+    length = {"periodic": samples, "zero": samples + 5, "reflect": 2 * samples}[boundary]
+    most = samples - 1 if boundary == "reflect" else length // 2
+    return Waves(boundary, samples, length, most if highest is None else highest, parity, symmetry)
+
+
+AXES = [
+    waves(boundary, samples, parity, symmetry, highest)
+    for boundary, samples, parity, symmetry, highest in itertools.product(
+        ("periodic", "zero", "reflect"), (7, 8, 9, 10, 12), (False, True), (False, True), (None, 3)
+    )
+    if (parity or symmetry) and (not parity or (boundary == "periodic" and samples % 2 == 0))
+]
+"""Folded axes with each kind of boundaries, all modes or the slowest, and quarters and halves of even and odd
+size.
+"""
+
+
+def whole(tables: list[np.ndarray], y: np.ndarray) -> np.ndarray:
+    """Apply one matrix along each axis."""
+    for d, table in enumerate(tables):
+        y = np.moveaxis(np.tensordot(table, y, (1, d)), 0, d)
+    return y
+
+
+@pytest.mark.parametrize("w", AXES, ids=repr)
+def test_folded_modes_span_the_same_functions_as_modes_in_one_class(w: Waves) -> None:
+    one = Waves(w.boundary, w.samples, w.length, w.highest)
+    np.testing.assert_allclose(w.basis() @ w.basis().T, one.basis() @ one.basis().T, atol=1e-12)
+    present = np.abs(w.basis()).max(axis=0) > 0
+    assert sorted(w.turns[present]) == sorted(one.turns)
+
+
+@pytest.mark.parametrize("w", AXES, ids=repr)
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [((), ()), ((), (RING,)), ((BORDER,), ()), ((), (RING, BORDER)), ((RING,), (BORDER,))],
+)
+def test_folded_transforms_are_products_with_whole_bases(
+    w: Waves, before: tuple[Waves, ...], after: tuple[Waves, ...]
+) -> None:
+    """To rounding in double precision, over one to three axes in any order."""
+    axes = (*before, w, *after)
+    y = np.random.default_rng(1).normal(size=[each.samples for each in axes])
+    with jax.enable_x64(True):
+        modes = np.asarray(to_waves(axes, jnp.asarray(y)))
+        back = np.asarray(from_waves(axes, jnp.asarray(modes)))
+    np.testing.assert_allclose(modes, whole([each.basis().T for each in axes], y), atol=1e-12)
+    np.testing.assert_allclose(back, whole([each.basis() for each in axes], modes), atol=1e-12)
+
+
+@pytest.mark.parametrize("w", [w for w in AXES if w.samples in (7, 10)], ids=repr)
+def test_folded_transforms_keep_single_precision(w: Waves) -> None:
+    y = np.random.default_rng(1).normal(size=(w.samples, 50)).astype(np.float32)
+    axes = (w, Waves("periodic", 50, 50, 14, by_parity=True))
+    modes = to_waves(axes, jnp.asarray(y))
+    assert modes.dtype == np.float32 and from_waves(axes, modes).dtype == np.float32
+    exact = whole([each.basis() @ each.basis().T for each in axes], y.astype(float))
+    assert np.abs(from_waves(axes, modes) - exact).max() < 3e-6
+
+
+@pytest.mark.parametrize("axes", [(RING, RING), (AXES[0], BORDER), (AXES[5], AXES[-1], BORDER)])
+def test_copies_are_transformed_as_one_is(axes: tuple[Waves, ...]) -> None:
+    """Copies in two nested batches, as trials of a group have them."""
+
+    @functools.partial(jax.vmap, in_axes=1)
+    @jax.vmap
+    def there_and_back(y: Array) -> Array:
+        return from_waves(axes, to_waves(axes, y))
+
+    y = np.random.default_rng(1).normal(size=(2, 3, *(w.samples for w in axes)))
+    with jax.enable_x64(True):
+        found = np.asarray(jax.jit(there_and_back)(jnp.asarray(y)))
+    each = [w.basis() @ w.basis().T for w in axes]
+    for j, k in itertools.product(range(3), range(2)):
+        np.testing.assert_allclose(found[j, k], whole(each, y[k, j]), atol=1e-12)
+
+
+def test_only_the_cpu_folds() -> None:
+    """On other devices a transform is one product for each axis."""
+    axes = (AXES[-1], BORDER)
+    y = jax.ShapeDtypeStruct((axes[0].samples, axes[1].samples), np.float32)
+    traced = jax.jit(lambda y: to_waves(axes, y)).trace(y)
+    reversals, products = {}, {}
+    for platform in ("cpu", "cuda"):
+        text = traced.lower(lowering_platforms=(platform,)).as_text()
+        reversals[platform], products[platform] = text.count("reverse"), text.count("dot_general")
+    assert reversals["cpu"] > 0 == reversals["cuda"]
+    assert products["cuda"] == len(axes)
