@@ -13,5 +13,10 @@ def test_every_strategy_is_measured_and_the_one_with_the_lowest_estimate_is_chos
     assert all(0 < m.measured_us < 1e4 for m in found)
 
 
+def test_folded_transforms_are_measured_beside_those_by_whole_bases() -> None:
+    found = {m.method: m.chosen for m in measure(Case((60, 60), sigmas=(3.0,)))}
+    assert found == {"waves, folded": True, "waves": False, "matrices": False, "fourier": False}
+
+
 def test_cases_reach_from_a_line_to_a_volume() -> None:
     assert {len(c.samples) for c in CASES} == {1, 2, 3} and len({str(c) for c in CASES}) == len(CASES)

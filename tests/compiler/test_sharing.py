@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import jax.numpy as jnp
@@ -76,13 +77,13 @@ class Undeclared(Doubled):
     convolution: ClassVar[dd.Convolution | None] = None
 
 
-def coupled(kind: type[dd.Field]) -> dd.Model:
+def coupled(kind: type[dd.Field], axes: Sequence[dd.Axis] = SQUARE) -> dd.Model:
     """Return two fields that are coupled by Gaussians, the second one of a kind and with a stimulus."""
     model = dd.Model("two fields")
     kernel = [dd.Gaussian(15, 3, normalized=True)]
-    u = model.add(dd.Field("u", SQUARE, resting_level=-1, kernel=kernel))
-    w = model.add(kind("w", SQUARE, resting_level=-1, kernel=kernel))
-    model.add(dd.GaussianStimulus("s", SQUARE, center=[20, 20], sigma=3, amplitude=9)) >> w
+    u = model.add(dd.Field("u", axes, resting_level=-1, kernel=kernel))
+    w = model.add(kind("w", axes, resting_level=-1, kernel=kernel))
+    model.add(dd.GaussianStimulus("s", axes, center=[20, 20], sigma=3, amplitude=9)) >> w
     u >> dd.Convolve([dd.Gaussian(6, 3, normalized=True)]) >> dd.Gain(0.9) >> w
     w >> dd.Convolve([dd.Gaussian(6, 4, normalized=True)]) >> u
     return model
@@ -126,6 +127,40 @@ def test_custom_classes_compute_their_equations(kind: type[dd.Field]) -> None:
     model = coupled(kind)
     given, exact = (
         dd.simulate(model, 20, record=["w.activation"], precision=precision)["w.activation"].values[-1]
+        for precision in ("float32", "float64")
+    )
+    assert exact.max() > 2 and np.abs(given - exact).max() < 1e-4
+
+
+def test_fields_coupled_by_two_kinds_of_boundaries_share_transforms_of_either_kind() -> None:
+    """u is coupled with w by kernels that wrap, and with v by kernels that do not."""
+    model = coupled(dd.Field)
+    u = model["u"]
+    v = model.add(dd.Field("v", SQUARE, resting_level=-1, kernel=[dd.Gaussian(15, 3, normalized=True)]))
+    for a, b in ((u, v), (v, u)):
+        a >> dd.Convolve([dd.Gaussian(6, 4, normalized=True, boundary=("zero", "zero"))]) >> b
+    shared = {n.path: g.strategy.shared for g in plan(model.document).groups for n in g.nodes}
+    assert shared == {
+        **dict.fromkeys(["u", "w", "u>Convolve", "u>Convolve>Gain", "w>Convolve"], "periodic periodic"),
+        **dict.fromkeys(["v", "u>Convolve2", "v>Convolve"], "zero zero"),
+        "s": "",
+    }
+    given, exact = (
+        dd.simulate(model, 20, record=["w.activation", "v.activation"], precision=precision)
+        for precision in ("float32", "float64")
+    )
+    for name in ("w.activation", "v.activation"):
+        assert exact[name].values.max() > 2
+        np.testing.assert_allclose(given[name].values[-1], exact[name].values[-1], atol=1e-4)
+
+
+def test_fields_share_folded_transforms() -> None:
+    axes = [dd.Axis(name, 0, 100, samples=100, periodic=True) for name in "xy"]
+    model = coupled(dd.Field, axes)
+    strategies = {g.strategy for g in plan(model.document).groups if g.strategy.shared}
+    assert {tuple(w.classes for w in dict(s.choices)[s.shared].waves) for s in strategies} == {(4, 2)}
+    given, exact = (
+        dd.simulate(model, 50, record=["u.activation"], precision=precision)["u.activation"].values[-1]
         for precision in ("float32", "float64")
     )
     assert exact.max() > 2 and np.abs(given - exact).max() < 1e-4

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from jax import Array
 
+from deodar.numerics.axes import Axis
+from deodar.numerics.choice import by_waves, together
 from deodar.numerics.transforms import from_waves, to_waves
 from deodar.numerics.waves import Waves
 
@@ -106,3 +108,36 @@ def test_only_the_cpu_folds() -> None:
         reversals[platform], products[platform] = text.count("reverse"), text.count("dot_general")
     assert reversals["cpu"] > 0 == reversals["cuda"]
     assert products["cuda"] == len(axes)
+
+
+def folds(*axes: Waves, copies: int = 1) -> list[tuple[bool, bool]]:
+    return [(w.by_parity, w.by_symmetry) for w in by_waves(axes, copies)[-1].waves]
+
+
+def test_large_planes_fold_more_than_small_ones() -> None:
+    """Halves of a ring are folded about their middles too if they are long enough."""
+
+    def plane(samples: int, boundary: str = "periodic") -> list[tuple[bool, bool]]:
+        w = waves(boundary, samples, False, False, samples // (2 if boundary == "reflect" else 4))
+        return folds(w, w)
+
+    no, symmetry, parity, both = (False, False), (False, True), (True, False), (True, True)
+    assert plane(30) == [no, no]
+    assert plane(50) == [parity, no]
+    assert plane(100) == [both, parity]
+    assert plane(101) == [symmetry, symmetry], "an odd ring has no opposite samples"
+    assert plane(100, "zero") == plane(100, "reflect") == [symmetry, symmetry]
+    assert plane(200) == [both, both]
+
+
+def test_lines_fold_in_batches_and_volumes_along_their_first_axis() -> None:
+    ring, small = waves("periodic", 200, False, False, 31), waves("periodic", 50, False, False, 13)
+    assert folds(ring) == [(False, False)]
+    assert folds(ring, copies=100) == [(True, True)]
+    assert folds(small, small, small) == [(True, False), (False, False), (False, False)]
+
+
+def test_shared_modes_are_folded() -> None:
+    axes = tuple(Axis(name, 0, 99, 100) for name in "xy")
+    choice = together(axes, ("periodic", "periodic"), ((2.0, 5.0), (2.0, 5.0)), 16)
+    assert choice.method == "waves" and [w.classes for w in choice.waves] == [4, 2]

@@ -4,8 +4,11 @@ be.
 
 from __future__ import annotations
 
+import dataclasses as dc
 import itertools
 import json
+from collections.abc import Sequence
+from typing import Any
 
 import jax
 import numpy as np
@@ -41,7 +44,7 @@ def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, p
         return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), chosen))
 
 
-@pytest.mark.parametrize("way", ["waves", "fourier"])
+@pytest.mark.parametrize("way", ["waves", "folded", "fourier"])
 @pytest.mark.parametrize(("first", "second"), list(itertools.product(BOUNDARIES, repeat=2)))
 def test_every_strategy_agrees_with_matrices(
     first: str, second: str, way: str, monkeypatch: pytest.MonkeyPatch
@@ -56,7 +59,17 @@ def test_every_strategy_agrees_with_matrices(
         dd.Gaussian(7, (3.0, 0.2), boundary=[first, second]),
         dd.Gaussian(-4, (5.0, 0.3), boundary=[first, second], normalized=True),
     ]
-    monkeypatch.setattr(interaction, "choose", lambda *given: Choice(way, choose_waves(*given)))
+    if way == "folded":
+
+        def chosen(*given: Any) -> Choice:
+            return Choice("waves", tuple(dc.replace(w, by_symmetry=True) for w in choose_waves(*given)))
+
+    else:
+
+        def chosen(*given: Any) -> Choice:
+            return Choice(way, choose_waves(*given))
+
+    monkeypatch.setattr(interaction, "choose", chosen)
     y = np.random.default_rng(1).random((40, 33))
     total = np.abs(applied(kernels, axes, np.ones((40, 33)), False)).max()
     difference = applied(kernels, axes, y, True) - applied(kernels, axes, y, False)
@@ -115,26 +128,31 @@ def test_the_strategy_with_the_lowest_cost_is_chosen() -> None:
 
 
 SQUARE = [dd.Axis("x", 0, 60, samples=61), dd.Axis("y", 0, 50, samples=51)]
+TORUS = [dd.Axis(name, 0, 100, samples=100, periodic=True) for name in "xy"]
 
 
-def model(sigma: float = 4.0) -> dd.Model:
-    made = dd.Model("square")
+def model(sigma: float = 4.0, axes: Sequence[dd.Axis] = SQUARE) -> dd.Model:
+    made = dd.Model("plane")
     kernel = [
         dd.Gaussian(15, sigma, normalized=True),
         MexicanHat(4, 4, 2, 8, normalized=True, boundary=["reflect"]),
         dd.Gaussian(-0.1, 9.0),
     ]
-    u = made.add(dd.Field("u", SQUARE, kernel=kernel, global_inhibition=0.001))
-    made.add(dd.GaussianStimulus("s", SQUARE, center=[20, 48], sigma=4, amplitude=8)) >> u
-    made.add(dd.GaussianStimulus("t", SQUARE, center=[59, 10], sigma=3, amplitude=7)) >> u
+    u = made.add(dd.Field("u", axes, kernel=kernel, global_inhibition=0.001))
+    made.add(dd.GaussianStimulus("s", axes, center=[20, 48], sigma=4, amplitude=8)) >> u
+    made.add(dd.GaussianStimulus("t", axes, center=[59, 10], sigma=3, amplitude=7)) >> u
     return made
 
 
-def test_default_strategies_are_within_1e_4_of_exact_ones() -> None:
-    """1e-4 in activation after 400 steps without noise, with peaks at the borders."""
-    made = model()
+@pytest.mark.parametrize(("sigma", "axes", "classes"), [(4.0, SQUARE, [2, 1]), (3.0, TORUS, [4, 2])])
+def test_default_strategies_are_within_1e_4_of_exact_ones(
+    sigma: float, axes: list[dd.Axis], classes: list[int]
+) -> None:
+    """1e-4 in activation after 400 steps without noise, with peaks at the borders and folded transforms."""
+    made = model(sigma, axes)
     field = made["u"].element
-    assert interaction.choices(field.kernel, tuple(field.axes)), "something is planned here"
+    choice = next(iter(interaction.choices(field.kernel, tuple(field.axes)).values()))
+    assert choice.method == "waves" and [w.classes for w in choice.waves] == classes
     exact = dd.simulate(made, 400, precision="float64")["u.activation"].values
     default = dd.simulate(made, 400)["u.activation"].values
     assert exact.max() > 3 and np.abs(default - exact).max() < 1e-4

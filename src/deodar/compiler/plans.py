@@ -74,8 +74,8 @@ CASES = (
 
 @dc.dataclass(frozen=True)
 class Measured:
-    """One method of one case: what a step of all copies should cost and costs, in microseconds; `chosen`:
-    whether it is the one that is taken.
+    """One method of one case ("waves, folded": with folded transforms): what a step of all copies should cost
+    and costs, in microseconds; `chosen`: whether it is the one that is taken.
     """
 
     case: Case
@@ -93,7 +93,7 @@ def measure(case: Case) -> Iterator[Measured]:
     for k, choice in enumerate(sorted(found, key=lambda c: c.nanoseconds)):
         yield Measured(
             case,
-            choice.method,
+            choice.method + (", folded" if any(w.classes > 1 for w in choice.waves) else ""),
             choice.nanoseconds * case.copies / 1000,
             1e6 * _seconds(case, key, choice),
             k == 0,

@@ -1,13 +1,15 @@
 """The choice of the cheapest convolution strategy for a grid and a set of Gaussian kernels.
 
-Costs were measured on one core of a server (AVX-512, 2.7 GHz); they differ by factors, so the cost model only
-needs to rank them. The choice is made before compiling, from bounds on the widths (`bucket`): widths may
-change inside a bucket without recompiling.
+Costs were measured on one core of servers (AVX-512, 2.6 and 2.7 GHz); they differ by factors, so the cost
+model only needs to rank them. The choice is made before compiling, from bounds on the widths (`bucket`):
+widths may change inside a bucket without recompiling.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import functools
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,15 +27,24 @@ LEFT_OUT = 3e-5
 REACH = 5.0
 """Number of widths after which a Gaussian counts as 0 (4e-6 of its value at the centre)."""
 
-PRODUCT_NS = 0.016
+PRODUCT_NS = 0.0128
 """Time of a multiplication and addition in a product of matrices, ns."""
 
 LINE_NS = {False: 0.035, True: 0.01}
 """The same time in a product with the samples of one axis: for one copy (memory-bound), for many copies."""
 
 TAP_NS = 0.04
-CALL_NS = 800.0
-FOURIER_NS = 0.3
+CALL_NS = 450.0
+FOLD_NS = 120.0
+"""Time of folding or unfolding an array along an axis that is not its last, ns for each class of modes."""
+
+FOLD_ROW_NS = 8.0
+"""The same time along the last axis, ns for each row of the array and class of modes."""
+
+FOLD_WORTH = 0.95
+"""Largest cost of folded transforms relative to whole ones, as they take longer to compile."""
+
+FOURIER_NS = 0.18
 FOURIER_CALL_NS = 5000.0
 LONGEST = 4
 """Largest length of a ring relative to the axis; a kernel that needs a longer ring is nearly homogeneous."""
@@ -98,7 +109,7 @@ def candidates(
         return _on_a_line(axes[0], few[0], widths[0][1], copies)
     found = [by_matrices(axes, terms)]
     if _fit(few):
-        found.append(Choice("waves", few, 0, _transforms(axes, few)))
+        found += by_waves(few)
     if _fit(few) and "reflect" not in boundaries:
         found.append(Choice("fourier", few, 0, _fourier(few)))
     return found
@@ -111,11 +122,33 @@ def together(
     transforms per copy.
     """
     few = _few(axes, boundaries, widths)
-    if len(axes) == 1:
-        cost = 2 * LINE_NS[copies >= MANY] * axes[0].samples * few[0].count
-    else:
-        cost = _transforms(axes, few)
-    return Choice("waves", few, 0, cost if _fit(few) else math.inf)
+    return by_waves(few, copies)[-1] if _fit(few) else Choice("waves", few, 0, math.inf)
+
+
+def by_waves(waves: tuple[Waves, ...], copies: int = 1) -> list[Choice]:
+    """Return the transforms by whole bases, then the fastest folded ones if they are faster.
+
+    A line is folded if there are many copies, a volume along its first axis only.
+    """
+    found = [Choice("waves", waves, 0, _transforms(waves, copies))]
+    if len(waves) > 1 or copies >= MANY:
+        folds = [_folds(w) for w in waves]
+        if len(waves) > 2:
+            folds = [[w for w in folds[0] if w.classes <= 2], *([w] for w in waves[1:])]
+        choices = [Choice("waves", each, 0, _transforms(each, copies)) for each in itertools.product(*folds)]
+        best = min(choices, key=lambda c: c.nanoseconds)
+        found += [best] if best.nanoseconds < FOLD_WORTH * found[0].nanoseconds else []
+    return found
+
+
+def _folds(w: Waves) -> list[Waves]:
+    """Return the modes of an axis with every selection of its symmetries."""
+    ring = w.boundary == "periodic" and w.samples % 2 == 0
+    return [
+        dataclasses.replace(w, by_parity=parity, by_symmetry=symmetry)
+        for symmetry in (False, True)
+        for parity in ((False, True) if ring else (False,))
+    ]
 
 
 def by_matrices(axes: Axes, terms: int, copies: int = 1) -> Choice:
@@ -130,7 +163,7 @@ def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Cho
     n = axis.samples
     found = [by_matrices((axis,), 1, copies)]
     if n >= SMALLEST and _fit([waves]):
-        found.append(Choice("waves", (waves,), 0, 2 * LINE_NS[copies >= MANY] * n * waves.count))
+        found += by_waves((waves,), copies)
     reach = math.ceil(REACH * widest / axis.step)
     if n >= SMALLEST and 2 * reach < n:
         found.append(Choice("taps", (), reach, TAP_NS * n * reach))
@@ -165,11 +198,15 @@ def _matrices(axes: Axes, terms: int) -> float:
     return terms * sum(CALL_NS + PRODUCT_NS * cells * a.samples for a in axes)
 
 
-def _transforms(axes: Axes, waves: Sequence[Waves]) -> float:
-    sizes = [a.samples for a in axes]
+def _transforms(waves: Sequence[Waves], copies: int) -> float:
+    sizes, last = [w.samples for w in waves], len(waves) - 1
+    product, call = (PRODUCT_NS, CALL_NS) if last else (LINE_NS[copies >= MANY], 0.0)
     total = 0.0
     for d, w in enumerate(waves):
-        total += CALL_NS + PRODUCT_NS * math.prod(sizes) * w.count
+        cells = math.prod(sizes)
+        total += product * cells * w.count / w.classes + call * (w.classes if d == last else 1)
+        if w.classes > 1:
+            total += w.classes * (FOLD_ROW_NS * cells / w.samples if d == last else FOLD_NS)
         sizes[d] = w.count
     return 2 * total
 
