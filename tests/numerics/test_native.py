@@ -19,15 +19,17 @@ import deodar as dd
 from deodar.cli import main
 from deodar.compiler import executable as executables
 from deodar.compiler.executable import executable
-from deodar.numerics import native, noise
+from deodar.numerics import convolution, native, noise, transforms
+from deodar.numerics.waves import Waves
 from deodar.recording.provenance import KEY
 from deodar.recording.repeat import repeat
 
 
-def _noise(cells: int, key: Array, block: Array) -> Array:
+def _noise(key: Array, tick: Array, start: Array, drawn: Array) -> Array:
     """Return the deviates of deodar, each moved by 1e-3, so that a test can tell who drew them."""
-    drawn = noise.block(cells, key, block * jnp.uint32(2), jnp.float32)
-    return jnp.stack([jnp.real(drawn), jnp.imag(drawn)]) + 1e-3
+    new = noise.block(drawn.shape[-1], key, tick, jnp.float32)
+    moved = jnp.stack([jnp.real(new), jnp.imag(new)]) + 1e-3
+    return jnp.where((tick % 2 == 0) | (tick == start), moved, drawn)
 
 
 @pytest.fixture
@@ -66,6 +68,39 @@ def test_a_model_in_single_precision_gets_its_noise_from_the_kernels(
     # u after three steps from 0: each adds the shift 1e-3 / tau, and leaves 19/20 of u
     shift = 1e-3 / 20 * (1 + 0.95 + 0.95**2)
     np.testing.assert_allclose(found - run(), shift, rtol=0, atol=1e-6)
+
+
+def _line(weights: Array, y: Array, boundary: str) -> Array:
+    return 1.5 * convolution.tapped(weights, y, boundary)
+
+
+@pytest.mark.parametrize(("samples", "factor"), [(400, 1.0), (500, 1.5)])
+def test_a_convolution_over_one_axis_is_a_kernel_from_a_number_of_lags_on(
+    installed: ModuleType, samples: int, factor: float
+) -> None:
+    installed.__dict__["line"] = _line
+    weights, y = jnp.linspace(1, 0, 31), jnp.linspace(0, 1, samples)
+    assert (30 * samples >= native.LEAST_LINE) == (factor > 1)
+    found = convolution.tapped(weights, y, "zero", native.kernels("cpu", "float32"))
+    np.testing.assert_allclose(found, factor * convolution.tapped(weights, y, "zero"), rtol=1e-6)
+
+
+def test_kernels_transform_planes_that_are_not_large(installed: ModuleType) -> None:
+    """A kernel that scales modes by 3 and back by 5 shows which of both transforms it replaces."""
+    axis = Waves("periodic", 12, 12, 3)
+    y = jnp.asarray(np.random.default_rng(0).random((12, 12)), jnp.float32)
+    installed.__dict__["to_modes"] = lambda axes, y: 3 * transforms.to_waves(axes, y)
+    installed.__dict__["from_modes"] = lambda axes, y: 5 * transforms.from_waves(axes, y)
+    kernels = native.kernels("cpu", "float32")
+    there = transforms.to_waves((axis, axis), y, kernels)
+    np.testing.assert_allclose(there, 3 * transforms.to_waves((axis, axis), y), rtol=1e-5, atol=1e-6)
+    back = transforms.from_waves((axis, axis), there, kernels)
+    np.testing.assert_allclose(back, 5 * transforms.from_waves((axis, axis), there), rtol=1e-5, atol=1e-6)
+    large = Waves("periodic", 400, 400, 3)
+    assert not native.transforms(kernels, (large, large))
+    assert not native.transforms(kernels, (axis, axis, axis)) and not native.transforms(kernels, (axis,))
+    installed.__dict__["vectors"] = lambda: "plain"
+    assert not native.transforms(kernels, (axis, axis))
 
 
 def test_double_precision_and_other_devices_do_without_the_kernels(installed: ModuleType) -> None:

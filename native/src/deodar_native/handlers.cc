@@ -1,6 +1,7 @@
 // The functions that XLA calls, in its foreign function interface, and the choice of the kernels.
 #include "kernels.h"
 
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -40,36 +41,124 @@ const Kernels* chosen = found("");
 const Kernels& kernels() { return *chosen; }
 
 using Words = ffi::Buffer<ffi::U32>;
+using Reals = ffi::Buffer<ffi::F32>;
 using Numbers = ffi::ResultBuffer<ffi::F32>;
+
+// The rows of a call: all combinations of the leading axes, which are those of `vmap`. An argument has these
+// axes too; where one of them does not concern it, it has the length 1 there.
+struct Rows {
+  ffi::Span<const int64_t> lengths;  // of the result
+  size_t axes;
+  int64_t count = 1;
+
+  // `own`: number of axes that the result of a single call has.
+  Rows(ffi::Span<const int64_t> result, size_t own) : lengths(result), axes(result.size() - own) {
+    for (size_t d = 0; d < axes; ++d) count *= lengths[d];
+  }
+
+  // The part of an argument that belongs to a row; a single call has an argument of `own` axes.
+  template <ffi::DataType type>
+  auto* of(const ffi::Buffer<type>& argument, int64_t row, size_t own) const {
+    const auto dimensions = argument.dimensions();
+    int64_t size = 1, place = 0;
+    for (size_t d = axes; d < axes + own; ++d) size *= dimensions[d];
+    for (size_t d = axes; d-- > 0;) {
+      place += row % lengths[d] % dimensions[d] * size;
+      size *= dimensions[d];
+      row /= lengths[d];
+    }
+    return argument.typed_data() + place;
+  }
+};
 
 // Cells of a row that one thread computes, about 20 us.
 constexpr int64_t NOISE_PIECE = 16384;
 
-// keys (..., 2), blocks (...) -> (..., 2, cells): leading axes are those of `vmap`
-ffi::Error noise_handler(ffi::ThreadPool pool, Words keys, Words blocks, Numbers out) {
-  const int64_t rows = static_cast<int64_t>(blocks.element_count());
-  if (static_cast<int64_t>(keys.element_count()) != 2 * rows)
-    return ffi::Error::InvalidArgument("noise: one key of two words for each block");
-  const int64_t cells = rows ? static_cast<int64_t>(out->element_count()) / (2 * rows) : 0;
-  const int64_t pieces = (cells + NOISE_PIECE - 1) / NOISE_PIECE;
-  in_pieces(pool, rows * pieces, [&](int64_t piece) {
+// keys (..., 2), tick (...), start (...), drawn (..., 2, cells) -> (..., 2, cells), in the place of `drawn`
+ffi::Error noise_handler(ffi::ThreadPool pool, Words keys, Words ticks, Words starts, Reals drawn, Numbers out) {
+  const Rows rows(out->dimensions(), 2);
+  const int64_t cells = out->dimensions().back(), pieces = (cells + NOISE_PIECE - 1) / NOISE_PIECE;
+  const bool moved = drawn.typed_data() != out->typed_data();
+  in_pieces(pool, rows.count * pieces, [&](int64_t piece) {
     const int64_t r = piece / pieces, from = piece % pieces * NOISE_PIECE;
     const int64_t count = cells - from < NOISE_PIECE ? cells - from : NOISE_PIECE;
-    float* even = out->typed_data() + 2 * r * cells + from;
-    kernels().noise(keys.typed_data() + 2 * r, blocks.typed_data()[r], from, even, even + cells, count);
+    const uint32_t tick = *rows.of(ticks, r, 0);
+    const int64_t even = 2 * r * cells + from, odd = even + cells;
+    float* to = out->typed_data();
+    if (tick % 2 == 0 || tick == *rows.of(starts, r, 0)) {
+      kernels().noise(rows.of(keys, r, 1), tick / 2, from, to + even, to + odd, count);
+    } else if (moved) {
+      std::memcpy(to + even, drawn.typed_data() + even, sizeof(float) * count);
+      std::memcpy(to + odd, drawn.typed_data() + odd, sizeof(float) * count);
+    }
   });
   return ffi::Error::Success();
 }
 
+// keys (..., 2), block (...) -> (..., 2, cells)
 ffi::Error bits_handler(Words keys, Words blocks, ffi::ResultBuffer<ffi::U32> out) {
-  const int64_t rows = static_cast<int64_t>(blocks.element_count());
-  if (static_cast<int64_t>(keys.element_count()) != 2 * rows)
-    return ffi::Error::InvalidArgument("bits: one key of two words for each block");
-  const int64_t cells = rows ? static_cast<int64_t>(out->element_count()) / (2 * rows) : 0;
-  for (int64_t r = 0; r < rows; ++r) {
+  const Rows rows(out->dimensions(), 2);
+  const int64_t cells = out->dimensions().back();
+  for (int64_t r = 0; r < rows.count; ++r) {
     uint32_t* first = out->typed_data() + 2 * r * cells;
-    kernels().bits(keys.typed_data() + 2 * r, blocks.typed_data()[r], first, first + cells, cells);
+    kernels().bits(rows.of(keys, r, 1), *rows.of(blocks, r, 0), first, first + cells, cells);
   }
+  return ffi::Error::Success();
+}
+
+// Memory of this thread, aligned for every vector; it stays until the thread ends.
+float* scratch(int64_t floats) {
+  struct alignas(64) Line {
+    float values[16];
+  };
+  static thread_local std::vector<Line> memory;
+  const size_t lines = static_cast<size_t>(floats) / 16 + 1;
+  if (memory.size() < lines) memory.resize(lines);
+  return memory.data()->values;
+}
+
+// weights (..., reach + 1), y (..., samples) -> (..., samples)
+ffi::Error line_handler(Reals weights, Reals y, int64_t boundary, Numbers out) {
+  const Rows rows(out->dimensions(), 1);
+  const int64_t samples = y.dimensions().back(), reach = weights.dimensions().back() - 1;
+  if (2 * reach >= samples)
+    return ffi::Error::InvalidArgument("line: weights of lags that are less than half the number of samples");
+  float* memory = scratch(kernels().line_scratch(samples, reach));
+  for (int64_t r = 0; r < rows.count; ++r)
+    kernels().line(rows.of(y, r, 1), static_cast<Boundary>(boundary), rows.of(weights, r, 1), samples, reach,
+                   memory, out->typed_data() + r * samples);
+  return ffi::Error::Success();
+}
+
+using Places = ffi::Buffer<ffi::S32>;
+using Counts = ffi::Span<const int64_t>;
+
+// y (..., rows, columns) -> (..., modes, modes), or back; tables and places are those of all rows
+template <bool forward>
+ffi::Error plane_handler(ffi::ThreadPool pool, Reals y, Reals outer, Reals inner, Places outer_places,
+                         Places inner_places, Counts outer_counts, Counts inner_counts, Numbers out) {
+  const Rows rows(out->dimensions(), 2);
+  const auto given = y.dimensions(), result = out->dimensions();
+  const auto samples = forward ? given : result, modes = forward ? result : given;
+  const size_t last = samples.size() - 1;
+  const PlaneModes plane = {samples[last - 1],
+                            samples[last],
+                            static_cast<int64_t>(outer_counts.size()),
+                            outer_counts.begin(),
+                            inner_counts.begin(),
+                            outer_places.typed_data(),
+                            inner_places.typed_data(),
+                            modes[modes.size() - 1],
+                            outer.typed_data(),
+                            inner.typed_data()};
+  const int64_t size = result[last - 1] * result[last];
+  const bool gaps = forward && static_cast<int64_t>(outer_places.element_count() * inner_places.element_count()) < size;
+  in_pieces(pool, rows.count, [&](int64_t r) {
+    float* to = out->typed_data() + r * size;
+    float* memory = scratch(kernels().plane_scratch(plane));
+    if (gaps) std::memset(to, 0, sizeof(float) * size);
+    (forward ? kernels().plane_to_modes : kernels().plane_from_modes)(plane, rows.of(y, r, 2), memory, to);
+  });
   return ffi::Error::Success();
 }
 
@@ -93,7 +182,29 @@ XLA_FFI_DEFINE_HANDLER_SYMBOL(deodar_noise, deodar::noise_handler,
                                   .Ctx<ffi::ThreadPool>()
                                   .Arg<deodar::Words>()
                                   .Arg<deodar::Words>()
+                                  .Arg<deodar::Words>()
+                                  .Arg<deodar::Reals>()
                                   .Ret<ffi::Buffer<ffi::F32>>());
 XLA_FFI_DEFINE_HANDLER_SYMBOL(deodar_bits, deodar::bits_handler,
                               ffi::Ffi::Bind().Arg<deodar::Words>().Arg<deodar::Words>().Ret<ffi::Buffer<ffi::U32>>());
+XLA_FFI_DEFINE_HANDLER_SYMBOL(deodar_line, deodar::line_handler,
+                              ffi::Ffi::Bind()
+                                  .Arg<deodar::Reals>()
+                                  .Arg<deodar::Reals>()
+                                  .Attr<int64_t>("boundary")
+                                  .Ret<ffi::Buffer<ffi::F32>>());
+#define DEODAR_PLANE(name, forward)                                            \
+  XLA_FFI_DEFINE_HANDLER_SYMBOL(name, deodar::plane_handler<forward>,          \
+                                ffi::Ffi::Bind()                               \
+                                    .Ctx<ffi::ThreadPool>()                    \
+                                    .Arg<deodar::Reals>()                      \
+                                    .Arg<deodar::Reals>()                      \
+                                    .Arg<deodar::Reals>()                      \
+                                    .Arg<deodar::Places>()                     \
+                                    .Arg<deodar::Places>()                     \
+                                    .Attr<deodar::Counts>("outer_counts")      \
+                                    .Attr<deodar::Counts>("inner_counts")      \
+                                    .Ret<ffi::Buffer<ffi::F32>>())
+DEODAR_PLANE(deodar_to_modes, true);
+DEODAR_PLANE(deodar_from_modes, false);
 #pragma GCC visibility pop

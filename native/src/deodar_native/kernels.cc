@@ -2,7 +2,9 @@
 // for each.
 #include "kernels.h"
 
+#include "line.h"
 #include "noise.h"
+#include "plane.h"
 
 #define DEODAR_JOINED(a, b) a##b
 #define DEODAR_TABLE(name) DEODAR_JOINED(kernels_, name)
@@ -12,6 +14,7 @@
 namespace deodar {
 
 extern const Kernels DEODAR_TABLE(DEODAR_VECTORS);
-const Kernels DEODAR_TABLE(DEODAR_VECTORS) = {DEODAR_TEXT(DEODAR_VECTORS), bits, noise};
+const Kernels DEODAR_TABLE(DEODAR_VECTORS) = {DEODAR_TEXT(DEODAR_VECTORS), bits, noise, line, line_scratch,
+                                              plane_to_modes, plane_from_modes, plane_scratch};
 
 }  // namespace deodar

@@ -5,6 +5,19 @@
 
 namespace deodar {
 
+// What is beyond both ends of an axis.
+enum class Boundary : int64_t { zero, periodic, reflect };
+
+// The spectral modes of a plane, class after class.
+struct PlaneModes {
+  int64_t rows, columns;                     // samples
+  int64_t outer_classes;                     // 4, or 2 where frequencies are not apart by parity
+  const int64_t *outer, *inner;              // number of modes in each class
+  const int32_t *outer_places, *inner_places;  // where modes are among those of deodar
+  int64_t inner_count;                       // number of modes of deodar along the inner axis
+  const float *outer_table, *inner_table;
+};
+
 struct Kernels {
   const char* vectors;  // name of the instruction set
 
@@ -14,6 +27,16 @@ struct Kernels {
   // Standard normal deviates of both ticks of a block, for cells from `from` on.
   void (*noise)(const uint32_t* key, uint32_t block, int64_t from, float* even, float* odd,
                 int64_t cells);
+
+  // Convolution over one axis with a symmetric kernel of few lags; `scratch` has `line_scratch` floats.
+  void (*line)(const float* y, Boundary boundary, const float* weights, int64_t samples, int64_t reach,
+               float* scratch, float* out);
+  int64_t (*line_scratch)(int64_t samples, int64_t reach);
+
+  // A plane to spectral modes, and back; `scratch` has `plane_scratch` floats.
+  void (*plane_to_modes)(const PlaneModes& modes, const float* y, float* scratch, float* out);
+  void (*plane_from_modes)(const PlaneModes& modes, const float* given, float* scratch, float* y);
+  int64_t (*plane_scratch)(const PlaneModes& modes);
 };
 
 }  // namespace deodar

@@ -15,6 +15,7 @@ from deodar.model.resolve import Node
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
 from deodar.numerics.choice import Choice
+from deodar.numerics.native import Kernels
 
 
 class Constants(NamedTuple):
@@ -52,10 +53,18 @@ class Functions:
         axes: axes of what is convolved.
         choices: for each kind of boundaries how kernels are applied, where not by matrices.
         apart: whether matrices are not multiplied by the amplitudes.
+        kernels: compiled kernels for the convolution, if there are any.
     """
 
-    def __init__(self, node: Node, choices: Mapping[str, Choice], apart: bool = False) -> None:
+    def __init__(
+        self,
+        node: Node,
+        choices: Mapping[str, Choice],
+        apart: bool = False,
+        kernels: Kernels | None = None,
+    ) -> None:
         self.axes, self.choices, self.apart = convolved_axes(node), dict(choices), apart
+        self.kernels = kernels
         self.convolves = node.element.convolution is not None
 
     def prepare(self, element: Element, at: Setting) -> Constants:
@@ -85,7 +94,10 @@ class Functions:
         if not self.convolves:
             return at
         mixture = constants.kernels
-        return dc.replace(at, convolve=lambda y: interaction.apply(mixture, self.axes, y, self.choices))
+        return dc.replace(
+            at,
+            convolve=lambda y: interaction.apply(mixture, self.axes, y, self.choices, kernels=self.kernels),
+        )
 
 
 def convolved_axes(node: Node) -> Axes:

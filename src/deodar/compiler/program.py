@@ -27,7 +27,7 @@ from deodar.element import Arrays, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
-from deodar.numerics.native import Kernels
+from deodar.numerics.native import LEAST_NOISE, Kernels
 from deodar.numerics.noise import block, element_keys, no_block, normal, of_block
 
 T = TypeVar("T")
@@ -126,7 +126,7 @@ class Program:
             g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful
         ]
         cells = copies * sum(plan.groups[g].rows * _cells(plan.groups[g]) for g in paired)
-        self.kept = paired if cells >= BLOCKS_FROM else []
+        self.kept = paired if cells >= (LEAST_NOISE if kernels is not None else BLOCKS_FROM) else []
         self.slow = [
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
@@ -136,7 +136,7 @@ class Program:
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
-        self.functions = [functions(g.like, g.strategy) for g in plan.groups]
+        self.functions = [functions(g.like, g.strategy, kernels) for g in plan.groups]
 
     # --------------------------------------------------------------------------------------- prepare and init
 
@@ -194,6 +194,9 @@ class Program:
 
         if not self.kept:
             return drawn
+        if (kernels := self.kernels) is not None:  # a kernel contains the branch
+            rows = jax.vmap(lambda key, row: kernels.noise(key, tick, start, row))
+            return {g: rows(keys[g], drawn[g]) for g in drawn}
         # the predicate is that of all copies; a branch is a computation of its own, which XLA fuses with no
         # other
         return lax.cond((tick % jnp.uint32(2) == 0) | (tick == start), anew, lambda: drawn)
@@ -302,7 +305,7 @@ class Program:
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
     def _block(self, g: int, key: Array, tick: Array) -> Array:
-        return block(_cells(self.plan.groups[g]), key, tick, self.dtype, self.kernels)
+        return block(_cells(self.plan.groups[g]), key, tick, self.dtype)
 
     def _noise(self, g: int, keys: NoiseKeys, tick: Array, drawn: Array | None = None) -> Array | None:
         group = self.plan.groups[g]

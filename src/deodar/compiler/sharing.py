@@ -19,6 +19,7 @@ from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
 from deodar.model.resolve import Node, Slot
 from deodar.numerics import interaction
+from deodar.numerics.native import Kernels
 from deodar.numerics.transforms import from_waves, to_waves
 
 if TYPE_CHECKING:
@@ -125,16 +126,16 @@ def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
 # ------------------------------------------------------------------------------------------ wrapped functions
 
 
-def functions(node: Node, strategy: Strategy) -> Functions:
+def functions(node: Node, strategy: Strategy, kernels: Kernels | None = None) -> Functions:
     """Return the functions of a group whose rows have the structure of the node."""
     if not strategy.shared:
-        return Functions(node, dict(strategy.choices), strategy.apart)
-    return (SharingSource if role(node) == "source" else SharingFilter)(node, strategy)
+        return Functions(node, dict(strategy.choices), strategy.apart, kernels)
+    return (SharingSource if role(node) == "source" else SharingFilter)(node, strategy, kernels)
 
 
 class _Sharing(Functions):
-    def __init__(self, node: Node, strategy: Strategy) -> None:
-        super().__init__(node, dict(strategy.choices), strategy.apart)
+    def __init__(self, node: Node, strategy: Strategy, kernels: Kernels | None) -> None:
+        super().__init__(node, dict(strategy.choices), strategy.apart, kernels)
         self.key, self.waves = strategy.shared, dict(strategy.choices)[strategy.shared].waves
 
 
@@ -145,7 +146,7 @@ class SharingSource(_Sharing):
 
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         out = super().output(element, at, read, time)
-        return out | {"output" + WAVES: to_waves(self.waves, out["output"])}
+        return out | {"output" + WAVES: to_waves(self.waves, out["output"], self.kernels)}
 
     def advance(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         given, calls = read.inputs, list[Any]()
@@ -154,7 +155,7 @@ class SharingSource(_Sharing):
             calls.append(y)
             own, arriving = given["output" + WAVES], given["input" + WAVES]
             return interaction.apply(
-                read.constants.kernels, self.axes, y, self.choices, self.key, own, arriving
+                read.constants.kernels, self.axes, y, self.choices, self.key, own, arriving, self.kernels
             )
 
         inputs = plain_ports(given) | {"input": given["input" + REST]}
@@ -176,8 +177,8 @@ class SharingFilter(_Sharing):
     def output(self, element: Element, at: Setting, read: StepArguments, time: Time) -> Arrays:
         arriving = read.inputs["input" + WAVES]
         if self.convolves:
-            arriving = arriving + to_waves(self.waves, read.inputs["input" + REST])
+            arriving = arriving + to_waves(self.waves, read.inputs["input" + REST], self.kernels)
             gains = read.constants.kernels["waves"][self.key]
             at = dc.replace(at, convolve=lambda y: gains * y)
         out = run_output(element, at, read._replace(inputs={"input": arriving}), time)["output"]
-        return {"output": from_waves(self.waves, out), "output" + WAVES: out}
+        return {"output": from_waves(self.waves, out, self.kernels), "output" + WAVES: out}

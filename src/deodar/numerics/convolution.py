@@ -17,7 +17,9 @@ import numpy as np
 from jax import Array
 from jax.typing import DTypeLike
 
+from deodar.numerics import native
 from deodar.numerics.axes import Axes, Axis, cell, shape
+from deodar.numerics.native import Kernels
 
 BOUNDARIES = ("periodic", "zero", "reflect")
 TINY = 1e-20
@@ -58,9 +60,11 @@ def taps(axis: Axis, boundary: str, profile: Profile, reach: int, dtype: DTypeLi
     return weights * jnp.asarray(axis.step, dtype)
 
 
-def tapped(weights: Array, y: Array, boundary: str) -> Array:
+def tapped(weights: Array, y: Array, boundary: str, kernels: Kernels | None = None) -> Array:
     """Convolve over one axis by a sum of shifted copies; both copies of equal distance share a product."""
     reach, n = weights.shape[0] - 1, y.shape[0]
+    if kernels is not None and reach * n >= native.LEAST_LINE:
+        return kernels.line(weights, y, boundary)
     sides = {"periodic": (y[n - reach :], y[:reach]), "reflect": (y[:reach][::-1], y[n - reach :][::-1])}
     nothing = jnp.zeros((reach,), y.dtype)
     before, after = sides.get(boundary, (nothing, nothing))

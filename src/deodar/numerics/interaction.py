@@ -21,6 +21,7 @@ from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.choice import Choice, bounds, bucket, choose
 from deodar.numerics.kernels._base import Kernel, Term
+from deodar.numerics.native import Kernels
 from deodar.numerics.scalar import Scalar
 from deodar.numerics.transforms import from_waves, to_waves
 
@@ -162,11 +163,13 @@ def apply(
     key: str = "",
     own: Array | None = None,
     arriving: Array | None = None,
+    kernels: Kernels | None = None,
 ) -> Array:
     """Return the integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
 
     `chosen` are the choices with which the kernels were prepared. For the boundaries `key`, `own` is y as
     spectral modes, if known, and `arriving` is added as spectral modes before the inverse transform.
+    `kernels` are compiled kernels for what is expensive, if there are any.
     """
     if "gain" in mixture:
         return mixture["gain"] * y
@@ -180,16 +183,16 @@ def apply(
             else convolution.extended(axes, ends.split())
         )
         parts.append(convolution.spectral(spectrum, y, axes, ends.split(), sizes))
-    parts += [convolution.tapped(taps, y, ends) for ends, taps in mixture["taps"].items()]
+    parts += [convolution.tapped(taps, y, ends, kernels) for ends, taps in mixture["taps"].items()]
     for ends, gains in mixture["waves"].items():
         assert chosen is not None
-        waves = gains * (own if own is not None and ends == key else to_waves(chosen[ends].waves, y))
+        waves = gains * (own if own is not None and ends == key else to_waves(chosen[ends].waves, y, kernels))
         if arriving is not None and ends == key:
             waves, arriving = waves + arriving, None
-        parts.append(from_waves(chosen[ends].waves, waves))
+        parts.append(from_waves(chosen[ends].waves, waves, kernels))
     if arriving is not None:
         assert chosen is not None
-        parts.append(from_waves(chosen[key].waves, arriving))
+        parts.append(from_waves(chosen[key].waves, arriving, kernels))
     return sum(parts[1:], parts[0]) if parts else jnp.zeros_like(y)
 
 

@@ -9,15 +9,40 @@ chooses the vector instructions of the kernels; "off" does without the kernels.
 from __future__ import annotations
 
 import functools
+import math
 import os
+from collections.abc import Sequence
 from typing import Protocol, cast
 
+import numpy as np
 from jax import Array
 
 DISTRIBUTION = "deodar-native"
 SWITCH = "DEODAR_NATIVE"
+LEAST_NOISE = 400
+"""Cells with noise in all copies from which a kernel draws it."""
+
+LEAST_LINE = 15_000
+"""Lags times samples from which a convolution over one axis is a call of a kernel, which costs 0.1 us."""
+
+LARGEST_PLANE = 40_000
+"""Samples of a plane up to which a kernel transforms it: a kernel uses one core, XLA all of them."""
+
 INTERFACE = 1
 """Version of the functions below; a distribution that states another one is not used."""
+
+
+class Modes(Protocol):
+    """The spectral modes of one axis: a `waves.Waves`, which this module cannot import."""
+
+    @property
+    def boundary(self) -> str: ...
+    @property
+    def samples(self) -> int: ...
+    @property
+    def length(self) -> int: ...
+    @property
+    def turns(self) -> np.ndarray: ...
 
 
 class Kernels(Protocol):
@@ -30,8 +55,22 @@ class Kernels(Protocol):
         """Return the name of the vector instructions that are used on this processor."""
         ...
 
-    def noise(self, cells: int, key: Array, block: Array) -> Array:
-        """Return the deviates of both ticks of a block, as `noise.block` computes them: shape (2, cells)."""
+    def noise(self, key: Array, tick: Array, start: Array, drawn: Array) -> Array:
+        """Return the deviates of both ticks of the block of `tick`, as `noise.block` computes them, at even
+        ticks and at the tick `start`, else `drawn`: shape (2, cells), the even tick first.
+        """
+        ...
+
+    def line(self, weights: Array, y: Array, boundary: str) -> Array:
+        """Return what `convolution.tapped` computes."""
+        ...
+
+    def to_modes(self, axes: Sequence[Modes], y: Array) -> Array:
+        """Return the spectral modes of a plane, with an origin of phases of their own."""
+        ...
+
+    def from_modes(self, axes: Sequence[Modes], y: Array) -> Array:
+        """Return the plane of these spectral modes."""
         ...
 
 
@@ -40,6 +79,15 @@ def kernels(platform: str, precision: str) -> Kernels | None:
     if platform != "cpu" or precision != "float32" or switched_off():
         return None
     return _installed()[0]
+
+
+def transforms(found: Kernels, waves: Sequence[Modes]) -> bool:
+    """Return whether the kernels transform an array over these axes to spectral modes, and back."""
+    return (
+        len(waves) == 2
+        and math.prod(w.samples for w in waves) <= LARGEST_PLANE
+        and found.vectors() != "plain"
+    )
 
 
 def version(found: Kernels | None) -> str:

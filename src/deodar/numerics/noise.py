@@ -94,23 +94,23 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
     return (radius * wave).reshape(shape)
 
 
-@functools.partial(jax.jit, static_argnames=("cells", "dtype", "kernels"))
-def block(cells: int, key: Array, tick: Array, dtype: DTypeLike, kernels: Kernels | None = None) -> Array:
-    """Return the deviates of both ticks of the block of `tick`, as one array: `of_block` separates them.
+@functools.partial(jax.jit, static_argnames=("cells", "dtype"))
+def block(cells: int, key: Array, tick: Array, dtype: DTypeLike) -> Array:
+    """Return the deviates of both ticks of the block of `tick`, shape (cells,): the even one as the real part
+    of a complex number, the odd one as the imaginary part.
 
-    Shape (cells,): the even one is the real part of a complex number, the odd one the imaginary part. As one
-    array they have one loop, where the integers are computed once. With compiled kernels: shape (2, cells),
-    the even one first. Both equal the deviates of `normal` up to rounding.
+    As one array they have one loop, where the integers are computed once. They equal those of `normal` up to
+    rounding.
     """
-    if kernels is not None:
-        return kernels.noise(cells, key, tick >> jnp.uint32(1))
     a, b = bits(cells, key, tick >> jnp.uint32(1))
     radius, turn = _radius(a, dtype), _uniform(b)
     return lax.complex(radius * _sine(turn, dtype), radius * _cosine(turn, dtype))
 
 
 def no_block(cells: int, dtype: DTypeLike, kernels: Kernels | None = None) -> Array:
-    """Return an array of the shape and type that `block` returns, with zeros."""
+    """Return zeros of the shape and type of a block: that of `block`, or that of the compiled kernels, where
+    the deviates of both ticks are rows, shape (2, cells).
+    """
     if kernels is not None:
         return jnp.zeros((2, cells), dtype)
     return jnp.zeros((cells,), jnp.result_type(dtype, jnp.complex64))

@@ -15,12 +15,15 @@ import jax.numpy as jnp
 from jax import Array, lax
 from jax.custom_batching import custom_vmap
 
-from deodar.numerics import convolution
+from deodar.numerics import convolution, native
+from deodar.numerics.native import Kernels
 from deodar.numerics.waves import Waves
 
 
-def to_waves(waves: Sequence[Waves], y: Array) -> Array:
-    """Transform an array over axes to spectral modes."""
+def to_waves(waves: Sequence[Waves], y: Array, kernels: Kernels | None = None) -> Array:
+    """Transform an array over axes to spectral modes; by compiled kernels, if they can."""
+    if kernels is not None and native.transforms(kernels, waves):
+        return kernels.to_modes(waves, y)
 
     def whole(y: Array) -> Array:
         return convolution.separable([jnp.asarray(w.basis().T, y.dtype) for w in waves], y, _order(waves))
@@ -33,8 +36,10 @@ def to_waves(waves: Sequence[Waves], y: Array) -> Array:
     return lax.platform_dependent(y, cpu=folded, default=whole) if _any_folded(waves) else whole(y)
 
 
-def from_waves(waves: Sequence[Waves], y: Array) -> Array:
-    """Transform spectral modes to an array over axes."""
+def from_waves(waves: Sequence[Waves], y: Array, kernels: Kernels | None = None) -> Array:
+    """Transform spectral modes to an array over axes; by the same means as `to_waves`."""
+    if kernels is not None and native.transforms(kernels, waves):
+        return kernels.from_modes(waves, y)
 
     def whole(y: Array) -> Array:
         bases = [jnp.asarray(w.basis(), y.dtype) for w in waves]
