@@ -48,11 +48,12 @@ def exists(test: str) -> bool:
 
 def write(measured: dict[str, float], file: Path = FILE) -> None:
     """Replace the rows of the functions that were measured; rows of missing functions are dropped."""
-    rows = {test: s for test, s in seconds(file).items() if exists(test)} | measured
+    kept = {test: s for test, s in seconds(file).items() if exists(test) and test not in measured}
+    rows = kept | {test: s for test, s in measured.items() if s > LIMIT}
     with file.open("w", encoding="utf-8", newline="") as text:
         out = csv.writer(text, lineterminator="\n")
         out.writerow(("test", "seconds"))
-        out.writerows((test, f"{rows[test]:.1f}") for test in sorted(rows) if rows[test] > LIMIT)
+        out.writerows((test, f"{rows[test]:.1f}") for test in sorted(rows))
 
 
 class Recorder:
