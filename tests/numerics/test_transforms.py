@@ -140,4 +140,4 @@ def test_lines_fold_in_batches_and_volumes_along_their_first_axis() -> None:
 def test_shared_modes_are_folded() -> None:
     axes = tuple(Axis(name, 0, 99, 100) for name in "xy")
     choice = together(axes, ("periodic", "periodic"), ((2.0, 5.0), (2.0, 5.0)), 16)
-    assert choice.method == "waves" and [w.classes for w in choice.waves] == [4, 2]
+    assert choice.method == "waves" and [w.classes for w in choice.waves] == [4, 1]
