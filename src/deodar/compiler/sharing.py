@@ -153,10 +153,8 @@ class SharingSource(_Sharing):
 
         def convolve(y: Array) -> Array:
             calls.append(y)
-            own, arriving = given["output" + WAVES], given["input" + WAVES]
-            return interaction.apply(
-                read.constants.kernels, self.axes, y, self.choices, self.key, own, arriving, self.kernels
-            )
+            modes = interaction.SharedModes(self.key, given["output" + WAVES], given["input" + WAVES])
+            return interaction.apply(read.constants.kernels, self.axes, y, self.choices, modes, self.kernels)
 
         inputs = plain_ports(given) | {"input": given["input" + REST]}
         new = run_advance(element, dc.replace(at, convolve=convolve), read._replace(inputs=inputs), time)

@@ -10,7 +10,7 @@ own matrices or spectra.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import TypeAlias, TypedDict
+from typing import NamedTuple, TypeAlias, TypedDict
 
 import jax.numpy as jnp
 from jax import Array
@@ -63,6 +63,20 @@ class FieldMixture(TypedDict):
     spectra: dict[str, Array]
     waves: dict[str, Array]
     taps: dict[str, Array]
+
+
+class SharedModes(NamedTuple):
+    """What an array shares with others as spectral modes.
+
+    Attributes:
+        key: the boundaries of the kernels with these modes.
+        own: the array as modes.
+        arriving: modes that are added before the inverse transform.
+    """
+
+    key: str
+    own: Array | None
+    arriving: Array | None
 
 
 Mixture: TypeAlias = NodeMixture | FieldMixture
@@ -160,17 +174,15 @@ def apply(
     axes: Axes,
     y: Array,
     chosen: Mapping[str, Choice] | None = None,
-    key: str = "",
-    own: Array | None = None,
-    arriving: Array | None = None,
+    shared: SharedModes | None = None,
     kernels: Kernels | None = None,
 ) -> Array:
     """Return the integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
 
-    `chosen` are the choices with which the kernels were prepared. For the boundaries `key`, `own` is y as
-    spectral modes, if known, and `arriving` is added as spectral modes before the inverse transform.
-    `kernels` are compiled kernels for what is expensive, if there are any.
+    `chosen` are the choices with which the kernels were prepared, `shared` the modes that this array shares
+    with others. `kernels` are compiled kernels for what is expensive, if there are any.
     """
+    key, own, arriving = shared or ("", None, None)
     if "gain" in mixture:
         return mixture["gain"] * y
     parts = [convolution.separable(matrices, y) for matrices in mixture["terms"]]
