@@ -104,10 +104,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Mark tests; in a process of xdist the longest files come first, so that all processes end together."""
     seconds = durations.seconds()
     for item in items:
-        if durations.function(item.nodeid) not in seconds:
-            item.add_marker(pytest.mark.fast)
         if item.nodeid.startswith(DEFAULT_PROGRAM):
             item.add_marker(pytest.mark.default_program)
+        elif durations.function(item.nodeid) not in seconds:
+            item.add_marker(pytest.mark.fast)
     if hasattr(config, "workerinput"):
         files = durations.files(seconds)
         items.sort(key=lambda item: -files[item.nodeid.split("::")[0]])
