@@ -390,28 +390,23 @@ class Executable:
         self, function: Callable[..., Any], *args: Any, options: cache.CompilerOptions | None = None
     ) -> tuple[Compiled, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
-        began = time.process_time()
         with self._settings():
-            executable, shapes = self._compiled(self._traced(function, *args), options)
-        self.seconds += time.process_time() - began
-        return executable, shapes
+            return self._compiled(self._traced(function, *args), options)
 
     def once(self, function: Callable[..., Any], *args: Any) -> tuple[Callable[..., Any], PyTree]:
         """The same for a function that runs once, or when a width changes: evaluated with NumPy where that is
         possible, else compiled.
         """
-        began = time.process_time()
         with self._settings():
             traced = self._traced(function, *args)
             if host.supports(traced.jaxpr.jaxpr):
-                found = self._evaluated(traced), traced.out_info
-            else:
-                found = self._compiled(traced, RARELY)
-        self.seconds += time.process_time() - began
-        return found
+                return self._evaluated(traced), traced.out_info
+            return self._compiled(traced, RARELY)
 
     @contextlib.contextmanager
     def _settings(self) -> Generator[None]:
+        """Trace and compile for the device and the precision, and add the CPU time to `seconds`."""
+        began = time.process_time()
         # full precision of products: otherwise some processors multiply with fewer digits (TF32)
         with (
             precision_context(self.precision),
@@ -419,6 +414,7 @@ class Executable:
             jax.default_matmul_precision("highest"),
         ):
             yield
+        self.seconds += time.process_time() - began
 
     def _traced(self, function: Callable[..., Any], *args: Any) -> Traced:
         self.traced += 1
