@@ -62,6 +62,7 @@ SCRIPT = [
     "load",
     "save_record",
     "load_record",
+    "open_record",
     "draw",
     "quote",
     "use_cores",

@@ -156,6 +156,7 @@ from deodar.numerics.sigmoids.semilinear import SemiLinear as SemiLinear
 from deodar.numerics.sigmoids.step import Step as Step
 from deodar.numerics.windows import Window as Window
 from deodar.recording.files import load_record as load_record
+from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record
 from deodar.registry import register as register
 from deodar.session.session import Session as Session

@@ -36,6 +36,24 @@ def test_a_saved_record_is_equal_when_loaded(data: xarray.Dataset, suffix: str, 
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
 
 
+@pytest.mark.parametrize("suffix", [".zarr", ".nc"])
+def test_an_opened_record_reads_only_what_is_selected(
+    data: xarray.Dataset, suffix: str, tmp_path: Path
+) -> None:
+    opened = dd.open_record(files.save_record(data, tmp_path / f"record{suffix}"))
+    assert not any(v.variable._in_memory for v in opened.data_vars.values() if suffix == ".zarr")
+    part = {"s.amplitude": 1, "trial": 2, "time": slice(1, 3)}
+    assert opened["u.activation"].isel(part).identical(data["u.activation"].isel(part))
+    assert opened.identical(data)
+
+
+def test_a_damaged_record_names_itself_when_opened(data: xarray.Dataset, tmp_path: Path) -> None:
+    path = files.save_record(data, tmp_path / "record.zarr")
+    (path / "zarr.json").write_text("{")
+    with pytest.raises(dd.errors.RecordError, match="record.zarr"):
+        dd.open_record(path)
+
+
 def test_xarray_opens_a_saved_record_without_a_warning(data: xarray.Dataset, tmp_path: Path) -> None:
     plain = data[["u.activation"]]
     files.save_record(plain, tmp_path / "record.zarr")

@@ -5,9 +5,10 @@ A record is written beside its final path and renamed, so it is complete or abse
 
 from __future__ import annotations
 
+import contextlib
 import stat
 import warnings
-from collections.abc import Callable
+from collections.abc import Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -100,10 +101,37 @@ def load_record(path: str | Path) -> xarray.Dataset:
         RecordError: the record does not exist, is damaged, or was not written by deodar.
         TooLarge: the record does not fit into memory.
     """
-    path = Path(path)
+    with _reading(path := Path(path)), _opened(*locate(path)) as data:
+        need, free = data.nbytes, psutil.virtual_memory().available
+        if need > SHARE * free:
+            raise TooLarge(
+                f"needs {need / 2**30:,.1f} GiB of memory and {free / 2**30:,.1f} GiB are free",
+                fix="Open it with dd.open_record, which reads only what is used",
+            )
+        return portable.unpack(_require_record(data.load()))
+
+
+def open_record(path: str | Path) -> xarray.Dataset:
+    """Open a record without reading its values: each variable reads what is selected from it.
+
+    `open_record(path)["u.activation"].sel(time=500).values` reads the chunk of that time alone, so a record
+    may be larger than the memory. Values are not compared with their checksums, which need whole arrays.
+
+    Args:
+        path: a Zarr folder, a NetCDF file, or a folder that `deodar run` wrote.
+
+    Raises:
+        RecordError: the record does not exist, is damaged, or was not written by deodar.
+    """
+    with _reading(path := Path(path)):
+        return portable.unpack_lazily(_require_record(_opened(*locate(path))))
+
+
+@contextlib.contextmanager
+def _reading(path: Path) -> Generator[None]:
+    """Convert every error into one that names the record."""
     try:
-        place, kind = locate(path)
-        data = _read(place, kind)
+        yield
     except DeodarError as error:
         problems = [Problem(p.where or str(path), p.what, p.fix) for p in error.problems]
         raise type(error)(problems) from None
@@ -114,18 +142,12 @@ def load_record(path: str | Path) -> xarray.Dataset:
         raise RecordError(
             f"cannot be read as a record, it may be damaged ({type(error).__name__}: {text})", where=str(path)
         ) from None
+
+
+def _require_record(data: xarray.Dataset) -> xarray.Dataset:
     if KEY not in data.attrs and portable.KEY not in data.attrs:
-        raise RecordError(
-            "is not a record of deodar: it does not state the model that made it", where=str(path)
-        )
-    try:
-        return portable.unpack(data)
-    except RecordError as error:
-        raise RecordError([Problem(str(path), p.what, p.fix) for p in error.problems]) from None
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise RecordError(
-            f"is damaged: its layout cannot be read ({type(error).__name__}: {error})", where=str(path)
-        ) from None
+        raise RecordError("is not a record of deodar: it does not state the model that made it")
+    return data
 
 
 def locate(path: Path) -> tuple[Path, str]:
@@ -209,18 +231,12 @@ def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
     stored.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
 
 
-def _read(path: Path, kind: str) -> xarray.Dataset:
-    opened: Callable[[], xarray.Dataset] = {
-        "zarr": lambda: xarray.open_zarr(
-            path, zarr_format=3, consolidated=False, decode_cf=False, chunks=None
-        ),
-        "netcdf": lambda: xarray.open_dataset(path, engine="scipy", decode_cf=False),
-    }[kind]
-    with opened() as data:
-        need, free = data.nbytes, psutil.virtual_memory().available
-        if need > SHARE * free:
-            raise TooLarge(f"needs {need / 2**30:,.1f} GiB of memory and {free / 2**30:,.1f} GiB are free")
-        return data.load()
+def _opened(path: Path, kind: str) -> xarray.Dataset:
+    if kind == "netcdf":
+        return xarray.open_dataset(path, engine="scipy", decode_cf=False)
+    # the metadata of the group commit a record that grows; records of earlier versions may lack them
+    whole = "consolidated_metadata" in (path / "zarr.json").read_text()
+    return xarray.open_zarr(path, zarr_format=3, consolidated=whole, decode_cf=False, chunks=None)
 
 
 if not TYPE_CHECKING:

@@ -14,6 +14,8 @@ from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
 from deodar.recording.provenance import KEY
 
+TIME = "time"
+
 Variable = tuple[Entry, str, Axes, np.ndarray]
 """Element, port, axes of the port, and the array: sweep points, trials, time, axes."""
 
@@ -66,6 +68,15 @@ def about(data: xarray.Dataset) -> JsonObject:
     """Return the provenance of a record, as plain data; empty for a Dataset of other origin."""
     text = data.attrs.get(KEY)
     return codec.parse(text) if isinstance(text, str) else {}
+
+
+def time_dimension(variable: xarray.DataArray) -> str | None:
+    """Return the name of the time dimension of a recorded variable; None if it has none.
+
+    It is `time`, or `PATH.PORT.time` for a port with a sampling interval or a condition of its own.
+    """
+    # the times of the samples stand before the axes, of which one may have this name, too
+    return next((str(d) for d in variable.dims if str(d).rpartition(".")[2] == TIME), None)
 
 
 def _axis_attributes(axis: Axis) -> dict[str, Any]:
