@@ -21,8 +21,8 @@ SQUARE = [dd.Axis(name, 0, 40, samples=40, periodic=True) for name in "xy"]
 
 
 @dc.dataclass(frozen=True)
-class Follower(dd.Field):
-    """A field without lateral interaction that follows its input."""
+class LinearField(dd.Field):
+    """A field without lateral interaction: it approaches its input plus the resting level."""
 
     def advance(
         self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
@@ -116,13 +116,13 @@ def test_elements_that_declare_a_convolution_share_transforms(kind: type[dd.Fiel
     assert shares(coupled(kind), "w")
 
 
-@pytest.mark.parametrize("kind", [Follower, Halved])
+@pytest.mark.parametrize("kind", [LinearField, Halved])
 def test_a_subclass_with_other_functions_does_not_inherit_the_declaration(kind: type[dd.Field]) -> None:
     model = coupled(kind)
     assert roles(model)["w"] == "" and not shares(model, "w")
 
 
-@pytest.mark.parametrize("kind", [Doubled, Follower])
+@pytest.mark.parametrize("kind", [Doubled, LinearField])
 def test_custom_classes_compute_their_equations(kind: type[dd.Field]) -> None:
     model = coupled(kind)
     given, exact = (

@@ -15,7 +15,7 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning
 from deodar.experiments import experiment as module
-from deodar.experiments.actions import End, Move, Push, Ramp, Record, Reset, Set, Snapshot
+from deodar.experiments.actions import End, Move, Place, Push, Ramp, Record, Remove, Reset, Set, Snapshot
 from deodar.experiments.events import All, AnyOf, Appears, Crosses, Reached, Vanishes
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor, assign
@@ -253,6 +253,25 @@ def test_a_file_of_version_1_means_the_output_by_the_path_of_a_field_alone(tmp_p
     assert found.actions[0].of == ("u.output", "u.input")
 
 
+@pytest.mark.parametrize("version", [1, 2])
+def test_a_file_of_an_older_version_calls_the_object_of_an_action_thing(tmp_path, version):
+    actions = [Place(2, "box", (50, 20), (4, 30)), Move(3, "box", (60, 20)), Remove(4, "box")]
+    choice(actions=actions, world="arena:blocks").save(tmp_path / "e.json")
+    data = json.loads((tmp_path / "e.json").read_text())
+    assert data["experiment"] == 3 and [action["object"] for action in data["actions"]] == ["box"] * 3
+    for action in data["actions"]:
+        action["thing"] = action.pop("object")
+    (tmp_path / "e.json").write_text(json.dumps(data | {"experiment": version}))
+    assert Experiment.load(tmp_path / "e.json").actions == tuple(actions)
+    # also without the model, which converts the paths of version 1
+    assert Experiment.from_data(data | {"experiment": version, "model": "missing.json"}).actions == tuple(
+        actions
+    )
+    (tmp_path / "e.json").write_text(json.dumps(data))
+    with pytest.raises(DocumentError, match=r"actions.0.thing: .*dd.Place\(thing=...\) is now dd.Place"):
+        Experiment.load(tmp_path / "e.json")
+
+
 def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
     new = choice(trials=1, measures=[Measure("end", "u.output")])
     whole = new.run(tmp_path / "out")
@@ -409,7 +428,7 @@ def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
         and "holds no levels" in told
         and "Did you mean 'of'" in told
     )
-    file.write_text(json.dumps(data | {"experiment": 3}))
+    file.write_text(json.dumps(data | {"experiment": 4}))
     with pytest.raises(DocumentError, match="another version"):
         Experiment.load(file)
     file.write_text("{}")

@@ -6,6 +6,11 @@ documents of that version.
     git -C OLD checkout 85a2d0c
     PYTHONPATH=OLD/src python tests/old_files/make.py 2 FOLDER
 
+`experiment_2` holds the files of an experiment of version 2:
+
+    git -C OLD checkout 24269c2
+    PYTHONPATH=OLD/src python tests/old_files/make.py experiment FOLDER
+
 The files are as those versions wrote them, with one exception: `axis` was removed from the peak position in
 `version_1/choice.json`. Version 1 could read documents without it, but always wrote it, so the other files of
 this document state the axis.
@@ -13,6 +18,7 @@ this document state the axis.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import sys
 import warnings
@@ -21,8 +27,11 @@ from pathlib import Path
 import deodar as dd
 from deodar.couplings.peak_position import PeakPosition
 from deodar.couplings.weights import Weights
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
 from deodar.elements.moving_gaussian import MovingGaussian
-from deodar.experiments.events import Appears
+from deodar.experiments.actions import Move, Place, Remove
+from deodar.experiments.events import Appears, Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
@@ -53,11 +62,39 @@ def choice(version: int) -> dd.Model:
     return model
 
 
-def main(version: int, folder: Path) -> None:
+def objects(folder: Path) -> None:
+    """Write an experiment in which objects of the world are placed, moved and removed, and its folder after
+    the first of its two trials.
+    """
+    model = dd.Model("straight")
+    model.describe(time_unit="1 = 64 ms")
+    for wheel in ("left", "right"):
+        model.add(Boost(f"go {wheel}", amplitude=500.0)) >> model.add(Motor(wheel, motor=wheel))
+    box = {"thing": "box", "center": (0.4, 0.3)}  # the name of `object` in versions 1 and 2
+    experiment = Experiment(
+        "objects", model, 100, trials=2, world="arena:blocks", every=5,
+        conditions=[Crosses("touched", "touching", level=0.5, ends=False)],
+        actions=[
+            Place(10, size=(0.04, 0.2), **box), Move(60, thing="box", center=(0.4, 0.7)), Remove(80, "box"),
+        ],
+    )  # fmt: skip
+    experiment.save(folder / "experiment.json")
+
+    def stop(standing: object) -> None:
+        if standing.rows:  # type: ignore[attr-defined]
+            raise KeyboardInterrupt
+
+    with contextlib.suppress(KeyboardInterrupt):
+        experiment.run(folder / "stopped", progress=stop)
+
+
+def main(version: str, folder: Path) -> None:
     """Write every kind of file."""
-    model = choice(version)
+    if version == "experiment":
+        return objects(folder)
+    model = choice(int(version))
     dd.save(model, folder / "choice.json")
-    if version == 1:
+    if version == "1":
         data = json.loads((folder / "choice.json").read_text())
         del data["elements"]["place"]["axis"]
         (folder / "choice.json").write_text(json.dumps(data, indent=2) + "\n")
@@ -67,7 +104,7 @@ def main(version: int, folder: Path) -> None:
         model, 40, seed=3, record=["u.activation", "place.output", "n.activation"], every=10, trials=2
     )
     files.save(record, folder / "record.nc")
-    if version == 1:
+    if version == "1":
         files.save(record, folder / "record.zarr")
     experiment = Experiment(
         "choice", model, 80, trials=4, seed=2, precision="float64", record=["n.activation"], every=5,
@@ -95,4 +132,4 @@ def main(version: int, folder: Path) -> None:
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    main(int(sys.argv[1]), Path(sys.argv[2]))
+    main(sys.argv[1], Path(sys.argv[2]))

@@ -1,4 +1,6 @@
-"""Files of deodar from document versions 1 and 2 open, run and resume; `make.py` made them."""
+"""Files of deodar from document versions 1 and 2, and an experiment of version 2, open, run and resume;
+`make.py` made them.
+"""
 
 from __future__ import annotations
 
@@ -47,9 +49,13 @@ def old() -> Path:
 
 @pytest.fixture
 def stopped(old: Path, tmp_path: Path) -> Path:
-    """Copy the folder of a stopped experiment, as if it had begun on this machine with these libraries."""
-    folder = tmp_path / "stopped"
-    shutil.copytree(old / "stopped", folder)
+    """Copy the folder of a stopped experiment, as if it had begun here."""
+    return begun_here(old / "stopped", tmp_path / "stopped")
+
+
+def begun_here(old: Path, folder: Path) -> Path:
+    """Copy the folder of an experiment, as if it had begun on this machine with these libraries."""
+    shutil.copytree(old, folder)
     first, *others = (folder / "trials.jsonl").read_text().split("\n")
     about = json.loads(first)
     about["about"]["made_by"] = made_by(find())
@@ -143,6 +149,21 @@ def test_a_folder_that_was_stopped_is_resumed(old: Path, stopped: Path) -> None:
             atol=1e-10,
         )
     assert dd.Experiment.load(old / "experiment.json").run(stopped).identical(data)
+
+
+def test_an_experiment_of_version_2_is_read_and_resumed(tmp_path: Path) -> None:
+    """Version 3 calls the object of an action `object`; before, it was called `thing`."""
+    old = OLD.with_name("experiment_2")
+    data = json.loads((old / "experiment.json").read_text())
+    assert data["experiment"] == 2 and [action["thing"] for action in data["actions"]] == ["box"] * 3
+    experiment = dd.Experiment.load(old / "experiment.json")
+    assert experiment.check() == [] and [action.object for action in experiment.actions] == ["box"] * 3
+    folder = begun_here(old / "stopped", tmp_path / "stopped")
+    assert dd.load_results(folder).sizes["trial"] == 1
+    rows = (folder / "trials.jsonl").read_text().split("\n")[:2]
+    data = experiment.run(folder)
+    assert data.sizes["trial"] == 2 and (folder / "trials.jsonl").read_text().split("\n")[:2] == rows
+    assert data["touched"].values.tolist() == [35, 35]
 
 
 def test_a_folder_of_another_model_is_still_refused(stopped: Path) -> None:

@@ -234,7 +234,7 @@ def test_an_entry_that_is_not_a_measure_or_figure_is_a_line_of_doctor(
 
 def test_a_broken_measure_is_an_error_only_of_experiments_that_name_it(install: Install) -> None:
     install("odd", {"odd": MEASURE.format(name="Odd") + RAISES}, {"deodar.measures": {"Odd": "odd:Odd"}})
-    data = {"experiment": 2, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
+    data = {"experiment": 3, "name": "e", "model": "m.json", "limit": 1.0, "measures": {"u": {"of": "u"}}}
     assert [m.name for m in dd.Experiment.from_data(data).measures] == ["u"]
     assert "Odd" not in str(dd.Experiment.schema())
     data["measures"] = {"u": {"kind": "Odd", "of": "u"}}
@@ -294,7 +294,7 @@ def test_a_world_that_raises_is_an_error_that_names_it_and_its_package(
     model = dd.Model("m")
     model.add(dd.Sensor("eye", sensor="light"))
     dd.save(model, tmp_path / "m.json")
-    experiment = {"experiment": 2, "name": "e", "model": "m.json", "limit": 2.0, "world": f"odd:{argument}"}
+    experiment = {"experiment": 3, "name": "e", "model": "m.json", "limit": 2.0, "world": f"odd:{argument}"}
     (tmp_path / "e.json").write_text(json.dumps(experiment))
     calls = [
         [

@@ -93,7 +93,7 @@ def experiment(tmp_path: Path) -> Path:
     model = {"deodar": 3, "dt": 1.0, "axes": x, "elements": elements, "connections": connections}
     (tmp_path / "model.json").write_text(json.dumps(model))
     data = {
-        "experiment": 2,
+        "experiment": 3,
         "name": "step",
         "model": "model.json",
         "limit": 30.0,

@@ -36,7 +36,7 @@ def _install(install: Install, version: str) -> None:
 
 def _data(kind: str = "Spread", **others: object) -> dict[str, object]:
     measures = {"u": {"kind": kind, "of": "u.output"}}
-    return {"experiment": 2, "name": "e", "model": "m.json", "limit": 3.0, "measures": measures, **others}
+    return {"experiment": 3, "name": "e", "model": "m.json", "limit": 3.0, "measures": measures, **others}
 
 
 def _experiment(folder: Path) -> dd.Experiment:

@@ -71,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
     """Run an experiment; status 1 if it was stopped, or if all trials diverged."""
     # start-up time: these bring JAX
     from deodar.experiments.experiment import Experiment
-    from deodar.experiments.results import ROWS, carry
+    from deodar.experiments.results import ROWS, run_trials
     from deodar.importers.opening import load
 
     _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
@@ -86,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
     _confirm(args, setup, out)
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
-            data = carry(setup, out, args.workers or None, bar.show)
+            data = run_trials(setup, out, args.workers or None, bar.show)
     except (KeyboardInterrupt, OutputError) as stop:
         if not (out / ROWS).is_file():
             raise

@@ -68,7 +68,7 @@ class Place(Action):
 
     Attributes:
         at: document time from which on the world contains it; with `when` the time after that event.
-        thing: name of the object.
+        object: name of the object in the world.
         center: x and y of its centre, in the unit of the world.
         size: along x and y.
         color: red, green and blue, 0 to 1.
@@ -76,7 +76,7 @@ class Place(Action):
     """
 
     at: Annotated[float, AT]
-    thing: Annotated[str, Recompile(meaning="its name")]
+    object: Annotated[str, Recompile(meaning="name of the object in the world")]
     center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
     size: Annotated[PerAxis, Recompile(meaning="along x and y")]
     color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0, meaning="red, green and blue")] = (
@@ -93,7 +93,7 @@ class Place(Action):
 
     def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, running.session.world).place(self.thing, found.center, found.size, found.color)
+        changed(self, running.session.world).place(self.object, found.center, found.size, found.color)
 
 
 @ACTIONS.register
@@ -103,13 +103,13 @@ class Move(Action):
 
     Attributes:
         at: document time of the action; with `when` the time after that event.
-        thing: name of the object.
+        object: name of the object in the world.
         center: x and y of its new centre, in the unit of the world.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
-    thing: Annotated[str, Recompile(meaning="its name")]
+    object: Annotated[str, Recompile(meaning="name of the object in the world")]
     center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
     when: Annotated[str, WHEN] = ""
 
@@ -120,7 +120,7 @@ class Move(Action):
 
     def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, running.session.world).move(self.thing, found.center)
+        changed(self, running.session.world).move(self.object, found.center)
 
 
 @ACTIONS.register
@@ -130,18 +130,18 @@ class Remove(Action):
 
     Attributes:
         at: document time of the action; with `when` the time after that event.
-        thing: name of the object.
+        object: name of the object in the world.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
     at: Annotated[float, AT]
-    thing: Annotated[str, Recompile(meaning="its name")]
+    object: Annotated[str, Recompile(meaning="name of the object in the world")]
     when: Annotated[str, WHEN] = ""
 
     world_method: ClassVar[str] = "remove"
 
     def apply(self, running: RunningTrial) -> None:
-        changed(self, running.session.world).remove(self.thing)
+        changed(self, running.session.world).remove(self.object)
 
 
 @ACTIONS.register

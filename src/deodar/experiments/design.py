@@ -24,7 +24,7 @@ from deodar.model.model import Model, load, save
 from deodar.parameters import Part, Recompile, show
 from deodar.worlds._base import World
 
-VERSION = 2
+VERSION = 3
 KINDS: Mapping[str, Mapping[str, type[Part]]] = {
     "conditions": EVENTS,
     "actions": ACTIONS,
@@ -270,15 +270,15 @@ EXAMPLE = "example:"
 def _migrated(data: Mapping[str, Json], folder: Path | None, read: Callable[[str], Model]) -> JsonObject:
     """Return plain data in the present version.
 
-    If the model cannot be opened, the paths are not converted: no trial can run without the model.
+    If the model cannot be opened, the paths of version 1 are not converted: no trial can run without the
+    model.
     """
-    model = _beside(data.get("model", ""), folder, False)
     if data["experiment"] != 1:
-        return dict(data)
+        return migrate(data, None)
     try:
-        return migrate(data, read(str(model)).document)
+        return migrate(data, read(str(_beside(data.get("model", ""), folder, False))).document)
     except DeodarError:
-        return {**data, "experiment": VERSION}
+        return migrate(data, None)
 
 
 def _beside(text: Any, folder: Path | None, world: bool) -> Any:

@@ -14,7 +14,7 @@ from deodar.errors import DeodarError, Problem, RunWarning
 from deodar.experiments.design import Design
 from deodar.experiments.jobs import Progress
 from deodar.experiments.observations import DIVERGED
-from deodar.experiments.results import carry
+from deodar.experiments.results import run_trials
 from deodar.experiments.setup import Setup
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Experiment(Design):
                 f" {setup.steps:.3g} steps of dt = {setup.dt:g})"
             )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
-        data = carry(setup, out, workers, progress)
+        data = run_trials(setup, out, workers, progress)
         if DIVERGED in data.attrs:
             warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
         return data

@@ -42,7 +42,7 @@ ROWS, TABLE, DATASET, EXPERIMENT, MODEL = (
 )
 
 
-def carry(
+def run_trials(
     setup: Setup,
     out: str | Path | None,
     workers: int | None = None,
@@ -58,13 +58,13 @@ def carry(
     """
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _carry(setup, Path(folder), workers, progress)
+            return _run_trials(setup, Path(folder), workers, progress)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
-    return _carry(setup, folder, workers, progress)
+    return _run_trials(setup, folder, workers, progress)
 
 
-def _carry(
+def _run_trials(
     setup: Setup, out: Path, workers: int | None, progress: Callable[[Progress], None] | None
 ) -> xarray.Dataset:
     about = _about(setup, workers, out)
