@@ -2,7 +2,8 @@
 with the page.
 
 Blocks of one page share their names and one folder. A `text` block right after a `python` block holds what it
-prints. In a `console` block a line that begins with `$` is a command, the lines after it what it answers. A
+prints. A block with a title, ```` ```toml title="figure.toml" ````, is written to the file of that name. In a
+`console` block a line that begins with `$` is a command, the lines after it what it answers. A
 line `...` stands for any lines; numbers agree to two percent, since machines differ in the last digits.
 """
 
@@ -21,7 +22,8 @@ from typing import Any
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
-FENCE = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+TITLE = re.compile(r'title="([\w.-]+)"')
 PICTURE = re.compile(r"!\[[^\]]*\]\((?:[\w./]*/)?pictures/([\w.-]+)\)")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 NEAR = 0.02
@@ -29,7 +31,10 @@ NEAR = 0.02
 
 @dataclass(frozen=True)
 class Block:
-    """A block to run: its place, its language, its text, and its output (None: not stated)."""
+    """A block to run: its place, its language, its text, and its output (None: not stated).
+
+    Of a block that is written to a file, the language is `file` and the output the name of the file.
+    """
 
     page: Path
     line: int
@@ -55,9 +60,12 @@ def blocks(page: Path) -> list[Block]:
     out: list[Block] = []
     end = -1
     for found in FENCE.finditer(text):
-        language, body = found.groups()
+        language, rest, body = found.groups()
+        title = TITLE.search(rest)
         line = text.count("\n", 0, found.start()) + 2
-        if language == "python":
+        if title is not None:
+            out.append(Block(page, line, "file", body, title.group(1)))
+        elif language == "python":
             out.append(Block(page, line, language, body))
         elif language == "console":
             out += _commands(page, line, body)
@@ -93,6 +101,9 @@ def run(page: Path, folder: Path) -> list[str]:
     shutil.copytree(ROOT / "examples", folder / "examples")
     with contextlib.chdir(folder), matplotlib.rc_context():  # a page sets the style for itself alone
         for block in blocks(page):
+            if block.language == "file":
+                (folder / str(block.prints)).write_text(block.text, encoding="utf-8")
+                continue
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
                 _run(block, names)

@@ -330,6 +330,9 @@ def analysis_page() -> str:
         title = path if path.startswith("dd.") else path.rpartition(".")[2]
         parts.append(section(named(path), title, constructed=not path.startswith("dd.analysis.")))
     parts += [section(getattr(dd, name), f"dd.{name}") for name in FIGURES]
+    parts += [
+        section(getattr(dd.figures, name), f"dd.figures.{name}") for name in ("FigureFile", "FigurePanel")
+    ]
     parts.append("The words of `view`:\n")
     parts.append(
         table(

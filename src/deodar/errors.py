@@ -153,6 +153,10 @@ class RecordError(DeodarError):
     """Raised when a record cannot be read, drawn or repeated."""
 
 
+class FigureError(DeodarError):
+    """Raised when the file of a figure cannot be read."""
+
+
 class AnalysisError(DeodarError):
     """Raised when a measurement does not apply to its argument."""
 

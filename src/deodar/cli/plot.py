@@ -3,40 +3,87 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses as dc
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
-from deodar.errors import RecordError, did_you_mean
+from deodar.errors import FigureError, RecordError, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray
-    from matplotlib.figure import Figure
 
+    from deodar.figures._file import FigureFile, FigurePanel
     from deodar.figures._view import View
+    from deodar.worlds._base import World
 
-HELP = "draw the variables of a record as SVG, PDF or PNG"
+HELP = "draw the variables of a record, or the file of a figure, as SVG, PDF or PNG"
 EPILOG = """\
 Without --kind each variable gets the kind that suits it: time_course (nodes, or fields at places),
 space_time (one dimension over time), snapshot (one time), snapshots (several), projection (three
-dimensions and more). Several variables become panels of one figure."""
+dimensions and more). Several variables become panels of one figure. The file of a figure (.toml) has the
+panels, ranges, labels and sizes of a figure for a paper; --save-as writes one to start from."""
+
+WORDS = (
+    "kind",
+    "at",
+    "trial",
+    "where",
+    "axes",
+    "reduce",
+    "place",
+    "time_range",
+    "value_range",
+    "gif",
+    "save_as",
+)
+"""Options that the file of a figure replaces."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
-        "record", type=Path, metavar="RECORD", help="a record (.zarr, .nc), or a folder that deodar run wrote"
+        "record",
+        type=Path,
+        metavar="RECORD",
+        help="a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml)",
     )
     parser.add_argument(
         "variables",
         nargs="*",
         metavar="VARIABLE",
-        help="paths of variables, for example u.activation (default: all)",
+        help=("paths of variables, for example u.activation (default: all); after a .toml file: the record"),
     )
+    add_view(parser)
+    parser.add_argument(
+        "--gif",
+        type=Path,
+        metavar="FILE",
+        help="also write a video of one variable that is a path (x and y over time), in its arena",
+    )
+    parser.add_argument(
+        "--save-as",
+        type=Path,
+        metavar="FILE",
+        help="also write what is drawn as the file of a figure, .toml",
+    )
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="FILE",
+        help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here; of a .toml file NAME-001.pdf)",
+    )
+    _options.add_force(parser)
+    _options.add_json(parser)
+    _options.wrong(parser)
+
+
+def add_view(parser: argparse.ArgumentParser) -> None:
+    """Add the options that select a part of the variables."""
     parser.add_argument(
         "--kind",
         metavar="K",
@@ -56,10 +103,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two"
     )
     parser.add_argument(
-        "--reduce",
-        choices=("maximum", "integral"),
-        default="maximum",
-        help="how it is projected (default maximum)",
+        "--reduce", choices=("maximum", "integral"), help="how it is projected (default maximum)"
     )
     parser.add_argument(
         "--place",
@@ -68,104 +112,138 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="place of a field whose time course is drawn; may be given again",
     )
     parser.add_argument(
-        "--gif",
-        type=Path,
-        metavar="FILE",
-        help="also write a video of one variable that is a path (x and y over time), in its arena",
+        "--time-range",
+        nargs=2,
+        type=float,
+        metavar=("FROM", "TO"),
+        help="times to draw, in the record's unit",
     )
     parser.add_argument(
-        "--out",
-        "-o",
-        type=Path,
-        metavar="FILE",
-        help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here)",
+        "--value-range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="ends of the scale of the values"
     )
-    _options.add_force(parser)
-    _options.add_json(parser)
-    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Draw the record, write the file and print its path."""
     # start-up time: these bring JAX
+    from deodar.figures import _files
+    from deodar.figures._file import FigureFile
     from deodar.recording import files, places
 
-    where = {path: _number(args, value) for path, value in args.where or ()}
-    spots = [[_number(args, n) for n in place.split(",")] for place in args.place or ()] or None
-    data = files.load_record(args.record)
-    names = _variables(data, args.variables)
-
-    # start-up time: these bring JAX
-    from deodar.figures import _files, _panels
-    from deodar.figures._view import View
-
-    name = files.locate(args.record)[0]
-    base = name.parent.resolve().name if name.stem == "record" else name.stem
-    out: Path = args.out or places.free(Path(), f"{base}-plot", ".png")
+    if args.record.suffix.lower() == ".toml":
+        figure, data = _from_file(args), None
+        names = [panel.variable for panel in figure.panels]
+        record = Path(args.variables[0]) if args.variables else None
+        out: Path = args.out or places.free(Path(), args.record.stem, ".pdf")
+    else:
+        data = record = files.load_record(args.record)
+        names = variables(data, args.variables)
+        kind = "path" if args.gif is not None else args.kind
+        figure = FigureFile(panels(args, data, names, kind), letters="none")
+        place = files.locate(args.record)[0]
+        base = place.parent.resolve().name if place.stem == "record" else place.stem
+        out = args.out or places.free(Path(), f"{base}-plot", ".png")
     _files.claim(out, args.force)
-    views = [
-        View(
-            data[n],
-            at=args.at,
-            trial=args.trial if "trial" in data[n].dims or len(names) == 1 else None,
-            where=where or None,
-            axes=args.axes,
-            places=spots,
-            reduce=args.reduce,
-        )
-        for n in names
-    ]
-    if args.gif is not None or (args.kind == "path" and len(views) == 1):
-        figure = _path(args, data, views)
-    else:
-        figure = _panels.draw(views, args.kind)
-    _files.save_figure(figure, out, args.force)
+    world = None if args.gif is None or data is None else _world(data, names)
+    made = figure.draw(record)
+    if args.save_as is not None:
+        _save_as(args, figure, [float(n) for n in made.get_size_inches()])
+    if world is not None and data is not None:
+        _write_video(args, panels(args, data, names, "path")[0].view(data), world)
+    _files.save_figure(made, out, args.force)
+    also = {"gif": args.gif, "figure": args.save_as}
     if args.json:
-        kinds = {view.name: _panels.kind(view, args.kind).__name__.rpartition(".")[2] for view in views}
-        film = {} if args.gif is None else {"gif": str(args.gif)}
-        print(codec.text({"out": str(out), "kinds": kinds, **film}))
+        kinds = dict(zip(names, figure.kinds(record), strict=True))
+        rest = {key: str(path) for key, path in also.items() if path is not None}
+        print(codec.text({"out": str(out), "kinds": kinds, **rest}))
     else:
-        print(
-            f"Drew {', '.join(names)} into {_options.shown(out)}"
-            + (f" and {_options.shown(args.gif)}" if args.gif is not None else "")
-        )
+        written = [out, *(path for path in also.values() if path is not None)]
+        print(f"Drew {', '.join(dict.fromkeys(names))} into {' and '.join(map(_options.shown, written))}")
     return 0
 
 
-def _path(args: argparse.Namespace, data: xarray.Dataset, views: Sequence[View]) -> Figure:
-    """Draw the path in the arena of the record, and write its video if requested."""
-    # start-up time: these bring JAX
-    from deodar.figures import path
+def panels(
+    args: argparse.Namespace, data: xarray.Dataset, names: Sequence[str], kind: str | None
+) -> list[FigurePanel]:
+    """Return one panel for each variable, with the part that the options select."""
+    # start-up time
+    from deodar.figures._file import FigurePanel
+
+    where = {path: _number(args, value) for path, value in args.where or ()}
+    spots = [[_number(args, n) for n in place.split(",")] for place in args.place or ()]
+    return [
+        FigurePanel(
+            name,
+            kind,
+            at=args.at,
+            trial=args.trial if "trial" in data[name].dims or len(names) == 1 else None,
+            where=where or None,
+            axes=args.axes,
+            places=spots or None,
+            reduce=args.reduce,
+            time_range=args.time_range,
+            value_range=args.value_range,
+        )
+        for name in names
+    ]
+
+
+def _from_file(args: argparse.Namespace) -> FigureFile:
+    """Read the file of a figure; options that it replaces are an error."""
+    # start-up time
+    from deodar.figures._file import FigureFile
+
+    for word in WORDS:
+        if getattr(args, word) is not None:
+            option = f"--{word.replace('_', '-')}"
+            args.wrong(f"{option} selects what is drawn of a record; write it into {args.record}")
+    if len(args.variables) > 1:
+        args.wrong(f"{args.record} names its variables; after it comes at most one record")
+    return FigureFile.read(args.record)
+
+
+def _save_as(args: argparse.Namespace, figure: FigureFile, inches: Sequence[float]) -> None:
+    """Write the file of a figure, with the size that was drawn."""
+    if args.save_as.suffix.lower() != ".toml":
+        raise FigureError(
+            f"the name ends in {args.save_as.suffix!r}", where="--save-as", fix="End it in .toml"
+        )
+    width, height = (round(25.4 * size, 1) for size in inches)
+    dc.replace(figure, record=str(args.record), width=width, height=height).save(args.save_as, args.force)
+
+
+def _world(data: xarray.Dataset, names: Sequence[str]) -> World:
+    """Return the world of a video, which shows one variable."""
+    # start-up time: this brings JAX
     from deodar.recording.repeat import world_of
 
-    if len(views) != 1:
+    if len(names) != 1:
         raise RecordError(
-            f"a video shows one variable, not {len(views)}",
+            f"a video shows one variable, not {len(names)}",
             where="--gif",
             fix="Name the one that holds x and y, for example pose.output",
         )
-    world, variable = world_of(data), data[views[0].name]
-    trial, where = views[0].trial, views[0].where
-    if args.gif is not None:
-        if world is None:
-            raise RecordError(
-                "the record was made without a world, so there is no arena to draw the path in",
-                where="--gif",
-                fix="Leave out --gif",
-            )
-        times = variable.sizes.get("time", 0)
-        path.animate_path(
-            views[0],
-            args.gif,
-            world,
-            stride=max(1, -(-times // path.MOST_FRAMES)),
-            force=args.force,
+    world = world_of(data)
+    if world is None:
+        raise RecordError(
+            "the record was made without a world, so there is no arena to draw the path in",
+            where="--gif",
+            fix="Leave out --gif",
         )
-    return path.path_figure(variable, world, trial=trial, where=where)
+    return world
 
 
-def _variables(data: xarray.Dataset, names: list[str]) -> list[str]:
+def _write_video(args: argparse.Namespace, view: View, world: World) -> None:
+    """Write the video of a path in the arena of its record."""
+    # start-up time: this brings JAX
+    from deodar.figures import path
 
+    stride = max(1, -(-len(view.times) // path.MOST_FRAMES))
+    path.animate_path(view, args.gif, world, stride=stride, force=args.force)
+
+
+def variables(data: xarray.Dataset, names: list[str]) -> list[str]:
+    """Return the named variables; a path of an element means all of its ports."""
     known = list(map(str, data.data_vars))
     if not known:
         raise RecordError("the record holds no variable")

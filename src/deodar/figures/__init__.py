@@ -9,6 +9,7 @@ A kind of figure of a recorded variable is a module with `ACROSS` (whether time 
 are objects without global state.
 """
 
+from deodar.figures._file import FigureFile, FigurePanel
 from deodar.figures._files import save_figure
 from deodar.figures._style import COLOR, COLORS, DIVERGING, RC, SEQUENTIAL, THRESHOLD_LINE, Palette
 from deodar.figures._view import View
@@ -27,6 +28,8 @@ __all__ = [
     "RC",
     "SEQUENTIAL",
     "THRESHOLD_LINE",
+    "FigureFile",
+    "FigurePanel",
     "Palette",
     "View",
     "animate_path",

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from deodar.errors import RecordError
+from deodar.errors import FigureError, RecordError
 from deodar.figures import _style
 from deodar.model import output
 
 FORMATS = ("png", "svg", "pdf")
+COLLAPSED = "constrained_layout not applied"
+"""Begin of matplotlib's warning that no space is left for axes."""
 
 
 def claim(path: Path, force: bool = False) -> str:
@@ -26,13 +29,24 @@ def claim(path: Path, force: bool = False) -> str:
     return format
 
 
-def save_figure(figure: Figure, path: Path, force: bool = False, dots: float = _style.DOTS) -> None:
+def save_figure(figure: Figure, path: str | Path, force: bool = False, dots: float = _style.DOTS) -> None:
     """Write a figure, with `dots` per inch; equal figures give equal bytes."""
+    path = output.location(path)
     format = claim(path, force)
     about: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[format]
 
     def content(beside: Path) -> None:
         with _style.style():
-            figure.savefig(beside, format=format, dpi=dots, metadata=about)
+            warnings.filterwarnings("error", message=COLLAPSED)
+            try:
+                figure.savefig(beside, format=format, dpi=dots, metadata=about)
+            except UserWarning as warning:
+                if COLLAPSED not in str(warning):
+                    raise
+                width, height = figure.get_size_inches() * 25.4
+                raise FigureError(
+                    f"the panels and their labels do not fit into {width:.0f} x {height:.0f} mm",
+                    fix="Make the figure larger, or font_size smaller",
+                ) from None
 
     output.write(path, content)

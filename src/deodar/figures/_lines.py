@@ -10,7 +10,7 @@ import xarray
 from matplotlib.axes import Axes
 
 from deodar.errors import RecordError
-from deodar.figures import _style
+from deodar.figures import _course, _style
 from deodar.figures._view import TRIAL, View
 
 MOST_TRIALS = 50
@@ -26,35 +26,38 @@ def curves(
     across: str,
     view: View,
     labels: dict[str, Any] | None = None,
+    read: _course.ReadPart | None = None,
 ) -> None:
     """Draw one curve over the dimension `across` for each remaining point of `v`; trials are thin lines with
     their mean.
 
-    `labels` names the points of dimensions that are neither trial nor `across` (positions in a field).
+    `labels` names the points of dimensions that are neither trial nor `across` (positions in a field). `read`
+    returns a part of the values, with `across` as the last axis and trials before it; None: those of `v`.
     """
     others = [str(d) for d in v.dims if d not in (TRIAL, across)]
-    flat = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across).values
-    grid = flat.shape[: len(others)]
+    grid = tuple(v.sizes[d] for d in others)
     if int(np.prod(grid)) > MOST_CURVES:
         raise RecordError(
             f"would need {int(np.prod(grid))} curves; a figure shows at most {MOST_CURVES}",
             where=view.name,
             fix="Choose values with --where PATH=VALUE",
         )
+    many = TRIAL in v.dims and v.sizes[TRIAL] > 1
+    ordered = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across)
+    reading = read or (lambda part: ordered[..., part].values)
+    x, flat, mean = _course.reduced(reading, x, view.variable.nbytes / len(x), many)
     colors = _colors(v, others, grid)
     marker: dict[str, Any] = {"marker": "o", "markersize": 3.5, "linestyle": "none"} if len(x) == 1 else {}
-    many = TRIAL in v.dims and v.sizes[TRIAL] > 1
     for k, point in enumerate(np.ndindex(*grid)):
         rows, label = flat[point].reshape(-1, len(x)), _label(v, others, point, labels)
-        if many:
+        if mean is not None:
             thin: dict[str, Any] = {
                 "alpha": min(0.5, max(0.12, 4 / len(rows))),
                 "linewidth": _style.THIN,
-                "rasterized": len(x) > 5000,
             }
             for row in rows[:MOST_TRIALS]:
                 ax.plot(x, row, color=colors[k], **(thin | marker))
-            rows = rows.mean(0, keepdims=True, dtype=float)
+            rows = mean[point].reshape(-1, len(x))
         ax.plot(
             x,
             rows[0],
@@ -63,8 +66,9 @@ def curves(
             **marker,
         )
     level(ax, view)
+    limits(ax, view)
     if many or any(grid_size > 1 for grid_size in grid):
-        ax.legend(loc="best")
+        ax.legend(loc="best", frameon=True, framealpha=0.8, edgecolor="none")
 
 
 def level(ax: Axes, view: View, across: bool = True) -> None:
@@ -72,6 +76,12 @@ def level(ax: Axes, view: View, across: bool = True) -> None:
     if view.threshold is not None:
         draw = ax.axhline if across else ax.axvline
         draw(view.threshold, **_style.THRESHOLD_LINE)
+
+
+def limits(ax: Axes, view: View) -> None:
+    """Set the range of the values, if the view selects one."""
+    if view.value_range is not None:
+        ax.set_ylim(*view.value_range)
 
 
 def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...]) -> list[Any]:

@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import importlib
 import pkgutil
 from collections.abc import Sequence
+from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, cast
 
-from matplotlib.figure import Figure
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.gridspec import SubplotSpec
 
-from deodar import figures
-from deodar.errors import RecordError
 from deodar.extensions import Extensions
 from deodar.figures import _style
 from deodar.figures._view import View
 from deodar.plugins import Plugin
 
-MOST_PANELS = 12
-
 
 def kinds() -> dict[str, ModuleType]:
     """Return every kind of figure of a variable by name: the modules with a function `suits`."""
-    names = sorted(m.name for m in pkgutil.iter_modules(figures.__path__) if not m.name.startswith("_"))
-    found = {name: importlib.import_module(f"deodar.figures.{name}") for name in names}
+    names = sorted(
+        m.name for m in pkgutil.iter_modules([str(Path(__file__).parent)]) if not m.name.startswith("_")
+    )
+    found = {name: importlib.import_module(f"{__package__}.{name}") for name in names}
     return {name: module for name, module in found.items() if hasattr(module, "suits")}
 
 
@@ -64,44 +67,226 @@ def kind(view: View, name: str | None = None) -> ModuleType:
     return KINDS[(name or choose(view)).replace("-", "_")]
 
 
-def draw(views: Sequence[View], name: str | None = None) -> Figure:
-    """Draw one figure of one or several variables, one panel each, one above the other.
+# --------------------------------------------------------------------------------------------- several panels
 
-    If the horizontal axis of all panels is time, they share it.
+
+@dc.dataclass(frozen=True)
+class Cell:
+    """One panel of a figure: what it shows, and the rows and columns of the grid that it covers.
+
+    Attributes:
+        view: the variable.
+        kind: the module of its kind.
+        rows, columns: first row or column, and the one after the last.
+        title: title in place of that of the kind; None: that of the kind.
+        letter: the text at the upper left corner.
+        legend: place of the legend in words of matplotlib, or "none"; None: where it hides least.
     """
-    if not views:
-        raise RecordError("there is no variable to draw")
-    if len(views) > MOST_PANELS:
-        raise RecordError(
-            f"{len(views)} variables are too many for one figure", fix=f"Name at most {MOST_PANELS} of them"
+
+    view: View
+    kind: ModuleType
+    rows: tuple[int, int]
+    columns: tuple[int, int]
+    title: str | None = None
+    letter: str = ""
+    legend: str | None = None
+
+    @property
+    def width(self) -> int:
+        """Number of columns."""
+        return self.columns[1] - self.columns[0]
+
+
+@dc.dataclass(frozen=True)
+class Tracks:
+    """Sizes of the columns and rows of a figure, in inches, with the space around their axes."""
+
+    widths: Sequence[float]
+    heights: Sequence[float]
+
+
+def natural(cells: Sequence[Cell], width: float | None = None) -> Tracks:
+    """Return the grid in which each kind has its own size; `width`: of the whole figure, in inches."""
+    rows, columns = max(c.rows[1] for c in cells), max(c.columns[1] for c in cells)
+    sizes = [c.kind.size(c.view) for c in cells]
+    widths = [
+        max(
+            (w / c.width for c, (w, _) in zip(cells, sizes, strict=True) if _covers(c.columns, k)),
+            default=0.0,
         )
-    chosen = [(kind(view, name), view) for view in views]
-    with _style.style():
-        sizes = [k.size(view) for k, view in chosen]
-        width, height = max(w for w, _ in sizes), sum(h for _, h in sizes)
-        if len(chosen) == 1:
-            figure = _style.figure(width, height)
-            chosen[0][0].fill(figure, chosen[0][1])
-        elif all(k.ACROSS for k, _ in chosen):
-            figure = _shared(chosen, width, [h for _, h in sizes])
+        for k in range(columns)
+    ]
+    if width is not None:
+        whole = sum(widths)
+        widths = [w * width / whole for w in widths]
+    heights = [0.0] * rows
+    for c, (w, h) in zip(cells, sizes, strict=True):
+        given = sum(widths[slice(*c.columns)])
+        high = h if c.kind.ACROSS else h * min(1.0, given / w)
+        for k in range(*c.rows):
+            heights[k] = max(heights[k], high / (c.rows[1] - c.rows[0]))
+    under = [_above(c, cells) for c in cells]
+    for c, top in zip(cells, under, strict=True):
+        if top is not None:  # without the times below the upper panel
+            heights[c.rows[0]] = min(heights[c.rows[0]], 0.9 * c.kind.size(c.view)[1])
+    empty = min((h for h in heights if h), default=_style.PANEL)
+    return Tracks([w or min(w for w in widths if w) for w in widths], [h or empty for h in heights])
+
+
+def draw(cells: Sequence[Cell], grid: Tracks) -> Figure:
+    """Draw the panels of a figure, with the present style of type.
+
+    Panels one above the other share their time axis if it is horizontal and shows the same time.
+    """
+    figure = _style.figure(sum(grid.widths), sum(grid.heights))
+    spec = figure.add_gridspec(
+        len(grid.heights), len(grid.widths), width_ratios=grid.widths, height_ratios=grid.heights
+    )
+    drawn: dict[int, Axes] = {}
+    for cell in cells:
+        where = spec[slice(*cell.rows), slice(*cell.columns)]
+        if len(cells) == 1:
+            place: FigureBase | Axes = figure
+            cell.kind.fill(figure, cell.view)
+        elif hasattr(cell.kind, "paint"):
+            above = _above(cell, cells)
+            upper = drawn.get(id(above))
+            low, high = (cell.view.times[0], cell.view.times[-1]) if upper is None else _limits(upper)
+            place = drawn[id(cell)] = figure.add_subplot(where, sharex=upper)
+            cell.kind.paint(place, cell.view)
+            place.set_anchor("N")
+            if upper is not None:
+                upper.set_xlabel("")
+                upper.tick_params(labelbottom=False)
+                place.set_xlim(min(low, cell.view.times[0]), max(high, cell.view.times[-1]))
         else:
-            figure = _style.figure(width, height)
-            parts: Any = figure.subfigures(len(chosen), 1, height_ratios=[h for _, h in sizes])
-            for (k, view), part in zip(chosen, parts, strict=True):
-                k.fill(part, view)
+            own = cell.kind.__name__.startswith(f"{__package__}.")
+            place = cast(FigureBase, GridPart(where)) if own else figure.add_subfigure(where)
+            cell.kind.fill(place, cell.view)
+        _finish(place, cell)
+    for first in {cell.columns[0] for cell in cells}:
+        figure.align_ylabels([drawn[id(c)] for c in cells if c.columns[0] == first and id(c) in drawn])
+    _fix_type(figure)
     return figure
 
 
-def _shared(chosen: Sequence[tuple[ModuleType, View]], width: float, heights: Sequence[float]) -> Figure:
-    figure = _style.figure(max(width, 4.5), 0.85 * sum(heights) + 0.2)
-    views = [view for _, view in chosen]
-    same = len({view.axis_label("time") for view in views}) == 1
-    grid = figure.subplots(len(chosen), 1, sharex=same, height_ratios=list(heights))
-    for (k, view), ax in zip(chosen, grid, strict=True):
-        k.paint(ax, view)
-    if same:
-        for ax in grid[:-1]:
-            ax.set_xlabel("")
-            ax.tick_params(labelbottom=False)
-        grid[0].set_xlim(min(v.times[0] for v in views), max(v.times[-1] for v in views))
-    return figure
+class GridPart:
+    """A part of the grid of a figure, with those methods of a `FigureBase` that the kinds call.
+
+    A subfigure would lose the space that axes in the same rows and columns need for their labels.
+    """
+
+    def __init__(self, where: SubplotSpec) -> None:
+        self._where = where
+        self._figure = cast(Any, where.get_gridspec()).figure
+        self.axes: list[Axes] = []
+
+    def subplots(self, rows: int = 1, columns: int = 1, squeeze: bool = True, **shared: Any) -> Any:
+        """Add axes in rows and columns, as `Figure.subplots`."""
+        grid = self._where.subgridspec(rows, columns).subplots(squeeze=False, **shared)
+        self.axes = list(grid.flat)
+        for ax in self.axes:
+            ax.set_anchor("N")
+        return grid[0, 0] if squeeze and grid.size == 1 else grid
+
+    def colorbar(self, *given: Any, **named: Any) -> Any:
+        """Draw a colour bar, as `Figure.colorbar`."""
+        return self._figure.colorbar(*given, **named)
+
+    def suptitle(self, text: str, **named: Any) -> None:
+        """Write a line above the titles of the axes."""
+        top = self.axes[0].get_subplotspec()
+        size = matplotlib.rcParams["axes.titlesize"]
+        for ax in self.axes:
+            spec = ax.get_subplotspec()
+            first = spec is not None and top is not None and spec.rowspan.start == top.rowspan.start
+            title = ax.get_title()
+            if first and not title.startswith(LINE):
+                ax.set_title(LINE + title)  # room for the line
+        for old in [t for t in self.axes[0].texts if t.get_gid() == ABOVE]:
+            old.remove()
+        above = matplotlib.rcParams["axes.titlepad"] + 1.2 * size
+        self.axes[0].annotate(
+            text,
+            xy=(0, 1),
+            xycoords="axes fraction",
+            xytext=(0, above),
+            textcoords="offset points",
+            ha="left",
+            va="baseline",
+            gid=ABOVE,
+            annotation_clip=False,
+            **{"fontsize": size, **named},
+        ).set_in_layout(False)
+
+
+LINE = " \n"
+ABOVE = "above"
+
+BAR = "<colorbar>"
+"""The label that matplotlib gives to the axes of a colour bar."""
+
+
+def _above(cell: Cell, cells: Sequence[Cell]) -> Cell | None:
+    """Return the panel right above a panel whose horizontal axis is the same time."""
+    for c in cells:
+        same = c.columns == cell.columns and c.rows[1] == cell.rows[0] and c.kind.ACROSS and cell.kind.ACROSS
+        if same and _axis(c) == _axis(cell):
+            return c
+    return None
+
+
+def _axis(cell: Cell) -> tuple[Any, ...]:
+    return cell.view.axis_label(cell.view.time), tuple(cell.view.time_range or ())
+
+
+def _limits(ax: Axes) -> tuple[float, float]:
+    low, high = ax.get_xlim()
+    return float(low), float(high)
+
+
+def _covers(span: tuple[int, int], k: int) -> bool:
+    return span[0] <= k < span[1]
+
+
+def _finish(place: FigureBase | Axes, cell: Cell) -> None:
+    """Set the range of time, the title, the legend and the letter of a panel."""
+    inside: list[Axes] = [place] if isinstance(place, Axes) else cast(Any, place).axes
+    found = [ax for ax in inside if ax.get_label() != BAR]
+    if cell.kind.ACROSS and cell.view.time_range is not None:
+        for ax in found:
+            ax.set_xlim(*cell.view.time_range)
+    for legend in [ax.get_legend() for ax in found if cell.legend is not None]:
+        if legend is not None and cell.legend == "none":
+            legend.remove()
+        elif legend is not None:
+            legend.set_loc(cast(Any, cell.legend))
+    if cell.title is not None:
+        if len(found) == 1:
+            found[0].set_title(cell.title)
+        else:
+            cast(FigureBase, place).suptitle(cell.title, fontsize=matplotlib.rcParams["axes.titlesize"])
+    if cell.letter and found:
+        size = matplotlib.rcParams["axes.titlesize"]
+        lines = 1.2 * size if found[0].get_title().startswith(LINE) else 0.0
+        found[0].annotate(
+            cell.letter,
+            xy=(0, 1),
+            xycoords=(found[0].yaxis.label, found[0].transAxes),  # the left edge of what is beside the axes
+            xytext=(0, matplotlib.rcParams["axes.titlepad"] + lines),
+            textcoords="offset points",
+            ha="left",
+            va="baseline",
+            fontweight="bold",
+            fontsize=size,
+            annotation_clip=False,
+        )
+
+
+def _fix_type(figure: Figure) -> None:
+    """Keep the present size and font of ticks, which matplotlib makes when it writes the figure."""
+    family = matplotlib.rcParams["font.family"]
+    for ax in figure.axes:
+        ax.tick_params(labelsize=matplotlib.rcParams["xtick.labelsize"])
+        if family != ["sans-serif"]:
+            ax.tick_params(labelfontfamily=family)

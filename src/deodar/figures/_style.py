@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 import matplotlib
+from matplotlib import font_manager
 from matplotlib.figure import Figure
 from matplotlib.rcsetup import cycler
 
@@ -135,14 +136,45 @@ RC: dict[str, Any] = {
 }
 """Type, lines and frames, also for figures of users."""
 
+TYPE = (
+    "font.size",
+    "axes.labelsize",
+    "axes.titlesize",
+    "xtick.labelsize",
+    "ytick.labelsize",
+    "legend.fontsize",
+)
+"""The settings that are sizes of type."""
+
 TIGHT: dict[str, Any] = {**RC, "axes.xmargin": 0.0, "text.parse_math": False}
 """`RC` without margins, and with names as plain text instead of mathematical notation."""
 
 
+def type_of(size: float | None = None, font: str | None = None) -> dict[str, Any]:
+    """Return the settings for a size of type in points, which numbers at ticks have less one point in eight,
+    and for a font.
+    """
+    found: dict[str, Any] = {}
+    if size is not None:
+        found = {key: size / RC["font.size"] * RC[key] for key in TYPE}
+    if font is not None:
+        found["font.family"] = [font, *RC["font.sans-serif"]]
+    return found
+
+
+def installed(font: str) -> bool:
+    """Return whether matplotlib finds a font."""
+    try:
+        font_manager.findfont(font_manager.FontProperties(family=font), fallback_to_default=False)
+    except ValueError:
+        return False
+    return True
+
+
 @contextmanager
-def style() -> Generator[None]:
+def style(size: float | None = None, font: str | None = None) -> Generator[None]:
     """Apply the style inside a block; the user's settings are restored after it."""
-    with matplotlib.rc_context(cast(Any, TIGHT)), warnings.catch_warnings():
+    with matplotlib.rc_context(cast(Any, TIGHT | type_of(size, font))), warnings.catch_warnings():
         # characters that the font lacks are drawn as boxes, without a warning
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         yield

@@ -1,14 +1,18 @@
-"""The selected part of a variable: trial, point of a sweep, times, positions and axes."""
+"""The selected part of a variable: trial, point of a sweep, times, positions, axes, ranges and labels."""
 
 from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray
 
 from deodar.errors import RecordError, did_you_mean
+
+if TYPE_CHECKING:
+    from deodar.worlds._base import World
 
 TIME, TRIAL = "time", "trial"
 REDUCTIONS = ("maximum", "integral")
@@ -29,6 +33,15 @@ class View:
         places: for time courses of fields: positions, one number for each axis. None: the position of the
             largest value.
         reduce: contraction over the other axes in a projection: maximum or integral.
+        time_range: first and last time to show, in the record's unit. None: all of them.
+        value_range: smallest and largest value of the scale. None: those of the shown values.
+        colors: name of a colour map of matplotlib, for maps. None: the map that suits the values.
+        labels: labels in place of the default ones, with their units: by name of an axis, `time` for time,
+            `value` for the values.
+        world: the world of the record, whose walls are drawn under a path.
+
+    A variable that is read from a file when its values are needed stays there; only the selected part is
+    read.
     """
 
     variable: xarray.DataArray
@@ -38,6 +51,11 @@ class View:
     axes: Sequence[str] | None = None
     places: Sequence[Sequence[float] | float] | None = None
     reduce: str = "maximum"
+    time_range: Sequence[float] | None = None
+    value_range: Sequence[float] | None = None
+    colors: str | None = None
+    labels: Mapping[str, str] | None = None
+    world: World | None = None
 
     def __post_init__(self) -> None:
         v = self.variable
@@ -69,6 +87,13 @@ class View:
             raise RecordError(
                 f"there is no reduction {self.reduce!r}", fix=did_you_mean(self.reduce, REDUCTIONS)
             )
+        for what, limits in (("time_range", self.time_range), ("value_range", self.value_range)):
+            if limits is not None and not (len(limits) == 2 and limits[0] < limits[1]):
+                raise RecordError(
+                    f"{what} is [{', '.join(f'{n:g}' for n in limits)}]; a smaller and a larger number",
+                    where=self.name,
+                )
+        self._cut()
         for t in self.at or ():
             if not self.times[0] - self.margin <= t <= self.times[-1] + self.margin:
                 raise RecordError(
@@ -76,6 +101,23 @@ class View:
                     where=self.name,
                     fix=f"Recorded are times from {self.times[0]:g} to {self.times[-1]:g}",
                 )
+
+    def _cut(self) -> None:
+        """Leave out the times outside `time_range`."""
+        if self.time_range is None:
+            return
+        low, high = self.time_range
+        times = self.times
+        first, last = np.searchsorted(times, low - NEAR), np.searchsorted(times, high + NEAR, side="right")
+        if first == last:
+            raise RecordError(
+                f"was not recorded between {low:g} and {high:g}",
+                where=self.name,
+                fix=f"Recorded are times from {times[0]:g} to {times[-1]:g}",
+            )
+        if self.time in self.variable.dims:
+            part = self.variable.isel({self.time: slice(int(first), int(last))})
+            object.__setattr__(self, "variable", part)
 
     # ------------------------------------------------------------------------------------------- the variable
 
@@ -85,26 +127,29 @@ class View:
         return str(self.variable.name or "variable")
 
     @property
+    def time(self) -> str:
+        """The dimension of time: `time`, or `PATH.PORT.time` for a port with its own sampling interval."""
+        return time_dimension(self.variable)
+
+    @property
     def space(self) -> list[str]:
         """Dimensions that are axes of the field: those with bounds, and those without a coordinate."""
-        v = self.variable
-        return [
-            str(d) for d in v.dims if d not in (TIME, TRIAL) and (d not in v.coords or "lower" in v[d].attrs)
-        ]
+        v, others = self.variable, (self.time, TRIAL)
+        return [str(d) for d in v.dims if d not in others and (d not in v.coords or "lower" in v[d].attrs)]
 
     @property
     def sweeps(self) -> list[str]:
         """Dimensions that are paths of a sweep."""
-        return [str(d) for d in self.variable.dims if d not in (TIME, TRIAL) and d not in self.space]
+        return [str(d) for d in self.variable.dims if d not in (self.time, TRIAL) and d not in self.space]
 
     @property
     def times(self) -> np.ndarray:
         """Recorded times."""
-        v = self.variable
-        if TIME not in v.dims:
-            return np.asarray([float(v[TIME])]) if TIME in v.coords else np.zeros(1)
+        v, time = self.variable, self.time
+        if time not in v.dims:
+            return np.asarray([float(v[time])]) if time in v.coords else np.zeros(1)
         return (
-            np.asarray(v[TIME].values, float) if TIME in v.coords else np.arange(v.sizes[TIME], dtype=float)
+            np.asarray(v[time].values, float) if time in v.coords else np.arange(v.sizes[time], dtype=float)
         )
 
     @property
@@ -146,8 +191,8 @@ class View:
         """The variable of one trial and one sweep point: time and axes, in that order."""
         v = self.chosen()
         v = v.isel({d: 0 for d in [*self.sweeps, TRIAL] if d in v.dims})
-        v = v if TIME in v.dims else v.expand_dims(TIME)
-        return v.transpose(TIME, *self.space)
+        v = v if self.time in v.dims else v.expand_dims(self.time)
+        return v.transpose(self.time, *self.space)
 
     def note(self) -> str:
         """The trial and sweep point of `one`, in words; empty if the record has only one."""
@@ -180,20 +225,31 @@ class View:
 
     def label(self) -> str:
         """Return the label of the variable for an axis or a colour bar."""
+        if "value" in (self.labels or {}):
+            return (self.labels or {})["value"]
         return _with_unit(
             str(self.variable.attrs.get("long_name") or self.name), self.variable.attrs.get("units")
         )
 
     def axis_label(self, dim: str) -> str:
         """Name and unit of a dimension."""
+        short = self.short(dim)
+        return (self.labels or {}).get(short) or _with_unit(short, self.unit(dim))
+
+    def unit(self, dim: str) -> str:
+        """Unit of a dimension; empty without one."""
         coords = self.variable.coords
-        unit = coords[dim].attrs.get("units") if dim in coords else None
-        short = dim.removeprefix(self.name.rpartition(".")[0] + ".")
-        return _with_unit(short, unit)
+        return str(coords[dim].attrs.get("units", "")) if dim in coords else ""
+
+    def short(self, dim: str) -> str:
+        """Name of a dimension, without the path of its variable."""
+        for path in (self.name, self.name.rpartition(".")[0]):
+            dim = dim.removeprefix(f"{path}.")
+        return dim
 
     def time_label(self, time: float) -> str:
         """A time with its unit."""
-        unit = _time_unit(self.variable[TIME].attrs.get("units") if TIME in self.variable.coords else None)
+        unit = _time_unit(self.unit(self.time))
         return f"{time:g} {unit}" if unit else f"t = {time:g}"
 
     def points(self, dim: str) -> np.ndarray:
@@ -206,6 +262,13 @@ class View:
         p = self.points(dim)
         half = 0.5 * (p[1] - p[0]) if len(p) > 1 else 0.5
         return float(p[0] - half), float(p[-1] + half)
+
+
+def time_dimension(variable: xarray.DataArray) -> str:
+    """Return the name of the dimension of time; `time` for a variable without one."""
+    if TIME in variable.dims:
+        return TIME
+    return next((str(d) for d in variable.dims if str(d).endswith(f".{TIME}")), TIME)
 
 
 def _with_unit(name: str, unit: str | None) -> str:

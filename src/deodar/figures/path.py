@@ -15,7 +15,7 @@ from matplotlib.patches import Circle
 
 from deodar import renamed
 from deodar.errors import RecordError
-from deodar.figures import _style, maze
+from deodar.figures import _draw, _style, maze
 from deodar.figures._view import View
 from deodar.model import output
 from deodar.session.unit import unit_seconds
@@ -37,11 +37,7 @@ def path_figure(variable: xarray.DataArray, arena: World | None = None, **view: 
         arena: the arena of the record, whose present walls and obstacles are drawn; none: the path alone.
         view: see `dd.figures.View`: trial, where.
     """
-    looked = View(variable, **view)
-    with _style.style():
-        figure = _style.figure(*_size(looked, arena))
-        _paint(figure.subplots(), looked, arena)
-    return figure
+    return _draw.alone(size, fill, variable, {"world": arena, **view})
 
 
 def suits(view: View) -> bool:
@@ -53,12 +49,45 @@ def suits(view: View) -> bool:
 
 def size(view: View) -> tuple[float, float]:
     """Width and height, inches."""
-    return _size(view, None)
+    if view.world is None:
+        return _style.SINGLE, _style.SINGLE
+    left, low, right, high = maze.borders(_arena(view.world))
+    return _style.SINGLE, min(6.0, 0.5 + (_style.SINGLE - 0.5) * (high - low) / (right - left))
 
 
 def fill(place: FigureBase, view: View) -> None:
     """Draw into a figure, or into a part of one."""
-    _paint(place.subplots(), view, None)
+    paint(place.subplots(), view)
+
+
+def paint(ax: Axes, view: View) -> None:
+    """Draw into axes."""
+    arena = view.world
+    if arena is not None:
+        _ground(ax, _arena(arena))
+    for k, line in enumerate(_lines(view)):
+        colour = _style.COLORS[k % len(_style.COLORS)]
+        ax.plot(line[:, 0], line[:, 1], color=colour, linewidth=_style.THICK)
+        ax.plot(*line[0, :2], "o", color=_style.COLOR.start, markersize=_style.DOT)
+        x, y = line[-1, :2]
+        if arena is not None:
+            here = _arena(arena)
+            radius = here.vehicle.radius / here.scale
+            ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=_style.MEDIUM))
+            if line.shape[1] > 2:
+                ax.plot(
+                    [x, x + radius * math.cos(line[-1, 2])],
+                    [y, y + radius * math.sin(line[-1, 2])],
+                    color=colour,
+                    linewidth=_style.MEDIUM,
+                )
+    ax.set_aspect("equal")
+    unit = f" ({arena.unit})" if isinstance(arena, Arena) else ""
+    labels = view.labels or {}
+    ax.set_xlabel(labels.get("x", f"x{unit}"))
+    ax.set_ylabel(labels.get("y", f"y{unit}"))
+    if arena is None:
+        ax.margins(0.05)
 
 
 @renamed.arguments("dd.animate_path")
@@ -134,7 +163,8 @@ def animate_path(
                 pen.line([at(x, y), at(*ahead)], fill=colour, width=2 * FINER)
         frames.append(frame.resize((width, height), Image.Resampling.BOX))
     coords = looked.variable.coords
-    unit = str(coords["time"].attrs.get("units", "ms")) if "time" in coords else "ms"
+    time = looked.time
+    unit = str(coords[time].attrs.get("units", "ms")) if time in coords else "ms"
     step = 1e3 * unit_seconds(unit) * float(np.diff(times).mean()) / speed
     output.write(
         path,
@@ -143,40 +173,6 @@ def animate_path(
         ),
     )
     return path
-
-
-def _size(view: View, arena: World | None) -> tuple[float, float]:
-    if arena is None:
-        return _style.SINGLE, _style.SINGLE
-    left, low, right, high = maze.borders(_arena(arena))
-    return _style.SINGLE, min(6.0, 0.5 + (_style.SINGLE - 0.5) * (high - low) / (right - left))
-
-
-def _paint(ax: Axes, view: View, arena: World | None) -> None:
-    if arena is not None:
-        _ground(ax, _arena(arena))
-    for k, line in enumerate(_lines(view)):
-        colour = _style.COLORS[k % len(_style.COLORS)]
-        ax.plot(line[:, 0], line[:, 1], color=colour, linewidth=_style.THICK)
-        ax.plot(*line[0, :2], "o", color=_style.COLOR.start, markersize=_style.DOT)
-        x, y = line[-1, :2]
-        if arena is not None:
-            here = _arena(arena)
-            radius = here.vehicle.radius / here.scale
-            ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=_style.MEDIUM))
-            if line.shape[1] > 2:
-                ax.plot(
-                    [x, x + radius * math.cos(line[-1, 2])],
-                    [y, y + radius * math.sin(line[-1, 2])],
-                    color=colour,
-                    linewidth=_style.MEDIUM,
-                )
-    ax.set_aspect("equal")
-    unit = f" ({arena.unit})" if isinstance(arena, Arena) else ""
-    ax.set_xlabel(f"x{unit}")
-    ax.set_ylabel(f"y{unit}")
-    if arena is None:
-        ax.margins(0.05)
 
 
 def _ground(ax: Axes, arena: Arena) -> None:
@@ -192,14 +188,14 @@ def _ground(ax: Axes, arena: Arena) -> None:
 def _lines(view: View) -> list[np.ndarray]:
     """Return paths (times, 2 or 3), one for each selected trial and point of a sweep."""
     v = view.chosen()
-    if len(view.space) != 1 or v.sizes[view.space[0]] not in (2, 3) or "time" not in v.dims:
+    if len(view.space) != 1 or v.sizes[view.space[0]] not in (2, 3) or view.time not in v.dims:
         raise RecordError(
             "is not a path (x, y and perhaps a heading over time)",
             where=view.name,
             fix="Record a Sensor of place or pose",
         )
-    rest = [d for d in v.dims if d not in ("time", view.space[0])]
-    values = v.transpose(*rest, "time", view.space[0]).values
+    rest = [d for d in v.dims if d not in (view.time, view.space[0])]
+    values = v.transpose(*rest, view.time, view.space[0]).values
     return list(values.reshape(-1, *values.shape[-2:]))
 
 

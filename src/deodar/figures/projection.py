@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from typing import TYPE_CHECKING, Any
 
+import matplotlib
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
@@ -48,12 +49,12 @@ def size(view: View) -> tuple[float, float]:
 def fill(place: FigureBase, view: View) -> None:
     """Draw into a figure, or into a part of one."""
     pairs, k = _onto(view), view.instant()
-    values = view.one().isel(time=k)
+    values = view.one()[k].compute()
     planes = [_project(values, onto, view) for onto in pairs]
     rows, columns = _grid(len(pairs))
     grid = list(place.subplots(rows, columns, squeeze=False).flat)
     threshold = view.threshold if view.reduce == "maximum" else None
-    colors = _color.scale(planes, threshold)
+    colors = _color.of(planes, view, threshold)
     for ax, onto, plane in zip(grid, pairs, planes, strict=False):
         _panel(ax, view, onto, plane, colors, threshold)
     shown = ", ".join(
@@ -64,7 +65,7 @@ def fill(place: FigureBase, view: View) -> None:
     if shown and len(grid) == 1:
         grid[0].set_title(shown)
     elif shown:
-        place.suptitle(shown, fontsize=_style.RC["axes.titlesize"])
+        place.suptitle(shown, fontsize=matplotlib.rcParams["axes.titlesize"])
 
 
 def _panel(
@@ -76,6 +77,7 @@ def _panel(
     ax.plot(view.points(onto[0]), values, color=_style.COLORS[0])
     if threshold is not None:
         _lines.level(ax, view)
+    _lines.limits(ax, view)
     ax.set_xlabel(view.axis_label(onto[0]))
     ax.set_ylabel(_label(view, [onto]))
 
@@ -106,6 +108,8 @@ def _project(values: xarray.DataArray, onto: tuple[str, ...], view: View) -> np.
 
 
 def _label(view: View, pairs: list[tuple[str, ...]]) -> str:
+    if "value" in (view.labels or {}):
+        return view.label()
     away = [d for d in view.space if d not in pairs[0]]
     over = f" over {', '.join(map(str, away))}" if len(pairs) == 1 and away else ""
     return (

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
-from deodar.figures._view import TIME, TRIAL, View
+from deodar.figures._view import TRIAL, View
 
 ACROSS = False
 
@@ -60,7 +60,7 @@ def paint(ax: Axes, view: View) -> None:
         _plane(ax, view, k)
     elif view.space:
         v = view.chosen()
-        v = v.isel({TIME: k}) if TIME in v.dims else v
+        v = v.isel({view.time: k}) if view.time in v.dims else v
         _lines.curves(ax, v, view.points(view.space[0]), view.space[0], view)
         ax.set_xlabel(view.axis_label(view.space[0]))
         ax.set_ylabel(view.label())
@@ -71,8 +71,8 @@ def paint(ax: Axes, view: View) -> None:
 
 
 def _plane(ax: Axes, view: View, k: int) -> None:
-    values = view.one().values[k]
-    colors = _color.scale([values], view.threshold)
+    values = view.one()[k].values
+    colors = _color.of([values], view, view.threshold)
     _map.paint(ax, values, view, view.space[0], view.space[1], colors)
     _color.bar(ax.figure, colors, ax, view.label(), view.threshold)
     _title(ax, view.note())
@@ -83,7 +83,7 @@ def _values(ax: Axes, view: View, k: int) -> None:
     the trials.
     """
     v = view.chosen()
-    v = v.isel({TIME: k}) if TIME in v.dims else v
+    v = v.isel({view.time: k}) if view.time in v.dims else v
     swept = [d for d in view.sweeps if d in v.dims]
     if len(swept) > 1:
         raise RecordError(
@@ -110,6 +110,7 @@ def _values(ax: Axes, view: View, k: int) -> None:
         if label:
             ax.legend(loc="best")
     _lines.level(ax, view)
+    _lines.limits(ax, view)
     ax.set_ylabel(view.label())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import matplotlib
 import numpy as np
 import xarray
 from matplotlib.figure import Figure, FigureBase
@@ -57,14 +58,15 @@ def fill(place: FigureBase, view: View) -> None:
     steps = _steps(view)
     rows, columns = _grid(len(steps))
     grid = place.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    values = view.one().values
-    colors = _color.scale([values[k] for k in steps], view.threshold)
-    for ax, k in zip(grid.flat, steps, strict=False):
+    values = view.one()[steps].values
+    colors = _color.of([values], view, view.threshold)
+    for ax, k, shown in zip(grid.flat, steps, values, strict=False):
         if len(view.space) == 2:
-            _map.paint(ax, values[k], view, view.space[0], view.space[1], colors)
+            _map.paint(ax, shown, view, view.space[0], view.space[1], colors)
         else:
-            ax.plot(view.points(view.space[0]), values[k], color=_style.COLORS[0])
+            ax.plot(view.points(view.space[0]), shown, color=_style.COLORS[0])
             _lines.level(ax, view)
+            _lines.limits(ax, view)
             ax.set_xlabel(view.axis_label(view.space[0]))
             ax.set_ylabel(view.label())
         ax.set_title(view.time_label(view.times[k]))
@@ -75,7 +77,7 @@ def fill(place: FigureBase, view: View) -> None:
     if len(view.space) == 2:
         _color.bar(place, colors, list(grid.flat), view.label(), view.threshold)
     if view.note():
-        place.suptitle(view.note(), fontsize=_style.RC["axes.titlesize"])
+        place.suptitle(view.note(), fontsize=matplotlib.rcParams["axes.titlesize"])
 
 
 def _steps(view: View) -> list[int]:

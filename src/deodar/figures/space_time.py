@@ -12,9 +12,11 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _style
-from deodar.figures._view import TIME, View
+from deodar.figures._view import View
 
 ACROSS = True
+MOST_TIMES = 4000
+"""Most times of a map; of a longer record, evenly spaced ones."""
 
 
 def space_time(variable: xarray.DataArray, **view: Any) -> Figure:
@@ -55,14 +57,15 @@ def paint(ax: Axes, view: View) -> None:
             where=view.name,
             fix="Type: --kind snapshot" if len(view.space) < 3 else "Type: --kind projection",
         )
-    values, times, space = view.one().values, view.times, view.space[0]
-    colors = _color.scale([values], view.threshold)
+    every = 1 + len(view.times) // MOST_TIMES  # more columns than a printer has dots
+    values, times, space = view.one()[::every].values, view.times[::every], view.space[0]
+    colors = _color.of([values], view, view.threshold)
     half = 0.5 * float(np.diff(times).mean())
     extent = (times[0] - half, times[-1] + half, *view.extent(space))
     norm: Any = colors.norm
     ax.imshow(values.T, extent=extent, origin="lower", cmap=colors.cmap, norm=norm, aspect="auto")
     ax.set_xlim(times[0], times[-1])
-    ax.set_xlabel(view.axis_label(TIME))
+    ax.set_xlabel(view.axis_label(view.time))
     ax.set_ylabel(view.axis_label(space))
     for spine in ax.spines.values():
         spine.set_visible(True)

@@ -11,11 +11,17 @@ from matplotlib.figure import Figure, FigureBase
 
 from deodar import renamed
 from deodar.errors import RecordError
-from deodar.figures import _draw, _lines, _style
-from deodar.figures._view import TIME, View
+from deodar.figures import _course, _draw, _lines, _style
+from deodar.figures._view import TRIAL, View
 
 ACROSS = True
 PLACE = "place"
+
+SEARCHED = 2**28
+"""Number of bytes in which the largest value is searched; of a larger variable, evenly spaced times."""
+
+Sample = tuple[int, ...]
+"""The number of a sample along each axis of a field."""
 
 
 def time_course(variable: xarray.DataArray, **view: Any) -> Figure:
@@ -45,39 +51,64 @@ def fill(place: FigureBase, view: View) -> None:
 
 def paint(ax: Axes, view: View) -> None:
     """Draw into axes."""
-    v, labels = view.chosen(), None
-    if TIME not in v.dims:
-        v = v.expand_dims(TIME)
+    v = view.chosen()
+    if view.time not in v.dims:
+        v = v.expand_dims(view.time)
     if view.space:
-        v, labels = _at_places(v, view)
-    _lines.curves(ax, v, view.times, TIME, view, labels)
-    ax.set_xlabel(view.axis_label(TIME))
+        found = _found(v, view)
+        labels = {PLACE: [_words(view, place) for place in found]}
+        begin = xarray.concat([v.isel({view.time: [0], **_index(view, k)}, drop=True) for k in found], PLACE)
+        _lines.curves(ax, begin, view.times, view.time, view, labels, _reader(v, view, found))
+    else:
+        _lines.curves(ax, v, view.times, view.time, view)
+    ax.set_xlabel(view.axis_label(view.time))
     ax.set_ylabel(view.label())
 
 
-def _at_places(v: xarray.DataArray, view: View) -> tuple[xarray.DataArray, dict[str, Any]]:
-    """Return the field at the selected positions, by default that of its largest value, as a dimension."""
-    space = view.space
-    if view.places is None:
-        others = [d for d in v.dims if d not in space]
-        top = v.max(others) if others else v
-        found = [np.unravel_index(int(np.argmax(top.transpose(*space).values)), [v.sizes[d] for d in space])]
-    else:
-        found = [_nearest(view, np.atleast_1d(np.asarray(p, float))) for p in view.places]
-    chosen = xarray.concat(
-        [v.isel(dict(zip(space, map(int, k), strict=True)), drop=True) for k in found], dim=PLACE
-    )
-    labels = [
-        ", ".join(
-            f"{view.axis_label(d).split(' (')[0]} = {view.points(d)[i]:g}"
-            for d, i in zip(space, k, strict=True)
-        )
-        for k in found
+def _found(v: xarray.DataArray, view: View) -> list[Sample]:
+    """Return the selected samples of the field, by default that of its largest value."""
+    if view.places is not None:
+        return [_nearest(view, np.atleast_1d(np.asarray(p, float))) for p in view.places]
+    part = v.isel({view.time: slice(None, None, 1 + v.nbytes // SEARCHED)})
+    others = [d for d in v.dims if d not in view.space]
+    top = part.max(others).transpose(*view.space).values
+    return [tuple(map(int, np.unravel_index(int(np.argmax(top)), top.shape)))]
+
+
+def _words(view: View, place: Sample) -> str:
+    """Return a position in words, with its units."""
+    points = [
+        (view.short(d), view.points(d)[i], view.unit(d)) for d, i in zip(view.space, place, strict=True)
     ]
-    return chosen, {PLACE: labels}
+    return ", ".join(f"{name} = {point:g} {unit}".strip() for name, point, unit in points)
 
 
-def _nearest(view: View, place: np.ndarray) -> tuple[int, ...]:
+def _index(view: View, place: Sample) -> dict[str, int]:
+    return dict(zip(view.space, place, strict=True))
+
+
+def _reader(v: xarray.DataArray, view: View, found: list[Sample]) -> _course.ReadPart:
+    """Return the function that reads the samples over time: (samples, sweeps, trials, times).
+
+    The smallest block that contains all samples is read at once, because files keep values that are near to
+    each other in one piece.
+    """
+    low = [min(k) for k in zip(*found, strict=True)]
+    block = {
+        d: slice(a, max(k) + 1) for d, a, k in zip(view.space, low, zip(*found, strict=True), strict=True)
+    }
+    others = [d for d in v.dims if d not in (TRIAL, view.time, *view.space)]
+    order = [*others, *([TRIAL] if TRIAL in v.dims else []), view.time, *view.space]
+    near = v.isel(block).transpose(*order)
+
+    def read(part: slice) -> np.ndarray:
+        values = near.isel({view.time: part}).values
+        return np.stack([values[(..., *(np.subtract(k, low)))] for k in found])
+
+    return read
+
+
+def _nearest(view: View, place: np.ndarray) -> Sample:
     if len(place) != len(view.space):
         raise RecordError(
             f"a place has {len(view.space)} numbers ({', '.join(view.space)}), not {len(place)}",
