@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import deodar as dd
-from deodar.cli import main
+from deodar.cli import main, plot
 from deodar.elements.sensor import Sensor
 from deodar.recording import files
 from tests.experiments.robots import room, straight
@@ -123,3 +123,46 @@ def test_a_path_is_drawn_in_its_arena_and_as_an_animation(
     assert "a video shows one variable" in capsys.readouterr().err
     assert main(["plot", "small.zarr", "n.activation", "--gif", "no.gif"]) == 1
     assert "made without a world" in capsys.readouterr().err
+
+
+def test_a_growing_record_is_drawn_until_it_is_complete(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    whole = record(record=["n.activation"])
+    made = json.loads(whole.attrs["deodar"])
+    growing = whole.assign_attrs(deodar=json.dumps(made | {"complete": False}))
+    stages = [growing.isel(time=slice(0, n)) for n in (0, 3, 3, 4)] + [whole]
+    figures: list[bytes | None] = []
+
+    def grow(seconds: float) -> None:
+        assert seconds == 0.5
+        figures.append(Path("n.svg").read_bytes() if Path("n.svg").exists() else None)
+        files.save_record(stages.pop(0), "run.zarr", force=True)
+
+    monkeypatch.setattr(plot.time, "sleep", grow)
+    assert (
+        main(["plot", "run.zarr", "--kind", "time_course", "--follow", "--interval", "0.5", "-o", "n.svg"])
+        == 0
+    )
+    assert not stages and "Drew n.activation into n.svg" in capsys.readouterr().out
+    assert figures[:2] == [None, None] and figures[2] == figures[3] is not None
+    figures.append(Path("n.svg").read_bytes())
+    assert len(set(figures[2:])) == 3
+    assert main(["plot", "run.zarr", "--kind", "time_course", "-o", "once.svg"]) == 0
+    assert Path("once.svg").read_bytes() == figures[-1]
+
+
+def test_following_ends_with_ctrl_c(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def stop(seconds: float) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(plot.time, "sleep", stop)
+    assert main(["plot", "later.zarr", "--follow"]) == 0
+    assert "before the record held a sample" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        main(["plot", "small.zarr", "--follow", "--gif", "a.gif"])
+    with pytest.raises(SystemExit):
+        main(["plot", "small.zarr", "--follow", "--interval", "0"])

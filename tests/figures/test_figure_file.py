@@ -348,3 +348,40 @@ def test_a_port_with_times_of_its_own_is_drawn_over_them() -> None:
     assert axes.get_xlabel() == "time (ms)" and list(axes.get_lines()[0].get_ydata()) == [1.0, 3.0, 5.0]
     assert dd.space_time(variable).axes[0].get_xlim() == (0.0, 14.0)
     assert dd.snapshot(variable, at=[7]).axes[0].get_title() == "7 ms"
+
+
+def test_a_figure_reads_only_what_it_shows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Chunks that the figure does not show may be missing."""
+    times = np.arange(40.0)
+    values = np.random.default_rng(1).normal(size=(40, 5)).astype(np.float32)
+    axis = {"lower": 0.0, "upper": 4.0}
+    stored = xarray.Dataset(
+        {"u.activation": (("time", "x"), values), "n.activation": ("time", values[:, 0])},
+        {"time": times, "x": ("x", np.arange(5.0), axis)},
+        {"deodar": "{}"},
+    )
+    stored.to_zarr(
+        tmp_path / "run.zarr",
+        zarr_format=3,
+        consolidated=False,
+        encoding={"u.activation": {"chunks": (10, 5)}},
+    )
+    for chunk in (0, 2, 3):
+        (tmp_path / "run.zarr" / "u.activation" / "c" / str(chunk) / "0").write_bytes(b"damaged")
+    data = dd.open_record(tmp_path / "run.zarr")
+    node = FigurePanel("n.activation")
+    FigureFile([node]).draw(data)
+    panels = [
+        FigurePanel("u.activation", time_range=[10, 19]),
+        FigurePanel("u.activation", places=[1, 3], time_range=[12, 18]),
+        FigurePanel("u.activation", at=[11, 19]),
+        FigurePanel("u.activation", at=[15], kind="snapshot"),
+    ]
+    map_ = FigureFile([*panels, node]).draw(data).axes[0]
+    assert np.array_equal(np.asarray(map_.get_images()[0].get_array()), values[10:20].T)
+    lines = [
+        np.asarray(line.get_ydata()) for ax in FigureFile(panels[1:2]).draw(data).axes for line in ax.lines
+    ]
+    assert np.array_equal(lines[0], values[12:19, 1]) and np.array_equal(lines[1], values[12:19, 3])
+    with pytest.raises(RecordError, match=r"u\.activation: cannot be read, its file may be damaged"):
+        FigureFile([FigurePanel("u.activation")]).draw(data)

@@ -114,6 +114,17 @@ def whole(text: str) -> int:
 whole.__name__ = "whole number"
 
 
+def positive(text: str) -> float:
+    """Parse a number above 0."""
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise ValueError
+    return value
+
+
+positive.__name__ = "number above 0"
+
+
 def pair(text: str) -> tuple[str, str]:
     """Parse `PATH=VALUE`; a path may contain an equals sign."""
     path, sign, value = text.rpartition("=")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import dataclasses as dc
-from collections.abc import Sequence
+import sys
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from deodar import codec
 from deodar.cli import _options
@@ -16,8 +18,6 @@ if TYPE_CHECKING:
     import xarray
 
     from deodar.figures._file import FigureFile, FigurePanel
-    from deodar.figures._view import View
-    from deodar.worlds._base import World
 
 HELP = "draw the variables of a record, or the file of a figure, as SVG, PDF or PNG"
 EPILOG = """\
@@ -77,6 +77,18 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help=".png, .svg or .pdf (default: NAME-plot-001.png, ... here; of a .toml file NAME-001.pdf)",
     )
+    parser.add_argument(
+        "--follow",
+        action="store_true",
+        help="wait for the record, and draw again while it grows, until it is complete or Ctrl-C is pressed",
+    )
+    parser.add_argument(
+        "--interval",
+        type=_options.positive,
+        default=1.0,
+        metavar="S",
+        help="with --follow: seconds between two figures (default 1)",
+    )
     _options.add_force(parser)
     _options.add_json(parser)
     _options.wrong(parser)
@@ -123,42 +135,111 @@ def add_view(parser: argparse.ArgumentParser) -> None:
     )
 
 
+class Drawn(NamedTuple):
+    """What a call draws: the figure, its variables, its record, and that record's name."""
+
+    figure: FigureFile
+    names: list[str]
+    record: xarray.Dataset | Path | None
+    stem: str
+
+
 def run(args: argparse.Namespace) -> int:
     """Draw the record, write the file and print its path."""
+    if args.follow:
+        return _followed(args)
     # start-up time: these bring JAX
     from deodar.figures import _files
+
+    drawn = _drawn(args)
+    out = _claimed(args, drawn.stem)
+    video = None if args.gif is None else _video(args, drawn)
+    made = drawn.figure.draw(drawn.record)
+    if args.save_as is not None:
+        _save_as(args, drawn.figure, [float(n) for n in made.get_size_inches()])
+    if video is not None:
+        video()
+    _files.save_figure(made, out, args.force)
+    _say(args, drawn, out)
+    return 0
+
+
+def _drawn(args: argparse.Namespace) -> Drawn:
+    """Return what the arguments select."""
+    # start-up time: these bring JAX
     from deodar.figures._file import FigureFile
-    from deodar.recording import files, places
+    from deodar.recording import files
 
     if args.record.suffix.lower() == ".toml":
-        figure, data = _from_file(args), None
-        names = [panel.variable for panel in figure.panels]
+        figure = _from_file(args)
         record = Path(args.variables[0]) if args.variables else None
-        out: Path = args.out or places.free(Path(), args.record.stem, ".pdf")
-    else:
-        data = record = files.load_record(args.record)
-        names = variables(data, args.variables)
-        kind = "path" if args.gif is not None else args.kind
-        figure = FigureFile(panels(args, data, names, kind), letters="none")
-        place = files.locate(args.record)[0]
-        base = place.parent.resolve().name if place.stem == "record" else place.stem
-        out = args.out or places.free(Path(), f"{base}-plot", ".png")
+        return Drawn(figure, [panel.variable for panel in figure.panels], record, args.record.stem)
+    data = files.open_record(args.record)
+    names = variables(data, args.variables)
+    kind = "path" if args.gif is not None else args.kind
+    figure = FigureFile(panels(args, data, names, kind), letters="none")
+    place = files.locate(args.record)[0]
+    base = place.parent.resolve().name if place.stem == "record" else place.stem
+    return Drawn(figure, names, data, f"{base}-plot")
+
+
+def _claimed(args: argparse.Namespace, stem: str) -> Path:
+    """Return the path of the figure, which may be written."""
+    # start-up time: these bring JAX
+    from deodar.figures import _files
+    from deodar.recording import places
+
+    ending = ".pdf" if args.record.suffix.lower() == ".toml" else ".png"
+    out: Path = args.out or places.free(Path(), stem, ending)
     _files.claim(out, args.force)
-    world = None if args.gif is None or data is None else _world(data, names)
-    made = figure.draw(record)
-    if args.save_as is not None:
-        _save_as(args, figure, [float(n) for n in made.get_size_inches()])
-    if world is not None and data is not None:
-        _write_video(args, panels(args, data, names, "path")[0].view(data), world)
-    _files.save_figure(made, out, args.force)
+    return out
+
+
+def _say(args: argparse.Namespace, drawn: Drawn, out: Path) -> None:
+    """Print what was drawn into which files."""
     also = {"gif": args.gif, "figure": args.save_as}
     if args.json:
-        kinds = dict(zip(names, figure.kinds(record), strict=True))
+        kinds = dict(zip(drawn.names, drawn.figure.kinds(drawn.record), strict=True))
         rest = {key: str(path) for key, path in also.items() if path is not None}
         print(codec.text({"out": str(out), "kinds": kinds, **rest}))
     else:
         written = [out, *(path for path in also.values() if path is not None)]
-        print(f"Drew {', '.join(dict.fromkeys(names))} into {' and '.join(map(_options.shown, written))}")
+        names = ", ".join(dict.fromkeys(drawn.names))
+        print(f"Drew {names} into {' and '.join(map(_options.shown, written))}")
+
+
+def _followed(args: argparse.Namespace) -> int:
+    """Draw again whenever the record has grown, until it is complete or Ctrl-C is pressed."""
+    # start-up time: these bring JAX
+    from deodar.figures import _files
+    from deodar.recording.record import about
+
+    if args.gif is not None or args.save_as is not None:
+        args.wrong("--follow writes one figure again and again; leave out --gif and --save-as")
+    drawn = out = seen = None
+    try:
+        while not args.record.exists():
+            time.sleep(args.interval)
+        while True:
+            drawn = _drawn(args)
+            opened = drawn.figure.records(drawn.record)
+            complete = all(about(data).get("complete", True) for data in opened)
+            sizes = [dict(data.sizes) for data in opened]
+            if sizes != seen and (complete or all(min(size.values(), default=0) for size in sizes)):
+                if out is None:
+                    out = _claimed(args, drawn.stem)
+                    print(f"Drawing into {_options.shown(out)}; Ctrl-C ends", file=sys.stderr, flush=True)
+                _files.save_figure(drawn.figure.draw(drawn.record), out, force=args.force or seen is not None)
+                seen = sizes
+            if complete:
+                break
+            time.sleep(args.interval)
+    except KeyboardInterrupt:
+        pass
+    if drawn is None or out is None or seen is None:
+        print("Stopped before the record held a sample")
+    else:
+        _say(args, drawn, out)
     return 0
 
 
@@ -212,14 +293,16 @@ def _save_as(args: argparse.Namespace, figure: FigureFile, inches: Sequence[floa
     dc.replace(figure, record=str(args.record), width=width, height=height).save(args.save_as, args.force)
 
 
-def _world(data: xarray.Dataset, names: Sequence[str]) -> World:
-    """Return the world of a video, which shows one variable."""
-    # start-up time: this brings JAX
+def _video(args: argparse.Namespace, drawn: Drawn) -> Callable[[], object]:
+    """Return the function that writes the video of a path in the arena of its record."""
+    # start-up time: these bring JAX
+    from deodar.figures import path
     from deodar.recording.repeat import world_of
 
-    if len(names) != 1:
+    data = drawn.figure.records(drawn.record)[0]
+    if len(drawn.names) != 1:
         raise RecordError(
-            f"a video shows one variable, not {len(names)}",
+            f"a video shows one variable, not {len(drawn.names)}",
             where="--gif",
             fix="Name the one that holds x and y, for example pose.output",
         )
@@ -230,16 +313,9 @@ def _world(data: xarray.Dataset, names: Sequence[str]) -> World:
             where="--gif",
             fix="Leave out --gif",
         )
-    return world
-
-
-def _write_video(args: argparse.Namespace, view: View, world: World) -> None:
-    """Write the video of a path in the arena of its record."""
-    # start-up time: this brings JAX
-    from deodar.figures import path
-
+    view = drawn.figure.panels[0].view(data)
     stride = max(1, -(-len(view.times) // path.MOST_FRAMES))
-    path.animate_path(view, args.gif, world, stride=stride, force=args.force)
+    return lambda: path.animate_path(view, args.gif, world, stride=stride, force=args.force)
 
 
 def variables(data: xarray.Dataset, names: list[str]) -> list[str]:

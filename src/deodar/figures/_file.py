@@ -231,6 +231,12 @@ class FigureFile:
             cells = self._cells(record)
             return _panels.draw(cells, self._sized(cells))
 
+    def records(self, record: xarray.Dataset | str | Path | None = None) -> list[xarray.Dataset]:
+        """Return the records of the panels, opened without reading their values."""
+        opened: dict[str, xarray.Dataset] = {}
+        used = [self._data(panel, record, opened) for panel in self.panels]
+        return list({id(data): data for data in used}.values())
+
     def kinds(self, record: xarray.Dataset | str | Path | None = None) -> list[str]:
         """Return the kind of each panel."""
         return [cell.kind.__name__.rpartition(".")[2] for cell in self._cells(record)]
@@ -273,7 +279,7 @@ class FigureFile:
                 fix='Name one: record = "run.zarr" in the file, or deodar plot FILE RECORD',
             )
         if name not in opened:
-            opened[name] = files.load_record(self.folder / name)
+            opened[name] = files.open_record(self.folder / name)
         return opened[name]
 
     def _letter(self, k: int) -> str:

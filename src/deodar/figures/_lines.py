@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from deodar.errors import RecordError
 from deodar.figures import _course, _style
-from deodar.figures._view import TRIAL, View
+from deodar.figures._view import TRIAL, View, values
 
 MOST_TRIALS = 50
 """Most trials drawn as single lines; the mean is that of all trials."""
@@ -44,7 +44,7 @@ def curves(
         )
     many = TRIAL in v.dims and v.sizes[TRIAL] > 1
     ordered = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across)
-    reading = read or (lambda part: ordered[..., part].values)
+    reading = read or (lambda part: values(ordered[..., part]))
     x, flat, mean = _course.reduced(reading, x, view.variable.nbytes / len(x), many)
     colors = _colors(v, others, grid)
     marker: dict[str, Any] = {"marker": "o", "markersize": 3.5, "linestyle": "none"} if len(x) == 1 else {}

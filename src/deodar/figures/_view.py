@@ -10,6 +10,7 @@ import numpy as np
 import xarray
 
 from deodar.errors import RecordError, did_you_mean
+from deodar.recording.record import time_dimension
 
 if TYPE_CHECKING:
     from deodar.worlds._base import World
@@ -129,7 +130,7 @@ class View:
     @property
     def time(self) -> str:
         """The dimension of time: `time`, or `PATH.PORT.time` for a port with its own sampling interval."""
-        return time_dimension(self.variable)
+        return time_dimension(self.variable) or TIME
 
     @property
     def space(self) -> list[str]:
@@ -264,11 +265,23 @@ class View:
         return float(p[0] - half), float(p[-1] + half)
 
 
-def time_dimension(variable: xarray.DataArray) -> str:
-    """Return the name of the dimension of time; `time` for a variable without one."""
-    if TIME in variable.dims:
-        return TIME
-    return next((str(d) for d in variable.dims if str(d).endswith(f".{TIME}")), TIME)
+def values(part: xarray.DataArray) -> np.ndarray:
+    """Return the values of a part of a variable, which may be read from a file here.
+
+    Raises:
+        RecordError: the file is damaged.
+    """
+    try:
+        return np.asarray(part.values)
+    except MemoryError:
+        raise
+    except Exception as error:  # libraries that read untrusted bytes may raise any exception
+        text = " ".join(str(error).split())[:200]
+        raise RecordError(
+            f"cannot be read, its file may be damaged ({type(error).__name__}: {text})",
+            where=str(part.name or ""),
+            fix="Draw another part of it with --time-range",
+        ) from None
 
 
 def _with_unit(name: str, unit: str | None) -> str:

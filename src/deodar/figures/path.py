@@ -16,7 +16,7 @@ from matplotlib.patches import Circle
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _draw, _style, maze
-from deodar.figures._view import View
+from deodar.figures._view import View, values
 from deodar.model import output
 from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
@@ -195,8 +195,8 @@ def _lines(view: View) -> list[np.ndarray]:
             fix="Record a Sensor of place or pose",
         )
     rest = [d for d in v.dims if d not in (view.time, view.space[0])]
-    values = v.transpose(*rest, view.time, view.space[0]).values
-    return list(values.reshape(-1, *values.shape[-2:]))
+    rows = values(v.transpose(*rest, view.time, view.space[0]))
+    return list(rows.reshape(-1, *rows.shape[-2:]))
 
 
 def _arena(world: World) -> Arena:

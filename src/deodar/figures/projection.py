@@ -14,7 +14,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
-from deodar.figures._view import View
+from deodar.figures._view import View, values
 
 ACROSS = False
 
@@ -49,8 +49,9 @@ def size(view: View) -> tuple[float, float]:
 def fill(place: FigureBase, view: View) -> None:
     """Draw into a figure, or into a part of one."""
     pairs, k = _onto(view), view.instant()
-    values = view.one()[k].compute()
-    planes = [_project(values, onto, view) for onto in pairs]
+    shown = view.one()[k]
+    shown = shown.copy(data=values(shown))
+    planes = [_project(shown, onto, view) for onto in pairs]
     rows, columns = _grid(len(pairs))
     grid = list(place.subplots(rows, columns, squeeze=False).flat)
     threshold = view.threshold if view.reduce == "maximum" else None

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
-from deodar.figures._view import TRIAL, View
+from deodar.figures._view import TRIAL, View, values
 
 ACROSS = False
 
@@ -71,9 +71,9 @@ def paint(ax: Axes, view: View) -> None:
 
 
 def _plane(ax: Axes, view: View, k: int) -> None:
-    values = view.one()[k].values
-    colors = _color.of([values], view, view.threshold)
-    _map.paint(ax, values, view, view.space[0], view.space[1], colors)
+    shown = values(view.one()[k])
+    colors = _color.of([shown], view, view.threshold)
+    _map.paint(ax, shown, view, view.space[0], view.space[1], colors)
     _color.bar(ax.figure, colors, ax, view.label(), view.threshold)
     _title(ax, view.note())
 
@@ -93,14 +93,14 @@ def _values(ax: Axes, view: View, k: int) -> None:
         )
     if not swept:
         across = v[TRIAL].values if TRIAL in v.dims else np.zeros(1)
-        ax.plot(across, np.atleast_1d(v.values), "o", markersize=3, color=_style.COLORS[0])
+        ax.plot(across, np.atleast_1d(values(v)), "o", markersize=3, color=_style.COLORS[0])
         ax.set_xlabel("trial" if TRIAL in v.dims else "")
         ax.margins(x=0.05)
         if TRIAL not in v.dims:
             ax.set_xticks([])
     else:
         x = v[swept[0]].values
-        rows = v.transpose(swept[0], ...).values.reshape(len(x), -1)
+        rows = values(v.transpose(swept[0], ...)).reshape(len(x), -1)
         if rows.shape[1] > 1:
             ax.plot(x, rows, "o", markersize=2, alpha=0.35, color=_style.COLORS[0], markeredgewidth=0)
         label = f"mean of {rows.shape[1]} trials" if rows.shape[1] > 1 else None

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
-from deodar.figures._view import View
+from deodar.figures._view import View, values
 
 ACROSS = False
 MOST = 4
@@ -58,9 +58,9 @@ def fill(place: FigureBase, view: View) -> None:
     steps = _steps(view)
     rows, columns = _grid(len(steps))
     grid = place.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    values = view.one()[steps].values
-    colors = _color.of([values], view, view.threshold)
-    for ax, k, shown in zip(grid.flat, steps, values, strict=False):
+    planes = values(view.one()[steps])
+    colors = _color.of([planes], view, view.threshold)
+    for ax, k, shown in zip(grid.flat, steps, planes, strict=False):
         if len(view.space) == 2:
             _map.paint(ax, shown, view, view.space[0], view.space[1], colors)
         else:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _style
-from deodar.figures._view import View
+from deodar.figures._view import View, values
 
 ACROSS = True
 MOST_TIMES = 4000
@@ -58,12 +58,12 @@ def paint(ax: Axes, view: View) -> None:
             fix="Type: --kind snapshot" if len(view.space) < 3 else "Type: --kind projection",
         )
     every = 1 + len(view.times) // MOST_TIMES  # more columns than a printer has dots
-    values, times, space = view.one()[::every].values, view.times[::every], view.space[0]
-    colors = _color.of([values], view, view.threshold)
+    shown, times, space = values(view.one()[::every]), view.times[::every], view.space[0]
+    colors = _color.of([shown], view, view.threshold)
     half = 0.5 * float(np.diff(times).mean())
     extent = (times[0] - half, times[-1] + half, *view.extent(space))
     norm: Any = colors.norm
-    ax.imshow(values.T, extent=extent, origin="lower", cmap=colors.cmap, norm=norm, aspect="auto")
+    ax.imshow(shown.T, extent=extent, origin="lower", cmap=colors.cmap, norm=norm, aspect="auto")
     ax.set_xlim(times[0], times[-1])
     ax.set_xlabel(view.axis_label(view.time))
     ax.set_ylabel(view.axis_label(space))

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _course, _draw, _lines, _style
-from deodar.figures._view import TRIAL, View
+from deodar.figures._view import TRIAL, View, values
 
 ACROSS = True
 PLACE = "place"
@@ -71,7 +71,7 @@ def _found(v: xarray.DataArray, view: View) -> list[Sample]:
         return [_nearest(view, np.atleast_1d(np.asarray(p, float))) for p in view.places]
     part = v.isel({view.time: slice(None, None, 1 + v.nbytes // SEARCHED)})
     others = [d for d in v.dims if d not in view.space]
-    top = part.max(others).transpose(*view.space).values
+    top = part.copy(data=values(part)).max(others).transpose(*view.space).values
     return [tuple(map(int, np.unravel_index(int(np.argmax(top)), top.shape)))]
 
 
@@ -94,16 +94,16 @@ def _reader(v: xarray.DataArray, view: View, found: list[Sample]) -> _course.Rea
     each other in one piece.
     """
     low = [min(k) for k in zip(*found, strict=True)]
-    block = {
+    around = {
         d: slice(a, max(k) + 1) for d, a, k in zip(view.space, low, zip(*found, strict=True), strict=True)
     }
     others = [d for d in v.dims if d not in (TRIAL, view.time, *view.space)]
     order = [*others, *([TRIAL] if TRIAL in v.dims else []), view.time, *view.space]
-    near = v.isel(block).transpose(*order)
+    near = v.isel(around).transpose(*order)
 
     def read(part: slice) -> np.ndarray:
-        values = near.isel({view.time: part}).values
-        return np.stack([values[(..., *(np.subtract(k, low)))] for k in found])
+        block = values(near.isel({view.time: part}))
+        return np.stack([block[(..., *(np.subtract(k, low)))] for k in found])
 
     return read
 

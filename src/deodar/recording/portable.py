@@ -195,7 +195,9 @@ def _restored(name: str, array: np.ndarray, about: Mapping[str, Any]) -> np.ndar
         out = labels[codes] if good else codes
     else:
         out = array.astype(np.dtype(about["type"]))
-        good = "sha256" not in about or _digest(out) == about["sha256"]  # of growing arrays each chunk has its own
+        good = (
+            "sha256" not in about or _digest(out) == about["sha256"]
+        )  # of growing arrays each chunk has its own
     if not good:
         raise RecordError(
             f"is damaged: the values of {name!r} are not those that were written",
