@@ -12,6 +12,7 @@ import { Notices } from "./pages/Notices";
 import { ProblemsPage } from "./pages/ProblemsPage";
 import { Splash } from "./pages/Splash";
 import { useView } from "./pages/view";
+import { Timeline } from "./replay/Timeline";
 import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
 import { FailureBar } from "./transport/FailureBar";
@@ -51,6 +52,7 @@ function Page() {
   return (
     <div className={classes.studio}>
       <Header />
+      <Timeline />
       <FailureBar />
       <main className={classes.dock}>
         <Dock />

@@ -566,7 +566,7 @@ export type ResetRun = {
 // not catch up; `overruns` is the number of times it fell behind. `longest` is the limit up to which the step
 // may grow to keep up (None: the step is constant), and `lengthened` is the number of longer steps taken.
 // `busy` is a phrase for the compilation in progress; `failure` lists why the run stopped; `world` is a
-// phrase for the world that the sensors read.
+// phrase for the world that the sensors read. `timeline`: see there; None: no moment can be shown.
 export type RunClock = {
   type: "clock";
   frame: number;
@@ -589,6 +589,7 @@ export type RunClock = {
   world: string;
   senses: boolean;
   pushing: string;
+  timeline: TimelineView | null;
 };
 
 // Write the document to `path`, or to its own file if `path` is empty.
@@ -610,6 +611,20 @@ export type SceneView = {
   marks: MarkView[];
 };
 
+// Show the last frame up to a document time; None: the present. Other pages are not affected.
+export type Seek = {
+  type: "seek";
+  request?: number;
+  time: number | null;
+};
+
+// Show the frame that is `frames` later than the one shown; a negative number goes back.
+export type SeekFrames = {
+  type: "seek_frames";
+  request?: number;
+  frames: number;
+};
+
 // Change a parameter of an element (`kernel.0.sigma`), or the document parameter if `element` is empty.
 //
 // `value` has the format of documents: numbers, text, parts with their kind, axes by their key. Changes with
@@ -629,6 +644,22 @@ export type Speed = {
   type: "speed";
   request?: number;
   factor: number | null;
+};
+
+// The moments that the page can show, in document time, and the one that it shows.
+//
+// `frames` is their number. From `full_from` on none was removed to save memory. `time` is the moment shown
+// (None: the present), and `frame` its number from 0 on. `second` is the document time in one second of real
+// time, and `step` the smallest difference of two moments.
+export type TimelineView = {
+  first: number;
+  last: number;
+  frames: number;
+  full_from: number;
+  frame: number;
+  time: number | null;
+  second: number;
+  step: number;
 };
 
 export type ToPage =
@@ -674,6 +705,8 @@ export type ToServer =
   | ResetRun
   | Speed
   | Lengthen
+  | Seek
+  | SeekFrames
   | MeasureCosts
   | PushInput
   | Release

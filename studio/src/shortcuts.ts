@@ -5,6 +5,7 @@ import { useEffect } from "react";
 import { ask, useDialogs } from "./pages/dialogs";
 import { open, save, saveAs } from "./pages/flows";
 import { useView } from "./pages/view";
+import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
 import { request } from "./socket";
 import { useStudio } from "./store";
 import { play, reset, step } from "./transport/run";
@@ -19,12 +20,30 @@ export type Shortcut = {
   repeats?: boolean;
   // Also while the user types; the typed value is committed first.
   typing?: boolean;
+  // Only where the page shows the past, and no control has the focus that uses the key itself.
+  past?: boolean;
 };
 
 export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Space"], does: "Play or pause", run: play },
   { keys: ["."], does: "Step", run: step, repeats: true },
   { keys: ["Shift+R"], does: "Reset", run: reset },
+  {
+    keys: ["ArrowLeft"],
+    does: "Previous frame of the past",
+    run: () => seekFrames(-1),
+    repeats: true,
+    past: true,
+  },
+  {
+    keys: ["ArrowRight"],
+    does: "Next frame of the past",
+    run: () => seekFrames(1),
+    repeats: true,
+    past: true,
+  },
+  { keys: ["Home"], does: "First frame of the past", run: seekFirst, past: true },
+  { keys: ["End"], does: "Last frame of the past", run: seekLast, past: true },
   { keys: ["Ctrl+Z"], does: "Undo", run: () => request({ type: "undo" }), repeats: true },
   { keys: ["Ctrl+Shift+Z", "Ctrl+Y"], does: "Redo", run: () => request({ type: "redo" }), repeats: true },
   { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
@@ -84,6 +103,11 @@ const PRESSED =
   "button, a, summary, input:not([type=range]), [role=menuitem], [role=option], [role=switch], " +
   "[role=checkbox], [role=tab]";
 
+// What the arrow keys, Home and End move where it has the focus.
+const MOVED =
+  "input, select, [role=slider], [role=menu], [role=listbox], [role=tab], [role=radio], .react-flow__node, " +
+  ".world";
+
 export function useShortcuts(): void {
   useEffect(() => {
     // A clicked button keeps the focus, but shows no focus ring: then Space plays. Read on focus, because the
@@ -111,7 +135,8 @@ function onKey(event: KeyboardEvent, focusSeen: boolean): void {
   const typing = isWriting(target, event);
   if (
     (typing && shortcut.typing !== true) ||
-    (event.key === " " && focusSeen && target?.closest(PRESSED) != null)
+    (event.key === " " && focusSeen && target?.closest(PRESSED) != null) ||
+    (shortcut.past === true && (!isPast() || target?.closest(MOVED) != null))
   ) {
     return;
   }

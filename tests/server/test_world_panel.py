@@ -157,3 +157,24 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
 
     with studio(root) as address:
         play(address, story)
+
+
+def test_the_past_of_the_world_is_shown_with_the_path_up_to_that_moment(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        await one.do("watch_world", on=True)
+        for tick in range(5, 61, 5):
+            await one.do("step", n=5)
+            await one.until(lambda tick=tick: one.clock["tick"] == tick and one.clock["timeline"])
+        await one.until(lambda: one.clock["timeline"]["last"] == 60 * 64)
+        there, length = one.said["bodies"]["bodies"][0]["x"], len(path(one))
+        await one.do("seek", time=20 * 64)
+        await one.until(lambda: one.clock["timeline"]["time"] == 20 * 64)
+        then = one.said["bodies"]["bodies"][0]["x"]
+        assert 0.2 < then < there - 0.1
+        assert 1 < len(path(one)) < length and path(one)[-1][0] == pytest.approx(then, abs=0.02)
+        await one.do("seek", time=None)
+        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] == there and len(path(one)) == length)
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        play(address, story)

@@ -20,6 +20,8 @@ import numpy as np
 
 from deodar.errors import ModelError, NotFinite, Problem
 from deodar.live.cost_report import CostReport, said
+from deodar.live.published import PublishedState
+from deodar.live.ring import StateRing
 from deodar.live.trace import Trace, TraceRequest
 from deodar.live.track import Track
 from deodar.model.document import Document
@@ -39,16 +41,6 @@ SAMPLES = 4
 """Number of samples of a time course in one exchange; more would slow a fast run without being visible."""
 
 MOST_LOOKS = 8
-
-
-@dc.dataclass(frozen=True)
-class PublishedState:
-    """Published state of the run at one moment."""
-
-    number: int
-    time: float
-    tick: int
-    arrays: Mapping[PortKey, np.ndarray]
 
 
 @dc.dataclass
@@ -71,6 +63,7 @@ class Engine:
         cost_report: cost of elements, as last measured.
         traces: time courses by their specification; only the engine adds samples.
         track: the world from above, and the paths of its bodies.
+        ring: the states published in the last minute; a reset or another session begins a new one.
     """
 
     def __init__(self, changed: Callable[[], None]) -> None:
@@ -100,6 +93,7 @@ class Engine:
         self.pace = Pace()
         self.cost_report = CostReport()
         self.track = Track()
+        self.ring = StateRing()
         self._thread.start()
 
     # ------------------------------------------------------------------------------------- from other threads
@@ -159,7 +153,8 @@ class Engine:
         self.restart()
 
     def restart(self) -> None:
-        """Clear the time courses and restart the pace."""
+        """Clear the time courses and the stored states, and restart the pace."""
+        self.ring = StateRing()
         for request in self.traces:
             self.traces[request] = Trace()
         self.pace.restart()
@@ -338,7 +333,12 @@ class Engine:
             arrays = self._with_injection(session.read_ports(seen, self._places), session)
         self.track.follow(session)
         moment = (session.time, session.tick) if session is not None else (0.0, 0)
-        self.published = PublishedState(self.published.number + 1, *moment, arrays)
+        track = self.track
+        self.published = PublishedState(
+            self.published.number + 1, *moment, arrays, track.scene, track.trail, len(track.trail.places)
+        )
+        if session is not None and (arrays or not self._places):  # else their reader is being compiled
+            self.ring.add(self.published, now)
         self._shown = now
         self._changed()
 

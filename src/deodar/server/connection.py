@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+import math
 from collections import deque
 from typing import Any
 
@@ -18,10 +19,12 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from deodar import codec
 from deodar.errors import DeodarError
+from deodar.live.published import PublishedState
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
 from deodar.server.message import Message, union
 from deodar.server.project import ConfirmationRequired
+from deodar.server.source import FrameSource
 from deodar.server.to_page import (
     Answer,
     Checked,
@@ -32,9 +35,11 @@ from deodar.server.to_page import (
     ListedProblem,
     Opened,
     RunClock,
+    TimelineView,
     WorldScene,
 )
 from deodar.server.to_server import MESSAGES, Drawn
+from deodar.session.unit import unit_seconds
 
 MOST_ANSWERS = 64
 """Largest number of queued answers; the connection reads no requests from a page that has more."""
@@ -57,6 +62,7 @@ class PageConnection:
         self._ready = True
         self._published = -1
         self._known: dict[str, Any] = {}
+        self._timeline: TimelineView | None = None
         self._session, self._version = -1, -1
         self._malformed = 0
         self._decoder = msgspec.json.Decoder(union(MESSAGES))
@@ -151,21 +157,27 @@ class PageConnection:
         hub, engine = self._hub, self._hub.engine
         spoke = False
         while True:
+            source = hub.source()
+            state = await self._shown(source)
             for message in await self._news_of_state():
                 await self._text(message)
                 spoke = True
-            # an answer is never sent before its change
-            if (self._session, self._version) == (hub.project.session, hub.project.version):
+            # an answer is never sent before its change, and frames belong to the document that was sent
+            now = hub.project.session, hub.project.version
+            if (self._session, self._version) == now and hub.source().identity is source.identity:
                 break
-        published = engine.published
-        sent = published.number != self._published
-        self._published = published.number
+        for message in self._news_of_world(state):
+            await self._text(message)
+            spoke = True
+        sent = state.number != self._published
+        self._published = state.number
         for stream in list(self.page.streams.values()):
-            news = stream.news(engine.session)
+            news = stream.news(source, self.page.moment)
             if news is not None:
                 await self._text(news)
                 sent = spoke = True
-            data = stream.frame(engine) if sent else None
+            trace = None if stream.request is None else source.trace(stream.request)
+            data = stream.frame(state, trace) if sent else None
             if data is not None:
                 await self._socket.send_bytes(data)
                 spoke = True
@@ -173,7 +185,7 @@ class PageConnection:
             await self._text(self._answers.popleft())
             self._room.set()
             spoke = True
-        clock = hub.clock(0)
+        clock = hub.clock(self._timeline)
         if spoke or clock != self._known.get("clock"):
             self._known["clock"] = clock
             self._exchange += 1
@@ -182,6 +194,43 @@ class PageConnection:
         else:
             # the last state contained nothing for this page, which still waits for one that does
             engine.want()
+
+    async def _shown(self, source: FrameSource) -> PublishedState:
+        """Return the state that the page shows, after what it asked for, and keep its timeline."""
+        page, present = self.page, source.present()
+        if page.identity is not source.identity:
+            page.identity, page.moment, page.asked = source.identity, None, None
+        asked, page.asked = page.asked, None
+        kept = page.moment if asked is None else None
+        time = kept.time if kept is not None else None if asked is None else asked.time
+        if present is not None and time is None:
+            page.moment, self._timeline = None, self._moments(source, None)
+            return present
+        places = {stream.place for stream in page.streams.values() if stream.request is None}
+        found = await source.at(
+            -math.inf if time is None else time, 0 if asked is None else asked.further, places
+        )
+        number, state = found or (0, present or PublishedState(0, 0.0, 0, {}))
+        if kept is not None and state.time != kept.time:
+            state = kept  # it is older than all that is stored
+        page.moment, self._timeline = state, self._moments(source, (number, state.time))
+        return state
+
+    def _moments(self, source: FrameSource, at: tuple[int, float] | None) -> TimelineView | None:
+        """Return what the page can show, and the number and time of what it shows (None: the present)."""
+        span, (unit, step) = source.span(), source.time_unit
+        if span is None:
+            return None
+        return TimelineView(
+            first=span.first,
+            last=span.last,
+            frames=span.frames,
+            full_from=span.full_from,
+            frame=span.frames - 1 if at is None else at[0],
+            time=None if at is None else at[1],
+            second=1 / unit_seconds(unit),
+            step=step,
+        )
 
     async def _news_of_state(self) -> list[Message]:
         project = self._hub.project
@@ -200,9 +249,12 @@ class PageConnection:
         if project.checker.found is not None:
             self._new("checked", project.checker.found, out)
         self._new("costs", self._hub.costs(), out)
-        track = self._hub.engine.track
-        self._new("scene", scene.scene(track.scene), out)
-        moved = None if self.page.sent_bodies is None else self.page.sent_bodies.news(track)
+        return out
+
+    def _news_of_world(self, state: PublishedState) -> list[Message]:
+        out: list[Message] = []
+        self._new("scene", scene.scene(state.scene), out)
+        moved = None if self.page.sent_bodies is None else self.page.sent_bodies.news(state)
         return out if moved is None else [*out, moved]
 
     def _new(

@@ -14,8 +14,9 @@ from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import try_in_file_thread
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
+from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
-from deodar.server.to_page import Costs, CostView, Gallery, RunClock, Welcome
+from deodar.server.to_page import Costs, CostView, Gallery, RunClock, TimelineView, Welcome
 from deodar.server.workspace import Workspace
 from deodar.session.meter import Meter
 from deodar.worlds._base import World
@@ -78,12 +79,12 @@ class Hub:
         await try_in_file_thread(read)
         return self._gallery
 
-    def clock(self, frame: int) -> RunClock:
-        """Return the time and status of the run."""
+    def clock(self, timeline: TimelineView | None) -> RunClock:
+        """Return the time and status of the run, and the timeline of a page."""
         engine, published, session = self.engine, self.engine.published, self.engine.session
         injection, meter = engine.injection, Meter() if session is None else engine.pace.meter(session)
         return RunClock(
-            frame=frame,
+            frame=0,
             running=engine.running,
             time=published.time,
             tick=published.tick,
@@ -103,7 +104,12 @@ class Hub:
             world=self.embodiment.label,
             senses=session is not None and bool(session.program.plan.sensors),
             pushing="" if injection is None else injection.element,
+            timeline=timeline,
         )
+
+    def source(self) -> FrameSource:
+        """Return what pages watch: the run."""
+        return RunFrames(self.engine)
 
     def costs(self) -> Costs:
         """Return the cost of the elements as last measured."""

@@ -227,6 +227,7 @@ async def _engine(hub: Hub, page: Page, function: Callable[[], Any]) -> None:
 @handles(to_server.Play)
 async def _play(hub: Hub, page: Page, m: to_server.Play) -> None:
     hub.project.require_run()
+    page.seek(None)
     await _engine(hub, page, lambda: hub.engine.play(True))
 
 
@@ -238,11 +239,13 @@ async def _pause(hub: Hub, page: Page, m: to_server.Pause) -> None:
 @handles(to_server.Advance)
 async def _step(hub: Hub, page: Page, m: to_server.Advance) -> None:
     hub.project.require_run()
+    page.seek(None)
     await _engine(hub, page, lambda: hub.engine.step(m.n))
 
 
 @handles(to_server.ResetRun)
 async def _reset(hub: Hub, page: Page, m: to_server.ResetRun) -> None:
+    page.seek(None)
     await _engine(hub, page, lambda: hub.engine.reset(m.seed))
 
 
@@ -255,6 +258,16 @@ async def _speed(hub: Hub, page: Page, m: to_server.Speed) -> None:
 async def _lengthen(hub: Hub, page: Page, m: to_server.Lengthen) -> None:
     hub.project.require_run()
     await _engine(hub, page, lambda: hub.engine.lengthen(m.longest))
+
+
+@handles(to_server.Seek)
+async def _seek(hub: Hub, page: Page, m: to_server.Seek) -> None:
+    page.seek(m.time)
+
+
+@handles(to_server.SeekFrames)
+async def _seek_frames(hub: Hub, page: Page, m: to_server.SeekFrames) -> None:
+    page.seek_further(m.frames)
 
 
 @handles(to_server.MeasureCosts)

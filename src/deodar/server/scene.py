@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from deodar.live.track import Track, Trail
+from deodar.live.published import PublishedState
+from deodar.live.track import Trail
 from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, SceneView, WorldScene
 from deodar.worlds import _scene
 
@@ -38,13 +39,12 @@ class SentBodies:
         self._taken = 0
         self._bodies: list[BodyView] = []
 
-    def news(self, track: Track) -> Bodies | None:
+    def news(self, state: PublishedState) -> Bodies | None:
         """Return the bodies and the part of their path that the page does not have; None if nothing moved."""
-        seen, path = track.scene, track.trail
+        seen, path, count = state.scene, state.trail, state.passed
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
-        fresh = path is not self._path
+        fresh = path is not self._path or count < self._taken
         taken = 0 if fresh else self._taken
-        count = len(path.places)  # the engine's thread may add positions meanwhile
         if not fresh and count == taken and bodies == self._bodies:
             return None
         self._path, self._taken, self._bodies = path, count, bodies

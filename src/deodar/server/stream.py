@@ -7,14 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.errors import DeodarError, Problem
-from deodar.live.engine import Engine
+from deodar.live.published import PublishedState
 from deodar.live.trace import Trace, TraceRequest
-from deodar.model import find
 from deodar.numerics.axes import Axes, Axis
 from deodar.server import frames, view
+from deodar.server.source import FrameSource
 from deodar.server.to_page import Announced, Lost
 from deodar.session.port_reader import PortKey
-from deodar.session.session import Session
 
 CHANNELS = ("channel", 3)
 """Name and number of samples of the last axis of a picture."""
@@ -32,28 +31,30 @@ class Stream:
         self._trace: Trace | None = None
         self._taken = 0
 
-    def news(self, session: Session | None) -> Announced | Lost | None:
-        """Return the message on the format of the stream if it changed, else None."""
-        form = None if session is None else self._form(session)
+    def news(self, source: FrameSource, past: PublishedState | None) -> Announced | Lost | None:
+        """Return the message on the format of the stream if it changed, else None.
+
+        `past` is the state that the page shows, None for the present, whose arrays may still be missing.
+        """
+        form = self._form(source, past) if source.ready else None
         if form is None or form == self._said:
             return None
         self._said = form
         return form
 
-    def frame(self, engine: Engine) -> bytes | None:
-        """Return the frame to send, or None if there is nothing new."""
+    def frame(self, state: PublishedState, trace: Trace | None) -> bytes | None:
+        """Return the frame to send, or None if there is nothing new; `trace` is the requested time course."""
         if not isinstance(self._said, Announced):
             return None
-        published = engine.published
         if self.request is not None:
-            return self._samples(engine.traces.get(self.request), published.number)
-        array = published.arrays.get(self.place)
+            return self._samples(trace, state.number)
+        array = state.arrays.get(self.place)
         if array is None:
             return None
         values = thin(fold(array, self._axes), self.most, self._said.channels)
         if list(values.shape) != self._said.shape:
             return None  # a state of the previous program
-        return frames.pack(self.number, published.number, published.time, values)
+        return frames.pack(self.number, state.number, state.time, values)
 
     def _samples(self, trace: Trace | None, number: int) -> bytes | None:
         if trace is not self._trace:
@@ -65,18 +66,15 @@ class Stream:
         start = float(samples[0, 0])
         return frames.pack(self.number, number, start, samples - [start, 0.0])
 
-    def _form(self, session: Session) -> Announced | Lost:
-        ident, port = self.place
-        program = session.program
+    def _form(self, source: FrameSource, past: PublishedState | None) -> Announced | Lost:
         try:
-            entry = session.document.by_id().get(ident)
-            if entry is None or ident not in program.plan.row:
-                return _lost(self.number, Problem("", "the element does not exist"))
-            find.port(session.document, f"{entry.path}.{port}")
-            self._axes = program.axes(program.port(ident, port))
-        except (DeodarError, KeyError) as error:
-            problems = error.problems if isinstance(error, DeodarError) else ()
-            return _lost(self.number, problems[0] if problems else Problem(ident, f"has no port {port!r}"))
+            self._axes = source.axes(self.place)
+        except DeodarError as error:
+            return _lost(self.number, error.problems[0])
+        if past is not None and self.request is None:
+            array = past.arrays.get(self.place)
+            if array is None or array.shape != tuple(a.samples for a in self._axes):
+                return _lost(self.number, source.absent)
         if self.request is not None:
             return Announced(stream=self.number, shape=[2], axes=[], folded=[], channels=False)
         channels = is_picture(self._axes)

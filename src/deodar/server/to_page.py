@@ -240,6 +240,24 @@ class Checked(Message, frozen=True, tag="checked"):
     problems: list[ListedProblem]
 
 
+class TimelineView(Data, frozen=True):
+    """The moments that the page can show, in document time, and the one that it shows.
+
+    `frames` is their number. From `full_from` on none was removed to save memory. `time` is the moment shown
+    (None: the present), and `frame` its number from 0 on. `second` is the document time in one second of real
+    time, and `step` the smallest difference of two moments.
+    """
+
+    first: float
+    last: float
+    frames: int
+    full_from: float
+    frame: int
+    time: float | None
+    second: float
+    step: float
+
+
 @MESSAGES.register
 class RunClock(Message, frozen=True, tag="clock"):
     """Time and status of the run. Sent after the frames of the same number, and whenever something changes.
@@ -250,7 +268,7 @@ class RunClock(Message, frozen=True, tag="clock"):
     it will not catch up; `overruns` is the number of times it fell behind. `longest` is the limit up to which
     the step may grow to keep up (None: the step is constant), and `lengthened` is the number of longer steps
     taken. `busy` is a phrase for the compilation in progress; `failure` lists why the run stopped; `world` is
-    a phrase for the world that the sensors read.
+    a phrase for the world that the sensors read. `timeline`: see there; None: no moment can be shown.
     """
 
     frame: int
@@ -273,6 +291,7 @@ class RunClock(Message, frozen=True, tag="clock"):
     world: str
     senses: bool
     pushing: Id
+    timeline: TimelineView | None
 
 
 class CostView(Data, frozen=True):

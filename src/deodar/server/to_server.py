@@ -246,6 +246,20 @@ class Lengthen(Request, frozen=True, kw_only=True, tag="lengthen"):
 
 
 @MESSAGES.register
+class Seek(Request, frozen=True, kw_only=True, tag="seek"):
+    """Show the last frame up to a document time; None: the present. Other pages are not affected."""
+
+    time: float | None
+
+
+@MESSAGES.register
+class SeekFrames(Request, frozen=True, kw_only=True, tag="seek_frames"):
+    """Show the frame that is `frames` later than the one shown; a negative number goes back."""
+
+    frames: Annotated[int, msgspec.Meta(ge=-(2**31), le=2**31 - 1)]
+
+
+@MESSAGES.register
 class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
     """Measure the cost of each element during the run; a `costs` message follows at start and end."""
 

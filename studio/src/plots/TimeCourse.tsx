@@ -10,11 +10,13 @@ import { CourseControls } from "./CourseControls";
 import { exportPng } from "./exportPng";
 import { portAxes } from "./kinds";
 import { axis, frame, type Look } from "./look";
+import { drawMoment } from "./momentLine";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { CalmRange, reading } from "./range";
 import type { TraceSetting } from "./settings";
 import { sideBySide, timeRange } from "./traces";
 import { type ChartOptions, useChart } from "./useChart";
+import { useLatest } from "./useLatest";
 import { useStreams } from "./useStreams";
 
 const ROOM = 0.03;
@@ -48,6 +50,10 @@ export function TimeCourse(props: PlotProps) {
       .join("\n"),
   ).split("\n");
 
+  // A line marks the moment of the past that the page shows.
+  const moment = useStudio((state) => state.clock?.timeline?.time ?? null);
+  const marked = useLatest(moment);
+
   const lives = useRef<Live[]>([]);
   const data = useRef<uPlot.AlignedData>([[]]);
   const span = useRef<[number, number]>([0, 1]);
@@ -66,6 +72,7 @@ export function TimeCourse(props: PlotProps) {
       Math.min(...ends.map((end) => end[0])),
       Math.max(...ends.map((end) => end[1])),
       settings.window,
+      moment,
     );
     data.current = sideBySide(histories, span.current[0]) as uPlot.AlignedData;
     chart.current?.setData(data.current);
@@ -77,7 +84,7 @@ export function TimeCourse(props: PlotProps) {
       draw();
     }
   });
-  useEffect(draw, [visible, settings.window]);
+  useEffect(draw, [visible, settings.window, moment]);
 
   const options = (look: Look): ChartOptions => ({
     ...frame(look),
@@ -105,6 +112,7 @@ export function TimeCourse(props: PlotProps) {
         spanGaps: true,
       })),
     ],
+    hooks: { draw: [(self) => drawMoment(self, marked.current, look)] },
   });
   const { host, chart } = useChart(
     {

@@ -64,10 +64,19 @@ function merged(parts: { times: number[]; values: number[] }[]): Traces {
 }
 
 // The times that are shown: the newest `window` time units, or all. While less than that has passed, the axis
-// is at rest.
-export function timeRange(first: number, last: number, window: number | null): [number, number] {
+// is at rest. A moment of the past is in the middle of the window, as far as the samples reach.
+export function timeRange(
+  first: number,
+  last: number,
+  window: number | null,
+  moment: number | null = null,
+): [number, number] {
   if (window === null) {
     return last > first ? [first, last] : [first, first + 1];
   }
-  return last - first <= window ? [first, first + window] : [last - window, last];
+  if (last - first <= window) {
+    return [first, first + window];
+  }
+  const end = moment === null ? last : Math.min(last, Math.max(first + window, moment + window / 2));
+  return [end - window, end];
 }

@@ -14,8 +14,9 @@ export function Readout() {
   const clock = useThrottled(clockOf);
   const unit = useStudio((state) => state.document?.time_unit ?? "");
   const running = useStudio((state) => state.clock?.running ?? false);
-  const time = clock === null ? "–" : timeText(clock.time, unit, clock.dt);
-  const tick = clock === null ? "" : `step ${countText(clock.tick)}`;
+  const past = clock?.timeline?.time ?? null;
+  const time = clock === null ? "–" : timeText(past ?? clock.time, unit, clock.dt);
+  const tick = clock === null ? "" : past !== null ? "in the past" : `step ${countText(clock.tick)}`;
   const factor = clock === null || !running ? "×–" : factorText(clock.factor);
   const dt =
     clock === null
@@ -31,7 +32,9 @@ export function Readout() {
       <Tooltip label={dt}>
         <div className={classes.time} role="timer" aria-label="Simulated time">
           <div className={classes.number}>{time}</div>
-          <div className={classes.under}>{tick}</div>
+          <div className={classes.under} data-past={past !== null || undefined}>
+            {tick}
+          </div>
         </div>
       </Tooltip>
       <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>

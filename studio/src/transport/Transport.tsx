@@ -19,7 +19,10 @@ import { play, reset, step, useNext } from "./run";
 import classes from "./Transport.module.css";
 
 export function Transport() {
-  const running = useStudio((state) => state.clock?.running ?? false);
+  // in the past, Play returns to the present and continues
+  const running = useStudio(
+    (state) => (state.clock?.running ?? false) && (state.clock?.timeline?.time ?? null) === null,
+  );
   const steps = useNext((state) => state.steps);
   const seed = useNext((state) => state.seed);
   const stepLabel = steps === 1 ? "Step" : `${countText(steps)} steps`;

@@ -3,6 +3,7 @@
 import { create } from "zustand";
 
 import type { Answer } from "../protocol";
+import { isPast, stop } from "../replay/replay";
 import { request } from "../socket";
 import { useStudio } from "../store";
 
@@ -15,14 +16,18 @@ export const useNext = create<Next>(() => ({ steps: 1, seed: null }));
 export const MOST_SEED = 2 ** 32 - 1;
 
 export function play(): Promise<Answer> {
-  return request({ type: useStudio.getState().clock?.running === true ? "pause" : "play" });
+  stop();
+  const running = useStudio.getState().clock?.running === true;
+  return request({ type: running && !isPast() ? "pause" : "play" });
 }
 
 export function step(): Promise<Answer> {
+  stop();
   return request({ type: "step", n: useNext.getState().steps });
 }
 
 export async function reset(): Promise<void> {
+  stop();
   const { seed } = useNext.getState();
   const answer = await request({ type: "reset", seed });
   if ((answer.problems ?? []).length === 0) {

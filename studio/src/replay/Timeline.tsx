@@ -1,0 +1,152 @@
+// The slider over the moments that can be shown. It is always there, so that nothing moves when a run begins.
+
+import { ActionIcon, Button, Slider, Tooltip } from "@mantine/core";
+import {
+  IconChevronLeft,
+  IconChevronRight,
+  IconPlayerPauseFilled,
+  IconPlayerPlay,
+  IconPlayerSkipBack,
+  IconPlayerSkipForward,
+} from "@tabler/icons-react";
+import { type KeyboardEvent, type ReactNode, useEffect } from "react";
+
+import { type Studio, useStudio } from "../store";
+import { countText, timeText } from "../transport/format";
+import { useThrottled } from "../transport/throttled";
+import { thinnedShare } from "./playback";
+import { replay, seek, seekFirst, seekFrames, seekLast, showPresent, stop, useReplay } from "./replay";
+import { ReplaySpeed } from "./ReplaySpeed";
+import classes from "./Timeline.module.css";
+
+const ICON = 15;
+// The slider grows with every frame of a run; it need not be drawn with every frame.
+const CALM_MS = 50;
+
+const timelineOf = (state: Studio) => state.clock?.timeline ?? null;
+
+export function Timeline() {
+  const known = useThrottled(timelineOf, CALM_MS);
+  const unit = useStudio((state) => state.document?.time_unit ?? "");
+  const session = useStudio((state) => state.session);
+  const { playing, held } = useReplay();
+  useEffect(() => () => useReplay.setState({ playing: null, held: null }), [session]);
+
+  const off = known === null || known.frames < 2;
+  const past = known?.time != null;
+  const [first, last] = known === null || off ? [0, 1] : [known.first, known.last];
+  const at = Math.min(last, Math.max(first, held ?? known?.time ?? last));
+  const text = (time: number) => timeText(time, unit, known?.step ?? 1);
+  const shown = held ?? known?.time ?? null;
+  const thinned = known === null || off ? 0 : thinnedShare(known);
+
+  const key = (event: KeyboardEvent) => {
+    const action = KEYS[event.key];
+    if (action !== undefined && !off && !event.ctrlKey && !event.metaKey && !event.altKey) {
+      event.preventDefault();
+      event.stopPropagation();
+      action();
+    }
+  };
+  const act = (label: string, icon: ReactNode, run: () => void, more = "") => (
+    <Tooltip label={label}>
+      <ActionIcon
+        aria-label={label.replace(/ \(.*/, "")}
+        size={24}
+        disabled={off}
+        onClick={run}
+        className={more}
+      >
+        {icon}
+      </ActionIcon>
+    </Tooltip>
+  );
+  const on = (direction: 1 | -1) => playing?.direction === direction;
+  return (
+    <div className={classes.timeline} role="toolbar" aria-label="Replay" data-past={past || undefined}>
+      <div className={classes.buttons}>
+        {act("First frame (Home)", <IconPlayerSkipBack size={ICON} />, seekFirst, classes.wide)}
+        {act(
+          on(-1) ? "Stop replay" : "Replay backward",
+          on(-1) ? (
+            <IconPlayerPauseFilled size={ICON} />
+          ) : (
+            <IconPlayerPlay size={ICON} className={classes.back} />
+          ),
+          () => replay(-1),
+        )}
+        {act("Previous frame (←)", <IconChevronLeft size={ICON + 2} />, () => seekFrames(-1))}
+        {act("Next frame (→)", <IconChevronRight size={ICON + 2} />, () => seekFrames(1))}
+        {act(
+          on(1) ? "Stop replay" : "Replay forward",
+          on(1) ? <IconPlayerPauseFilled size={ICON} /> : <IconPlayerPlay size={ICON} />,
+          () => replay(1),
+        )}
+        {act("Last frame (End)", <IconPlayerSkipForward size={ICON} />, seekLast, classes.wide)}
+        <ReplaySpeed disabled={off} />
+      </div>
+      <div className={classes.slider} onKeyDownCapture={key}>
+        {thinned > 0 && (
+          <div
+            className={classes.thinned}
+            style={{ width: `${100 * thinned}%` }}
+            title={`Before ${text(known?.full_from ?? 0)} some frames were removed to save memory`}
+          />
+        )}
+        <Slider
+          size={4}
+          thumbSize={14}
+          label={null}
+          thumbLabel="Moment"
+          thumbValueText={() => (shown === null ? "present" : text(shown))}
+          min={first}
+          max={last}
+          step={(last - first) / 1e4}
+          precision={9}
+          value={at}
+          disabled={off}
+          onChange={(time) => {
+            stop();
+            useReplay.setState({ held: time });
+            seek(time);
+          }}
+          onChangeEnd={() => useReplay.setState({ held: null })}
+        />
+      </div>
+      <div className={`${classes.moment} numbers`} role="status" aria-label="Moment shown">
+        <span className={classes.time}>{shown === null ? "" : text(shown)}</span>
+        <span className={classes.count}>
+          {off || known === null
+            ? ""
+            : past
+              ? `frame ${countText(known.frame + 1)} of ${countText(known.frames)}`
+              : ""}
+        </span>
+      </div>
+      <Tooltip label="Back to the present">
+        <Button
+          size="compact-xs"
+          w={50}
+          px={0}
+          variant={past ? "filled" : "default"}
+          disabled={!past}
+          aria-label="Live"
+          onClick={showPresent}
+        >
+          Live
+        </Button>
+      </Tooltip>
+    </div>
+  );
+}
+
+const KEYS: Record<string, () => void> = {
+  ArrowLeft: () => seekFrames(-1),
+  ArrowDown: () => seekFrames(-1),
+  ArrowRight: () => seekFrames(1),
+  ArrowUp: () => seekFrames(1),
+  PageDown: () => seekFrames(-10),
+  PageUp: () => seekFrames(10),
+  Home: seekFirst,
+  End: seekLast,
+};
