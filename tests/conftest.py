@@ -4,8 +4,10 @@ hypothesis.
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -63,6 +65,10 @@ optimised steps save more time than their compilation takes: `make test` runs th
 """
 
 
+GARBAGE = (20_000, 20, 20)
+"""Thresholds of the three generations of garbage; by default the first one is 700."""
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of this suite."""
     group = parser.getgroup("deodar")
@@ -89,6 +95,23 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ["XLA_FLAGS"] = " ".join(dict.fromkeys((*flags, *QUICK_PROGRAMS)))
     if config.getoption("--write-durations"):
         config.pluginmanager.register(durations.Recorder(), "durations-recorder")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """Search for garbage rarely, and never among what collecting the tests has made.
+
+    A search visits all objects that may be part of a cycle. Modules and tests are half a million, which
+    stay, and tracing a program makes enough others to start a search with the default thresholds.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(*GARBAGE)
+        gc.enable()
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

@@ -36,12 +36,16 @@ def test_the_waves_are_an_orthonormal_basis(boundary: str, samples: int) -> None
 
 
 def applied(kernels: list[dd.Gaussian], axes: tuple[Axis, ...], y: np.ndarray, planned: bool) -> np.ndarray:
+    """Convolve, in double precision, by one program: each operation alone would be compiled by itself."""
+    chosen = interaction.choices(kernels, axes) if planned else {}
+
+    @jax.jit
+    def convolved(y: jax.Array) -> jax.Array:
+        weights = interaction.prepare(kernels, axes, np.dtype("float64"), chosen)
+        return interaction.apply(interaction.mix(kernels, axes, weights), axes, y, chosen)
+
     with jax.enable_x64(True):
-        chosen = interaction.choices(kernels, axes) if planned else {}
-        mixture = interaction.mix(
-            kernels, axes, interaction.prepare(kernels, axes, np.dtype("float64"), chosen)
-        )
-        return np.asarray(interaction.apply(mixture, axes, jax.numpy.asarray(y), chosen))
+        return np.asarray(convolved(jax.numpy.asarray(y)))
 
 
 @pytest.mark.parametrize("way", ["waves", "folded", "fourier"])
