@@ -1,11 +1,12 @@
 """Attacks the studio and prints what became of it: `python benchmarks/attacks.py
-[edits|documents|messages|kills|soak ...] [--size N] [--seed N]`.
+[edits|documents|messages|kills|records|soak ...] [--size N] [--seed N]`.
 
 `edits`: 8 pages edit one document at once, 10,000 edits. `documents`: 2,090 mutated documents. `messages`:
-3,614 hostile messages. `kills`: 50 kills while a page saves. `soak`: pages come and go for 600 seconds, and
-the studio must hold no more afterwards than before: memory, files and sockets, Python objects, tasks,
-threads, sessions, connections, with the limits in `tests/attacks/soak.py`. `--size` sets another number. The
-attacks are in `tests/attacks`; the tests run them in a quick form. Ends with 1 if an attack found something.
+3,614 hostile messages. `kills`: 50 kills while a page saves. `records`: 50 runs are killed while they record.
+`soak`: pages come and go for 600 seconds, and the studio must hold no more afterwards than before: memory,
+files and sockets, Python objects, tasks, threads, sessions, connections, with the limits in
+`tests/attacks/soak.py`. `--size` sets another number. The attacks are in `tests/attacks`; the tests run them
+in a quick form. Ends with 1 if an attack found something.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from tests.attacks import documents, edits, kills, messages, soak
+from tests.attacks import documents, edits, kills, messages, records, soak
 
 
 def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
@@ -45,6 +46,14 @@ def _kills(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     return f"{found.kills} kills, {found.saves} saves", found.errors
 
 
+def _records(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = records.attack(folder, size, seed)
+    return (
+        f"{found.kills} kills, {found.samples} samples kept, at most {found.worst:.2f} s lost,"
+        f" {found.resumed} runs resumed"
+    ), found.errors
+
+
 def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
     found = soak.attack(folder, size, seed)
     return f"{found.visits} visits; after a quarter {found.early}, at the end {found.late}", found.errors
@@ -55,6 +64,7 @@ ATTACKS: dict[str, tuple[Callable[[Path, int, int], tuple[str, list[str]]], int]
     "documents": (_documents, 2090),
     "messages": (_messages, 3614),
     "kills": (_kills, 50),
+    "records": (_records, 50),
     "soak": (_soak, 600),
 }
 

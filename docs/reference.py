@@ -57,6 +57,7 @@ SCRIPT = [
     "Model",
     "Session",
     "simulate",
+    "resume",
     "Experiment",
     "save",
     "load",

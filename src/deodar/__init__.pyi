@@ -30,6 +30,7 @@ from deodar.analysis.statistics import wilson as wilson
 from deodar.analysis.thresholds import descend as descend
 from deodar.analysis.thresholds import thresholds as thresholds
 from deodar.batch.cores import use_cores as use_cores
+from deodar.batch.resume import resume as resume
 from deodar.batch.simulate import simulate as simulate
 from deodar.couplings.adaptive_weights import AdaptiveWeights as AdaptiveWeights
 from deodar.couplings.color_histogram import ColorHistogram as ColorHistogram

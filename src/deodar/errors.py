@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 Severity = Literal["problem", "warning"]
@@ -47,6 +47,13 @@ class DeodarError(Exception):
         processes.
         """
         return _again, (type(self), self.args, self.__dict__)
+
+    def advise(self, text: str) -> None:
+        """Append a sentence to what the message says to do."""
+        *others, last = self.problems
+        fix = f"{last.fix.rstrip('.')}. {text}" if last.fix else text
+        self.problems = (*others, replace(last, fix=fix))
+        self.args = (self._text(),)
 
     def _text(self) -> str:
         if len(self.problems) == 1:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.attacks import documents, kills, messages, soak
+from tests.attacks import documents, kills, messages, records, soak
 
 
 def test_mutated_documents_are_read_or_refused_without_other_errors() -> None:
@@ -25,6 +25,12 @@ def test_hostile_messages_are_answered_and_the_studio_continues(tmp_path: Path) 
 def test_a_killed_studio_leaves_a_complete_file(tmp_path: Path) -> None:
     outcome = kills.attack(tmp_path, 1, seed=4)
     assert outcome.errors == [] and outcome.kills == 1
+
+
+def test_a_killed_run_leaves_its_record_and_is_resumed_to_the_same_end(tmp_path: Path) -> None:
+    outcome = records.attack(tmp_path, 5, seed=4)
+    assert outcome.errors == [] and outcome.kills == 5 and outcome.resumed == len(records.CASES)
+    assert outcome.samples > 100
 
 
 def test_closed_pages_leave_no_data_in_the_studio(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ import json
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,6 +19,7 @@ from deodar.model import output
 from deodar.papers import Demonstration
 from deodar.papers.spa import demo
 from deodar.recording import files
+from deodar.recording.growing import GrowingRecord
 from tests.recording.models import model
 
 
@@ -65,10 +67,55 @@ RUN = [
 ]
 
 
-def test_without_a_terminal_the_result_is_written_to_the_user_data_folder(
+def test_a_run_on_a_full_disk_ends_before_its_first_sample_and_leaves_nothing(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(RUN) == 1
+    told = capsys.readouterr()
+    assert "No space left on device" in told.err and not told.out
+    assert [p.name for p in here.iterdir()] == ["small.json"]
+
+
+def test_a_disk_that_fills_during_a_run_keeps_its_record_which_is_resumed(
+    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with monkeypatch.context() as filling:
+        filling.setattr(output, "sync", lambda path: None)
+        write, calls = GrowingRecord._write, []
+
+        def refuse(self: GrowingRecord, *given: Any) -> None:
+            calls.append(0)
+            if len(calls) > 1:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            write(self, *given)
+
+        filling.setattr(GrowingRecord, "_write", refuse)
+        filling.setattr("deodar.session.run.CHUNK_SECONDS", 0.0)
+        assert main([*RUN, "--snapshots", "5"]) == 1
+    told = capsys.readouterr().err
+    assert "No space left on device" in told and "is kept" in told and "--resume" in told
+    kept = files.load_record(here / "result")
+    expected = dd.simulate(model(), 20, record=["u.activation"], every=5)
+    n = kept.sizes["time"]
+    assert 0 < n < 5 and kept["u.activation"].equals(expected["u.activation"][:n])
+    monkeypatch.setattr(output, "sync", lambda path: None)
+    assert main(["run", "result", "--resume", "--no-progress"]) == 0
+    assert files.load_record(here / "result")["u.activation"].equals(expected["u.activation"])
+
+
+@pytest.fixture
+def recorded(here: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """A record on another disk, and the command that runs it again here."""
+    with monkeypatch.context() as roomy:
+        roomy.setattr(output, "sync", lambda path: None)
+        dd.simulate(model(), 20, record=["u.activation"], every=5, out=here.parent / "old")
+    return ["run", str(here.parent / "old"), "--out", "result", "--no-progress"]
+
+
+def test_without_a_terminal_a_repetition_is_written_to_the_user_data_folder(
+    here: Path, recorded: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(recorded) == 1
     told = capsys.readouterr()
     assert "No space left on device" in told.err and not told.out
     found = sorted((here.parent / "data").rglob("record.zarr"))
@@ -80,46 +127,50 @@ def test_without_a_terminal_the_result_is_written_to_the_user_data_folder(
 
 
 def test_json_states_the_path_where_the_record_was_written_instead(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    here: Path, recorded: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main([*RUN, "--json"]) == 1
+    assert main([*recorded, "--json"]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert Path(answer["record"]).exists() and answer["instead_of"] == "result" and answer["complete"]
 
 
-def test_the_temporary_folder_is_the_second_choice(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_temporary_folder_is_the_second_choice(
+    here: Path, recorded: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     (here.parent / "data" / "deodar").write_text("in the way")
-    assert main(RUN) == 1
+    assert main(recorded) == 1
     assert len(list((here.parent / "temporary").rglob("record.zarr"))) == 1
     assert str(here.parent / "temporary") in capsys.readouterr().err
 
 
 def test_the_user_is_asked_for_a_folder_until_one_can_be_written(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    here: Path, recorded: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(
         sys, "stdin", Terminal(f"{here}\n{here.parent / 'nowhere'}\n{here.parent / 'second'}\n")
     )
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    assert main(RUN) == 1
+    assert main(recorded) == 1
     told = capsys.readouterr().err
     assert told.count("Another folder") == 3 and "does not exist" in told
     assert (here.parent / "second" / "result-001" / "record.zarr").is_dir()
 
 
-def test_an_empty_answer_writes_to_the_user_data_folder(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_empty_answer_writes_to_the_user_data_folder(
+    here: Path, recorded: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(sys, "stdin", Terminal("\n"))
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    assert main(RUN) == 1
+    assert main(recorded) == 1
     assert len(list((here.parent / "data").rglob("record.zarr"))) == 1
 
 
 def test_if_no_folder_can_be_written_the_error_names_all_of_them(
-    here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    here: Path, recorded: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (here.parent / "data" / "deodar").write_text("in the way")
     monkeypatch.setattr("tempfile.tempdir", str(here))
-    assert main(RUN) == 1
+    assert main(recorded) == 1
     told = capsys.readouterr().err
     assert "result" in told and str(here.parent / "data") in told and "is lost" in told
 
@@ -131,7 +182,7 @@ def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
     monkeypatch.setattr(files, "LARGEST_NETCDF", 10)
     assert main([*RUN, "--format", "netcdf"]) == 1
     assert "NetCDF 3 holds" in capsys.readouterr().err
-    assert files.load_record(here / "result-001" / "record.zarr").sizes["time"] == 5
+    assert files.load_record(here / "result" / "record.zarr").sizes["time"] == 5
 
 
 def test_a_demo_that_cannot_be_written_is_written_to_the_user_data_folder(

@@ -50,7 +50,7 @@ def test_an_opened_record_reads_only_what_is_selected(
 def test_a_damaged_record_names_itself_when_opened(data: xarray.Dataset, tmp_path: Path) -> None:
     path = files.save_record(data, tmp_path / "record.zarr")
     (path / "zarr.json").write_text("{")
-    with pytest.raises(dd.errors.RecordError, match="record.zarr"):
+    with pytest.raises(dd.errors.RecordError, match=r"record\.zarr"):
         dd.open_record(path)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from deodar.batch import pieces
+from deodar.batch.output import OutputPart, RunOutput, Sampling
 from deodar.batch.points import Points
 from deodar.batch.progress import Shown, bar
 from deodar.batch.request import SimulationRequest
@@ -33,7 +35,7 @@ from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
 Spread = Callable[
-    [Model, World | None, Sequence[SimulationRequest], int, Callable[[int], None]],
+    [Model, World | None, Sequence[SimulationRequest], int, RunOutput | None, Callable[[int], None]],
     list[pieces.PieceResult | None],
 ]
 """A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
@@ -49,12 +51,14 @@ def compute(
     world: World | None = None,
     progress: Shown = None,
     spread: Spread | None = None,
+    out: RunOutput | OutputPart | None = None,
 ) -> pieces.PieceResult:
     """Compute a whole run of `simulate`, or one piece of it.
 
     If all copies diverge, the error is returned beside the record.
 
-    `spread` runs pieces in worker processes.
+    `spread` runs pieces in worker processes. With `out` the samples are written to a file; the result has
+    none.
     """
     sweep, precision, device = request.sweep, request.precision, request.device
     doc = require_model(model).document
@@ -82,7 +86,8 @@ def compute(
     nodes, _ = resolve(doc)
     size = memory.copy_bytes(nodes, precision, points.rebuilt(), len(numbers))
     cut = _cut(size, names, points, request)
-    recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * count * copies.size
+    kept = 0 if out is not None else count * copies.size
+    recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * kept
     beside = min(request.workers or 0, cut.count) if cut.count > 1 else 0
     memory.require(
         nodes,
@@ -97,21 +102,16 @@ def compute(
     request = dc.replace(request, duration=float(request.duration), seed=seed, record=paths)
     labels, grid = list(numbers) if names else None, points.by_path
     asked = {"trials": labels, "sweep": grid, "workers": request.workers, "device": device}
+    if isinstance(out, RunOutput):
+        out.plan(doc, cut, asked)
     if cut.count > 1:
         jobs = cut.requests(dc.replace(request, dt=float(step)), labels, grid)
-        parts = _in_pieces(model, jobs, request.workers, world, steps, progress, spread)
-        data, complete = (
-            pieces.joined(cut, parts, asked),
-            sum(part is not None and part.complete for part in parts),
-        )
-        if complete < len(parts):
-            raise Interrupted(
-                f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data
-            )
-        errors = [part.lost for part in parts if part is not None]
-        return pieces.PieceResult(
-            data, True, errors[0] if all(error is not None for error in errors) else None
-        )
+        assert not isinstance(out, OutputPart)
+        workers, run_there = request.workers, None
+        if spread is not None and workers is not None:
+            run_there = functools.partial(spread, model, world, jobs, workers, out)
+        parts = _in_pieces(model, jobs, world, steps, progress, run_there, out)
+        return _whole(cut, parts, asked)
     stopped, nothing = False, None
     with stoppable() as check:
         more_points, more_trials = _missing(request.width, points, len(numbers))
@@ -135,17 +135,24 @@ def compute(
         run = Run(program, doc, float(step), seed, [*numbers, *[numbers[-1]] * more_trials], world, swept)
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
-        store = _Store(program, found, filled, count)
         settings = {name: getattr(request, name) for name in PROVENANCE}
         about = provenance(doc, run, **settings, **asked, batch=cut.batch)
+        sampling = Sampling(start, gap, count, float(step))
+        part = out.part(0) if isinstance(out, RunOutput) else out
+        store = _Store(program, found, filled, count if part is None else 0)
         try:
             with bar(steps, progress) as shown:
+                if part is not None:
+                    places = [(ident, port, p) for (ident, port), p in zip(ports, found, strict=True)]
+                    part.begin(program, places, sampling, about)
+                    part.record(run, steps, found, check, shown)
+                else:
 
-                def between(done: int) -> None:
-                    check()
-                    shown(done)
+                    def between(done: int) -> None:
+                        check()
+                        shown(done)
 
-                run.record(steps, found, start, gap, store.collect, between)
+                    run.record(steps, found, start, gap, store.collect, between)
         except KeyboardInterrupt:
             stopped = True
         except NotFinite as error:
@@ -153,10 +160,22 @@ def compute(
                 raise
             store.fill()
             nothing = error
+    kept = {
+        copy: error
+        for copy, error in run.lost.items()
+        if all(k < n for k, n in zip(copy, copies.shape, strict=True))
+    }
+    reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in kept.items()}
+    said = f"stopped at {run.clock.time:g} of {request.duration:g} {doc.time_unit}"
     # start-up time: these import xarray, which takes 0.3 s; sessions do not need it
     from deodar.recording.diverged import marked
     from deodar.recording.record import dataset
 
+    if part is not None:
+        if stopped:
+            raise Interrupted(said, None)
+        part.end(reasons)
+        return pieces.EMPTY._replace(lost=nothing)
     times = doc.t0 + (start + np.arange(store.taken) * gap) * float(step)
     data = dataset(
         doc,
@@ -169,16 +188,22 @@ def compute(
         points.by_path,
         about | {"complete": not stopped},
     )
-    kept = {
-        copy: error
-        for copy, error in run.lost.items()
-        if all(k < n for k, n in zip(copy, copies.shape, strict=True))
-    }
-    reasons = {points.place(copy, names is not None): error.problems[0].what for copy, error in kept.items()}
     data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
     if stopped:
-        raise Interrupted(f"stopped at {run.clock.time:g} of {request.duration:g} {doc.time_unit}", data)
+        raise Interrupted(said, data)
     return pieces.PieceResult(data, True, nothing)
+
+
+def _whole(
+    cut: pieces.Pieces, parts: Sequence[pieces.PieceResult | None], settings: Mapping[str, Any]
+) -> pieces.PieceResult:
+    """Return the result of all pieces; raise Interrupted if some are not complete."""
+    data = pieces.joined(cut, parts, settings)
+    complete = sum(part is not None and part.complete for part in parts)
+    if complete < len(parts):
+        raise Interrupted(f"stopped when {complete} of {len(parts)} pieces of the batch were complete", data)
+    errors = [part.lost for part in parts if part is not None]
+    return pieces.PieceResult(data, True, errors[0] if all(error is not None for error in errors) else None)
 
 
 def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tuple[int, int]:
@@ -195,13 +220,13 @@ def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tupl
 def _in_pieces(
     model: Model,
     jobs: Sequence[SimulationRequest],
-    count: int | None,
     world: World | None,
     steps: int,
     progress: Shown,
-    spread: Spread | None,
+    run_there: Callable[[Callable[[int], None]], list[pieces.PieceResult | None]] | None,
+    out: RunOutput | None,
 ) -> list[pieces.PieceResult | None]:
-    """Compute the pieces one after another, or in `count` worker processes."""
+    """Compute the pieces one after another, or all by `run_there`, in worker processes."""
     parts: list[pieces.PieceResult | None] = [None] * len(jobs)
     with stoppable() as check, bar(steps * len(jobs), progress) as shown:
 
@@ -209,11 +234,15 @@ def _in_pieces(
             check()
             shown(done)
 
-        if count is not None and spread is not None:
-            return spread(model, world, jobs, count, between)
+        if run_there is not None:
+            return run_there(between)
         for k, job in enumerate(jobs):
+            if out is not None and k in out.done:
+                parts[k] = pieces.EMPTY
+                continue
+            part = None if out is None else out.part(k)
             try:
-                parts[k] = compute(model, job, world, lambda done, k=k: between(k * steps + done))
+                parts[k] = compute(model, job, world, lambda done, k=k: between(k * steps + done), out=part)
             except Interrupted as error:
                 parts[k] = pieces.PieceResult(error.data, False)
                 break

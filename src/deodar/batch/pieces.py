@@ -24,9 +24,13 @@ class PieceResult(NamedTuple):
     diverged.
     """
 
-    data: xarray.Dataset
+    data: xarray.Dataset | None
     complete: bool
     lost: NotFinite | None = None
+
+
+EMPTY = PieceResult(None, True)
+"""The result of a complete piece whose record is in a file."""
 
 
 BATCH_BYTES = 8 * 2**20
@@ -140,9 +144,10 @@ def joined(
     from deodar.recording import diverged
 
     begun = [part for part in parts if part is not None]
-    complete = [part.data for part in begun if part.complete]
+    whole = [part for part in begun if part.complete]
+    complete, all_begun = ([p.data for p in some if p.data is not None] for some in (whole, begun))
     copies = [*(settings.get("sweep") or ()), *(["trial"] if settings.get("trials") is not None else [])]
-    kept = diverged.alike(complete or _abreast([part.data for part in begun]), copies)
+    kept = diverged.alike(complete or _abreast(all_begun), copies)
     data = kept[0] if kept else xarray.Dataset()
     if len(kept) > 1:
         data = xarray.concat(
@@ -160,7 +165,7 @@ def joined(
             | settings
             | {
                 "batch": pieces.batch,
-                "complete": len(complete) == len(parts),
+                "complete": len(whole) == len(parts),
             }
         )
         data.attrs[KEY] = codec.line(about)

@@ -7,13 +7,15 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar.batch.compute import compute
+from deodar.batch.output import RunOutput
 from deodar.batch.progress import Shown
 from deodar.batch.request import SimulationRequest
 from deodar.batch.workers import run as in_workers
-from deodar.errors import RunWarning
+from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
 from deodar.model.model import Model
 from deodar.parameters import real
 from deodar.session.run import MOST_STEPS
@@ -48,6 +50,9 @@ def simulate(
     batch: int | None = None,
     device: str | None = None,
     accuracy: str = "default",
+    out: str | Path | None = None,
+    snapshots: float | None = None,
+    force: bool = False,
 ) -> xarray.Dataset:
     """Run a model and return its record.
 
@@ -85,6 +90,12 @@ def simulate(
         device: device of the run: cpu, gpu, or one of several as gpu:1; none: the CPU.
         accuracy: default (at most 1e-4 off in activation), or exact: every kernel by its matrix, even where
             that is slower. Double precision is always exact, and so are elements of which a width is swept.
+        out: write the record to this place during the run: a name that ends in .zarr, or a folder,
+            which gets the record and the model. Memory does not grow with what is recorded, and if the
+            process is killed the record ends less than a second before (`dd.resume` continues it).
+        snapshots: with `out`: document time between two stored states, from which `dd.resume` continues;
+            none: about every 30 s of wall time.
+        force: with `out`: whether to replace an existing record.
 
     Returns:
         A Dataset with one variable for each path; dimensions: sweep paths, `trial` (if given), `time`, axes.
@@ -97,6 +108,8 @@ def simulate(
             pieces, if any.
         DeviceError: the device does not exist.
         WorkerError: a part of the model cannot be sent to another process, or a process has died.
+        OutputExists: `out` exists.
+        OutputError: samples cannot be written; those before are in the file.
     """
     require_model(model)
     steps = expected_steps(duration, model.document.step if dt is None else dt)
@@ -112,12 +125,53 @@ def simulate(
     request = SimulationRequest(
         duration, dt, seed, record, every, trials, sweep, precision, workers, batch, device, accuracy
     )
-    data, _, lost = compute(model, request, world, progress, in_workers)
+    file = None if out is None else RunOutput(Path(out), force, snapshots)
+    return warned(model, request, world, progress, file)
+
+
+def warned(
+    model: Model,
+    request: SimulationRequest,
+    world: World | None,
+    progress: Shown,
+    out: RunOutput | None,
+) -> xarray.Dataset:
+    """Compute a run, in memory or into a file; return its record, with a warning if copies diverged.
+
+    Raises:
+        NotFinite: a single run diverges, or all copies diverge.
+        Interrupted: on Ctrl-C, with the record until then.
+    """
+    data, lost = _computed(model, request, world, progress, out)
     if lost is not None:
         raise lost
     if "diverged" in data.attrs:
-        warnings.warn(str(data.attrs["diverged"]), RunWarning, stacklevel=2)
+        warnings.warn(str(data.attrs["diverged"]), RunWarning, stacklevel=3)
     return data
+
+
+def _computed(
+    model: Model,
+    request: SimulationRequest,
+    world: World | None,
+    progress: Shown,
+    out: RunOutput | None,
+) -> tuple[xarray.Dataset, NotFinite | None]:
+    """Return the record, and the error if all copies diverged."""
+    if out is None:
+        data, _, lost = compute(model, request, world, progress, in_workers)
+        assert data is not None
+        return data, lost
+    try:
+        _, _, lost = compute(model, request, world, progress, in_workers, out)
+    except BaseException as error:
+        data = out.abandon()
+        if isinstance(error, Interrupted):
+            error.data = data if data is not None else error.data
+        elif isinstance(error, DeodarError) and data is not None:
+            error.advise(out.kept(data))
+        raise
+    return out.close(), lost
 
 
 def expected_steps(duration: Any, dt: Any) -> int:

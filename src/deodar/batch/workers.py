@@ -15,8 +15,9 @@ from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 
 from deodar.batch.compute import compute
+from deodar.batch.output import RunOutput
 from deodar.batch.packed import PackedModel
-from deodar.batch.pieces import PieceResult
+from deodar.batch.pieces import EMPTY, PieceResult
 from deodar.batch.pool import Pool
 from deodar.batch.request import SimulationRequest
 from deodar.errors import Interrupted
@@ -51,6 +52,7 @@ def run(
     world: World | None,
     pieces: Sequence[SimulationRequest],
     workers: int,
+    out: RunOutput | None,
     between: Callable[[int], None],
 ) -> list[PieceResult | None]:
     """Run the pieces in `workers` processes, and return their records.
@@ -62,6 +64,8 @@ def run(
         world: the world of its sensors; every worker has a copy of it.
         pieces: the simulation of each piece.
         workers: number of processes.
+        out: the file that receives the record of each piece when it is complete; pieces that it has are not
+            run again.
         between: function that is called from time to time with the number of completed steps of all pieces; a
             KeyboardInterrupt that it raises stops all.
 
@@ -70,13 +74,18 @@ def run(
         WorkerError: a part of the model cannot be sent to another process, or a process has died.
     """
     packed = PackedModel.of(model, world)
-    parts: list[PieceResult | None] = [None] * len(pieces)
+    known = set() if out is None else set(out.done)
+    parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(len(pieces))]
     with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces))) as pool:
-        waiting = [WorkerTask(packed, piece, path, k) for k, piece in enumerate(pieces)][::-1]
+        waiting = [WorkerTask(packed, piece, path, k) for k, piece in enumerate(pieces)]
+        waiting = [task for task in waiting[::-1] if task.number not in known]
         while waiting or pool.busy:
             while waiting and pool.idle:
                 pool.give(waiting[-1].number, work, waiting.pop())
             for number, part in pool.wait(LOOK_EVERY):
+                if out is not None and part.data is not None:
+                    out.part(number).write(part.data, part.complete)
+                    part = part._replace(data=None)
                 parts[number] = part
             if not board[-1]:
                 try:

@@ -135,7 +135,7 @@ def add_view(parser: argparse.ArgumentParser) -> None:
     )
 
 
-class Drawn(NamedTuple):
+class DrawnFigure(NamedTuple):
     """What a call draws: the figure, its variables, its record, and that record's name."""
 
     figure: FigureFile
@@ -164,7 +164,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _drawn(args: argparse.Namespace) -> Drawn:
+def _drawn(args: argparse.Namespace) -> DrawnFigure:
     """Return what the arguments select."""
     # start-up time: these bring JAX
     from deodar.figures._file import FigureFile
@@ -173,14 +173,14 @@ def _drawn(args: argparse.Namespace) -> Drawn:
     if args.record.suffix.lower() == ".toml":
         figure = _from_file(args)
         record = Path(args.variables[0]) if args.variables else None
-        return Drawn(figure, [panel.variable for panel in figure.panels], record, args.record.stem)
+        return DrawnFigure(figure, [panel.variable for panel in figure.panels], record, args.record.stem)
     data = files.open_record(args.record)
     names = variables(data, args.variables)
     kind = "path" if args.gif is not None else args.kind
     figure = FigureFile(panels(args, data, names, kind), letters="none")
     place = files.locate(args.record)[0]
     base = place.parent.resolve().name if place.stem == "record" else place.stem
-    return Drawn(figure, names, data, f"{base}-plot")
+    return DrawnFigure(figure, names, data, f"{base}-plot")
 
 
 def _claimed(args: argparse.Namespace, stem: str) -> Path:
@@ -195,7 +195,7 @@ def _claimed(args: argparse.Namespace, stem: str) -> Path:
     return out
 
 
-def _say(args: argparse.Namespace, drawn: Drawn, out: Path) -> None:
+def _say(args: argparse.Namespace, drawn: DrawnFigure, out: Path) -> None:
     """Print what was drawn into which files."""
     also = {"gif": args.gif, "figure": args.save_as}
     if args.json:
@@ -293,7 +293,7 @@ def _save_as(args: argparse.Namespace, figure: FigureFile, inches: Sequence[floa
     dc.replace(figure, record=str(args.record), width=width, height=height).save(args.save_as, args.force)
 
 
-def _video(args: argparse.Namespace, drawn: Drawn) -> Callable[[], object]:
+def _video(args: argparse.Namespace, drawn: DrawnFigure) -> Callable[[], object]:
     """Return the function that writes the video of a path in the arena of its record."""
     # start-up time: these bring JAX
     from deodar.figures import path

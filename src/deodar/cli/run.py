@@ -6,7 +6,7 @@ import argparse
 import contextlib
 import sys
 import warnings
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from deodar.model.document import Document
     from deodar.model.model import Model
-    from deodar.recording.repeat import Repetition
+    from deodar.recording.repeat import Difference, Repetition
 
 HELP = "run a model and record it, or run a record again and compare"
 EPILOG = """\
@@ -41,6 +41,7 @@ OF_A_RECORD = (
     "precision",
     "workers",
     "accuracy",
+    "snapshots",
 )
 """Options whose values a record contains."""
 
@@ -95,6 +96,17 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)"
     )
     parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="continue a RECORD that was killed or stopped; with --duration make a complete one longer",
+    )
+    parser.add_argument(
+        "--snapshots",
+        type=float,
+        metavar="T",
+        help="time between two stored states for --resume (default: about every 30 s of wall time)",
+    )
+    parser.add_argument(
         "--out",
         "-o",
         type=Path,
@@ -126,6 +138,8 @@ def run(args: argparse.Namespace) -> int:
     if args.live or args.cost:
         return _live.run(args)
     _live.refuse_alone(args)
+    if args.resume:
+        return _resume(args)
     return _repeat(args) if _is_record(args.file) else _simulate(args)
 
 
@@ -159,7 +173,7 @@ def _simulate(args: argparse.Namespace) -> int:
     place = _Place(args, model.name)
     step = model.document.step if args.dt is None else args.dt
 
-    def simulated(duration: float, progress: bool | None = False) -> xarray.Dataset:
+    def simulated(duration: float, progress: bool | None = False, **into: Any) -> xarray.Dataset:
         return simulate(
             model,
             duration,
@@ -175,16 +189,61 @@ def _simulate(args: argparse.Namespace) -> int:
             workers=args.workers,
             device=args.device,
             accuracy=args.accuracy or "default",
+            **into,
         )
 
-    data, stopped = None, ""
+    data, stopped, out = None, "", place.folder()
+    progress = False if args.no_progress or args.json else None
     try:
         with _said_here():
             _confirm(args, args.duration, step, simulated)
-            data = simulated(args.duration or 0.0, False if args.no_progress or args.json else None)
+            data = simulated(
+                args.duration or 0.0, progress, out=out, snapshots=args.snapshots, force=args.force
+            )
     except Interrupted as error:
         data, stopped = error.data, str(error)
-    return _finish(args, place, data, model.document, stopped, None)
+    return _finish(args, _Written(out, place), data, model.document, stopped, None)
+
+
+def _resume(args: argparse.Namespace) -> int:
+    # start-up time: these bring JAX
+    from deodar.batch.resume import resume
+    from deodar.recording import files, provenance
+    from deodar.recording.record import about
+
+    given = [
+        f"--{name}" for name in OF_A_RECORD if name != "duration" and getattr(args, name) is not None
+    ] + [f"--{name}" for name in ("out", "force") if getattr(args, name)]
+    if given:
+        args.wrong(f"a run is resumed as it began, in its folder, so {', '.join(given)} cannot be given")
+    old = files.open_record(args.file)
+    made, doc = about(old), provenance.document(about(old))
+    old.close()
+    _options.use_cores(args.cores, provenance.cores_of(made))
+    stopped = ""
+    try:
+        with _said_here():
+            data = resume(
+                args.file,
+                args.duration,
+                _options.world(args.world),
+                args.trust,
+                False if args.no_progress or args.json else None,
+                lambda found: _accepts(args, found),
+            )
+    except Interrupted as error:
+        data, stopped = error.data, str(error)
+    return _finish(args, _Written(args.file, None), data, doc, stopped, None)
+
+
+def _accepts(args: argparse.Namespace, found: Sequence[Difference]) -> bool:
+    """Say what differs from the machine of the record, and ask whether to continue."""
+    listed = "; ".join(map(str, found))
+    print(f"deodar run: the rest of the run will not have the same bits: {listed}", file=sys.stderr)
+    if args.yes or not sys.stdin.isatty() or not sys.stderr.isatty():
+        return bool(args.yes)
+    print("Continue? [y/N] ", end="", file=sys.stderr, flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
 
 
 def _confirm(
@@ -275,6 +334,13 @@ class _Place:
         self.force: bool = args.force
         folder.claim(self.given or places.free(Path(), name), self.format, self.force)
 
+    def folder(self) -> Path:
+        """Return the folder of the run."""
+        # start-up time: this brings JAX
+        from deodar.recording import places
+
+        return self.given or places.free(Path(), self.name)
+
     def write(self, data: xarray.Dataset, doc: Document, ask: bool) -> tuple[Path, Path, str]:
         """Write the run, or to another folder on failure; return the folder, the record in it, and the reason
         if it is another folder.
@@ -301,10 +367,31 @@ class _Place:
         return out, folder.write(data, doc, out, format)
 
 
+class _Written:
+    """The output of a run that was written during the run."""
+
+    def __init__(self, path: Path, place: _Place | None) -> None:
+        self.path, self.place = path, place
+        self.given, self.name = path, path.name
+
+    def write(self, data: xarray.Dataset, doc: Document, ask: bool) -> tuple[Path, Path, str]:
+        """Convert the record to the requested format, if that is another one."""
+        # start-up time: these bring JAX
+        from deodar.recording import files, folder
+
+        record = files.locate(self.path)[0]
+        if self.place is None or self.place.format == "zarr":
+            return self.path, record, ""
+        try:
+            return self.path, folder.convert(self.path, self.place.format), ""
+        except (OutputError, RecordError) as error:
+            return self.path, record, str(error)
+
+
 def _finish(
     args: argparse.Namespace,
-    place: _Place,
-    data: xarray.Dataset,
+    place: _Place | _Written,
+    data: xarray.Dataset | None,
     doc: Document,
     stopped: str,
     done: Repetition | None,
@@ -312,13 +399,14 @@ def _finish(
     # start-up time: these bring JAX
     from deodar.recording.files import SUFFIXES
 
-    if stopped and not data.sizes.get("time", 0):
+    if stopped and (data is None or not data.sizes.get("time", 0)):
         print(
             "deodar run:"
             f" {_options.paragraph([stopped, 'Nothing had been recorded, so nothing was written'])}",
             file=sys.stderr,
         )
         return 1
+    assert data is not None
     out, record, failed = place.write(data, doc, not args.json)
     args.format = next(k for k, suffix in SUFFIXES.items() if suffix == record.suffix)
     good = not stopped and (done is None or done.faithful)
@@ -340,7 +428,8 @@ def _finish(
         )
         return 1
     if failed:
-        print(f"deodar run: {_options.paragraph([failed, f'{wrote} instead', look])}", file=sys.stderr)
+        instead = f"{wrote} as {record.name} instead" if isinstance(place, _Written) else f"{wrote} instead"
+        print(f"deodar run: {_options.paragraph([failed, instead, look])}", file=sys.stderr)
         return 1
     if done is not None and (done.differences or not done.same_bits):
         print(

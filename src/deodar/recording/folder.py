@@ -8,8 +8,9 @@ from pathlib import Path
 
 import xarray
 
-from deodar.errors import OutputExists
+from deodar.errors import DeodarError, OutputExists
 from deodar.model import files as documents
+from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, places, table
 
@@ -37,6 +38,28 @@ def claim(path: Path, format: str, force: bool = False) -> None:
         raise OutputExists("exists and is not a regular file", where=str(model), fix="Choose another name")
 
 
+def begin(doc: Document, path: Path, force: bool = False) -> None:
+    """Create the folder of a run whose record will grow, with its model; a replaced record is removed.
+
+    Raises:
+        OutputExists: the folder exists; with `force`: it cannot be that of a run.
+        OutputError: it cannot be written.
+    """
+    claim(path, "zarr", force)
+    new = not path.exists()
+    try:
+        path.mkdir(exist_ok=True)
+        documents.save(doc, path / MODEL, force=True)
+    except OSError as error:
+        raise output.failed(path, error) from None
+    except DeodarError:
+        if new:
+            places.clear(path)
+        raise
+    places.clear(path / record_name("zarr"))
+    _drop_others(path, "zarr")
+
+
 def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: bool = False) -> Path:
     """Write record and model; a new folder is complete when it appears.
 
@@ -56,6 +79,19 @@ def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: b
     else:
         places.write_folder(path, fill)
     return path / name
+
+
+def convert(path: Path, format: str) -> Path:
+    """Replace the record of a run, a Zarr folder, by one in another format; return its path.
+
+    Raises:
+        OutputError: the system refused; the Zarr folder is still there.
+        RecordError: the format cannot hold the record; the same.
+    """
+    data = files.load_record(path / record_name("zarr"))
+    new = files.save_record(data, path / record_name(format), format)
+    places.clear(path / record_name("zarr"))
+    return new
 
 
 def _drop_others(path: Path, format: str) -> None:

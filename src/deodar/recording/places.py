@@ -39,6 +39,21 @@ def require_parent(path: Path) -> None:
         raise OutputError(f"the folder {str(parent)!r} cannot be written to", where=str(path))
 
 
+def clear(path: Path) -> None:
+    """Remove an existing folder or file that may be replaced.
+
+    Raises:
+        OutputError: the system refused.
+    """
+    try:
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
+    except OSError as error:
+        raise output.failed(path, error) from None
+
+
 def write_folder(path: Path, fill: Callable[[Path], None], replace: bool = False) -> None:
     """Fill a folder beside its final path, flush it to the disk, and rename it: it is complete or absent."""
     beside = old = None

@@ -100,22 +100,35 @@ def repeat(
         RecordError: the record has no provenance.
         Untrusted: its document names a function, and `trust` is not given.
     """
+    model, settings = request(data, trust)
+    settings["device"] = device or settings["device"]
+    world = world or world_of(data)
+    new = simulate(model, world=world, progress=progress, **settings)
+    return compare(data, new)
+
+
+def request(data: xarray.Dataset, trust: bool = False) -> tuple[Model, dict[str, Any]]:
+    """Return the model of a record, and the arguments of `simulate` that made it.
+
+    Raises:
+        RecordError: the record has no provenance, or a session made it.
+        Untrusted: its document names a function, and `trust` is not given.
+    """
     made = _made(data)
+    if "session" in made:
+        raise RecordError(
+            "was recorded from a session, which may be changed while it runs, so it cannot be run again",
+            fix="Run its model: the file model.json in the folder of the record",
+        )
     try:
         model = Model(document=provenance.document(made), trusted=trust)
         settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
         settings |= {"record": _recorded(made, model), "sweep": made["sweep"] or None}
-        settings |= {
-            "workers": made.get("workers"),
-            "batch": made.get("batch"),
-            "device": device or made.get("device"),
-        }
+        settings |= {key: made.get(key) for key in ("workers", "batch", "device")}
         settings |= {"accuracy": made.get("accuracy", "default")}
     except (KeyError, TypeError, ValueError) as error:
         raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None
-    world = world or _world(made.get("world"))
-    new = simulate(model, world=world, progress=progress, **settings)
-    return compare(data, new)
+    return model, settings
 
 
 def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:
@@ -150,7 +163,7 @@ def compare(old: xarray.Dataset, new: xarray.Dataset) -> Repetition:
     shown = {
         name: value for name, value in largest.items() if name in a.data_vars or name in b.data_vars or value
     }
-    return Repetition(new, _differences(before, after), shown, same, times)
+    return Repetition(new, differences(before, after), shown, same, times)
 
 
 def _common(old: xarray.Dataset, new: xarray.Dataset) -> tuple[xarray.Dataset, xarray.Dataset]:
@@ -171,7 +184,8 @@ def _made(data: xarray.Dataset) -> dict[str, Any]:
     return made
 
 
-def _differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> tuple[Difference, ...]:
+def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> tuple[Difference, ...]:
+    """Return the versions, the device, the machine and the world that differ between two provenances."""
     then, now = before.get("made_by", {}), after.get("made_by", {})
     out = [
         Difference(k, str(then.get(k, "unknown")), str(now.get(k, "unknown")))

@@ -34,6 +34,9 @@ from deodar.worlds._base import World
 CHUNK_SECONDS = 0.2
 """Wall time of a chunk, in seconds; progress, Ctrl-C and non-finite values are handled between chunks."""
 
+PROBE_STEPS = 20
+"""Steps of the first chunk (a guess: enough to measure a fast model, little time for a slow one)."""
+
 MOST_STEPS = 2**44
 """Largest number of steps from time 0: 557 years at a step of 1 ms.
 
@@ -61,6 +64,8 @@ class Run:
         self.exchange = Exchange(doc, world)
         self.load(program, doc)
         self.pace = 0.0
+        self.probe = PROBE_STEPS
+        """Steps of the first chunk, which measures the pace."""
         self.tolerated = 0
         """Number of copies of a batch that may diverge; their errors are stored in `lost`.
 
@@ -250,8 +255,8 @@ class Run:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
 
     def _chunk_steps(self) -> int:
-        """Return the number of steps that take about CHUNK_SECONDS; the first chunk is a short probe."""
-        return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else 20
+        """Return the number of steps that take about CHUNK_SECONDS; the first chunk measures the pace."""
+        return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else self.probe
 
     # ------------------------------------------------------------------------------------------------- worlds
 

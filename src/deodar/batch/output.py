@@ -1,0 +1,358 @@
+"""The file of a run: its samples are written during the run, and its state from time to time."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from deodar import codec
+from deodar.batch.pieces import Pieces
+from deodar.compiler.executable import Executable
+from deodar.compiler.program import Port
+from deodar.errors import DeodarError, RecordError
+from deodar.model.document import Document
+from deodar.numerics.axes import shape
+from deodar.recording import provenance, stored
+from deodar.session import checkpoint
+from deodar.session.run import Run
+
+if TYPE_CHECKING:
+    import xarray
+
+    from deodar.recording.growing import GrowingRecord, Region
+
+CHECKPOINT = "state.npz"
+"""File of the last state, in the folder of the record."""
+
+CHECKPOINT_SECONDS = 30.0
+"""Wall time between two stored states, in seconds, unless a document time is given (a guess)."""
+
+
+class Sampling(NamedTuple):
+    """The samples of a run: after `start` steps and then after each `gap`, `most` of them."""
+
+    start: int
+    gap: int
+    most: int
+    dt: float
+
+    def times(self, doc: Document, first: int, n: int) -> np.ndarray:
+        """Return the times of `n` samples from number `first` on."""
+        return doc.t0 + (self.start + (first + np.arange(n)) * self.gap) * self.dt
+
+
+class RunOutput:
+    """The record of a run, written during the run.
+
+    Args:
+        path: a name ending in .zarr, or a folder, which gets the record and the model.
+        force: whether an existing record, or the folder of a run, is replaced.
+        snapshots: document time between two stored states; None: about every 30 s of wall time.
+        resume: whether to continue an incomplete record.
+
+    Raises:
+        OutputExists: the path exists; with `force`: it is neither a record nor the folder of a run.
+        OutputError: it cannot be written.
+    """
+
+    def __init__(
+        self, path: Path, force: bool = False, snapshots: float | None = None, resume: bool = False
+    ) -> None:
+        # start-up time: these import xarray
+        from deodar.recording import files, folder
+
+        self.force, self.snapshots = force, snapshots
+        self.bare = path.suffix.lower() == files.SUFFIXES["zarr"]
+        self.path = path
+        self.record = files.locate(path)[0] if resume else path if self.bare else path / "record.zarr"
+        self.state: tuple[dict[str, Any], list[np.ndarray]] | None = None
+        self.resumes, self.longer = resume, dict[str, Any]()
+        if resume:
+            if (self.record / CHECKPOINT).exists():  # else the run begins again
+                self.state = checkpoint.read(self.record / CHECKPOINT)
+        elif self.bare:
+            files.claim(path, "zarr", force)
+        else:
+            folder.claim(path, "zarr", force)
+        self.writer: GrowingRecord | None = None
+        self.reasons: dict[tuple[int, ...], str] = {}
+        self.done: list[int] = list(self.state[0]["done"]) if self.state is not None else []
+
+    def lengthen(self, duration: float) -> None:
+        """Let a resumed run last longer than it did.
+
+        Raises:
+            RecordError: it was cut into pieces, of which only the last state of one is stored.
+        """
+        if self.state is None:
+            return
+        if self.state[0]["pieces"] > 1:
+            raise RecordError(
+                "is a run in several pieces, which cannot be made longer",
+                where=str(self.path),
+                fix="Run its model again, for the whole duration",
+            )
+        self.longer = {"duration": duration}
+        self.done.clear()
+
+    def kept(self, data: xarray.Dataset) -> str:
+        """Return what to say of the record of a run that ended with an error."""
+        times = data["time"].values
+        end = f"up to time {times[-1]:g} is" if times.size else "has no samples, but is"
+        return f"The record {end} kept: {self.path}. deodar run FOLDER --resume continues it"
+
+    def plan(self, doc: Document, cut: Pieces, settings: Mapping[str, Any]) -> None:
+        """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
+        self.doc, self.cut, self.settings = doc, cut, {**settings, "batch": cut.batch}
+        self.grid: dict[str, list[float]] = settings["sweep"]
+        self.labels: list[int] | None = settings["trials"]
+
+    def part(self, number: int) -> OutputPart:
+        """Return the part of the record that a piece of the run writes."""
+        first = number * self.cut.length
+        mine = slice(first, min(first + self.cut.length, self.cut.total))
+        region = tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in self.sizes().items())
+        return OutputPart(self, number, region)
+
+    def sizes(self) -> dict[str, int]:
+        """Return the dimensions of the copies of the whole run, with their lengths."""
+        trials = {} if self.labels is None else {"trial": len(self.labels)}
+        return {path: len(values) for path, values in self.grid.items()} | trials
+
+    def begin(self, empty: xarray.Dataset) -> GrowingRecord:
+        """Create the record; `empty` has no samples. A resumed record is opened instead."""
+        # start-up time: these import xarray
+        from deodar.recording import files, folder, places
+        from deodar.recording.growing import GrowingRecord
+
+        if self.writer is None:
+            if self.resumes:
+                self.writer = self._opened()
+            else:
+                if self.bare:
+                    files.claim(self.record, "zarr", self.force)
+                    places.clear(self.record)
+                else:
+                    folder.begin(self.doc, self.path, self.force)
+                piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
+                self.writer = GrowingRecord(self.record, empty, piece=piece)
+        return self.writer
+
+    def _opened(self) -> GrowingRecord:
+        """Open the record of a resumed run."""
+        # start-up time: this imports xarray
+        from deodar.recording.growing import GrowingRecord
+
+        samples = self.state[0]["samples"] if self.state is not None else 0
+        return GrowingRecord.resumed(self.record, {"time": samples})
+
+    def close(self) -> xarray.Dataset:
+        """Complete the record and return it, opened."""
+        # start-up time: these import xarray
+        from deodar.recording import diverged, files
+
+        writer = self._opened() if self.writer is None else self.writer  # a resumed run may add no sample
+        lost = None
+        if self.reasons:
+            writer.commit()
+            for copy in self.reasons:
+                writer.blank(copy)
+            lost = diverged.coordinate(self.sizes(), self.reasons)
+        writer.close(True, lost, self.longer)
+        return files.open_record(self.record)
+
+    def abandon(self) -> xarray.Dataset | None:
+        """Close the record of a run that did not come to its end, and return it, opened.
+
+        It is None if nothing was recorded. An error of the disk is not raised again.
+        """
+        # start-up time: this imports xarray
+        from deodar.recording import files
+
+        if self.writer is None:
+            return None
+        with contextlib.suppress(DeodarError):
+            self.writer.close(False)
+        with contextlib.suppress(DeodarError):
+            return files.open_record(self.record)
+        return None
+
+
+class OutputPart:
+    """The part of a record that one piece of a run writes."""
+
+    def __init__(self, out: RunOutput, number: int, region: Region) -> None:
+        self.out, self.number, self.region = out, number, region
+        self._saved = time.monotonic()
+        self._saved_at = self._taken = 0
+
+    def begin(
+        self,
+        program: Executable,
+        variables: Sequence[tuple[str, str, Port]],
+        sampling: Sampling,
+        about: Mapping[str, Any],
+    ) -> None:
+        """Set what is written: id, port and program's port of every variable."""
+        self.program, self.variables, self.sampling, self.about = program, variables, sampling, about
+        doc = self.out.doc
+        self.names = [f"{doc.by_id()[ident].path}.{port}" for ident, port, _ in variables]
+
+    def write(self, data: xarray.Dataset, complete: bool) -> None:
+        """Write the record of the piece, which a worker process computed."""
+        # start-up time: this imports xarray
+        from deodar.recording import diverged
+
+        data, reasons = diverged.taken_apart(data, list(self.out.sizes()))
+        writer = self.out.begin(self._like(data)) if self.out.writer is None else self.out.writer
+        values = {str(name): variable.values for name, variable in data.data_vars.items()}
+        writer.put("time", data["time"].values, values, first=0, region=self.region)
+        writer.commit()
+        if not complete:
+            return
+        self.end(reasons)
+        about = {"piece": -1, "samples": data.sizes["time"], "done": self.out.done}
+        stored.write(
+            self.out.record / CHECKPOINT, about | {"pieces": self.out.cut.count}, [], checkpoint.KIND
+        )
+
+    def _like(self, data: xarray.Dataset) -> xarray.Dataset:
+        """Return a record of all copies without samples, from that of a piece."""
+        # start-up time: these import xarray
+        import xarray
+
+        from deodar.recording.record import about
+
+        sizes = self.out.sizes() | {"time": 0}
+        labels = {**self.out.grid, **({} if self.out.labels is None else {"trial": self.out.labels})}
+        coords = {d: (d, np.asarray(v, data[d].dtype), data[d].attrs) for d, v in labels.items()}
+        variables = {
+            name: (v.dims, np.empty([sizes.get(str(d), n) for d, n in v.sizes.items()], v.dtype), v.attrs)
+            for name, v in data.data_vars.items()
+        }
+        rest = {name: v for name, v in data.isel(time=slice(0)).coords.items() if name not in coords}
+        text = codec.line({**about(data), **self.out.settings})
+        return xarray.Dataset(variables, {**rest, **coords}, data.attrs | {provenance.KEY: text})
+
+    def _collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
+        """Write samples from number `k` on."""
+        sizes = [part.stop - part.start for part in self.region]
+        lead = len(self.program.batch.shape)
+        n = seen[0].shape[lead]
+        copies = self._copies(sizes)
+        values = {
+            name: np.array(a[tuple(map(slice, copies))]).reshape(*sizes, *a.shape[lead:])
+            for name, a in zip(self.names, seen, strict=True)
+        }
+        writer = self.out.begin(self._empty()) if self.out.writer is None else self.out.writer
+        times = self.sampling.times(self.out.doc, k, n)
+        writer.put("time", times, values, first=k, region=self.region)
+        self._taken = k + n
+
+    def record(
+        self,
+        run: Run,
+        steps: int,
+        ports: Sequence[Port],
+        check: Callable[[], None],
+        shown: Callable[[int], None],
+    ) -> None:
+        """Advance a run that has just begun to its end, from the stored state if one is resumed.
+
+        Args:
+            run: the run.
+            steps: its number of steps.
+            ports: what is recorded.
+            check: raises KeyboardInterrupt to stop; called between chunks.
+            shown: called with the number of completed steps; may raise it, too.
+
+        Raises:
+            OutputError: samples cannot be written; those before are in the file.
+            KeyboardInterrupt: the run was stopped; the state is stored.
+        """
+        begun = self._resumed(run)
+        start, gap, most, _ = self.sampling
+        taken = self._taken
+        run.probe = 1  # no second may pass before the first samples are written
+
+        def collect(k: int, seen: tuple[np.ndarray, ...]) -> None:
+            self._collect(taken + k, seen)
+
+        def between(done: int) -> None:
+            self._save_if_due(run, begun + done)
+            try:
+                shown(begun + done)
+                check()
+            except KeyboardInterrupt:
+                self._save(run, begun + done)
+                raise
+
+        if start >= begun:  # a run that is made longer records its end again
+            taken = self._taken = 0
+        due = start + taken * gap - begun if taken < most else steps - begun + 1
+        run.record(steps - begun, ports, due, gap, collect, between)
+        self._save(run, steps)
+
+    def _save_if_due(self, run: Run, done: int) -> None:
+        due = self.out.snapshots
+        passed = (done - self._saved_at) * self.sampling.dt
+        if (due is not None and passed >= due) or (
+            due is None and time.monotonic() - self._saved >= CHECKPOINT_SECONDS
+        ):
+            self._save(run, done)
+
+    def _save(self, run: Run, done: int) -> None:
+        """Store the state of the run after `done` steps, and all samples before it."""
+        if self.out.writer is None:
+            return
+        self._saved, self._saved_at = time.monotonic(), done
+        self.out.writer.commit()
+        about = {
+            "piece": self.number,
+            "steps": done,
+            "samples": self.sampling.most if self.out.done else self._taken,
+            "taken": self._taken,
+            "done": self.out.done,
+            "pieces": self.out.cut.count,
+            "made_by": provenance.made_by(run.program.device, run.program.precision),
+        }
+        checkpoint.save(run, self.out.record / CHECKPOINT, about)
+
+    def _resumed(self, run: Run) -> int:
+        """Set the run to the stored state of this piece; return the number of its steps, 0 without one."""
+        if self.out.state is None or self.out.state[0]["piece"] != self.number:
+            return 0
+        about, arrays = self.out.state
+        checkpoint.put(run, about, arrays)
+        self._taken, self._saved_at = int(about["taken"]), int(about["steps"])
+        return int(about["steps"])
+
+    def end(self, reasons: Mapping[tuple[int, ...], str]) -> None:
+        """Note that the piece is complete, and which of its copies diverged, with their reasons."""
+        starts = [part.start for part in self.region]
+        for place, reason in reasons.items():
+            self.out.reasons[tuple(k + s for k, s in zip(place, starts, strict=True))] = reason
+        self.out.done.append(self.number)
+
+    def _copies(self, sizes: Sequence[int]) -> list[int]:
+        """Return the lengths of the batch axes without the copies that only fill the piece up."""
+        points = int(np.prod(sizes[: len(self.out.grid)], dtype=int))
+        return ([points] if self.out.grid else []) + ([sizes[-1]] if self.out.labels is not None else [])
+
+    def _empty(self) -> xarray.Dataset:
+        # start-up time: this imports xarray
+        from deodar.recording.record import dataset
+
+        copies, doc = self._copies(list(self.out.sizes().values())), self.out.doc
+        variables: list[Any] = []
+        for ident, port, place in self.variables:
+            axes = self.program.axes(place)
+            array = np.empty((*copies, 0, *shape(axes)), self.program.program.dtype)
+            variables.append((doc.by_id()[ident], port, axes, array))
+        about = {**self.about, **self.out.settings}
+        return dataset(doc, variables, np.empty(0), self.out.labels, self.out.grid, about)

@@ -1,0 +1,425 @@
+"""A Zarr record that is written during a run.
+
+The files are those of every Zarr record of deodar; the arrays grow along their dimensions of time. Chunks are
+written first, each beside its final name and then renamed. One file commits them: `zarr.json` of the group,
+which states the length of every array (Zarr's consolidated metadata) and is replaced as a whole. So a reader
+finds all arrays up to one moment at any time, also after the writer was killed. Each chunk has a checksum
+(CRC-32C).
+
+A thread writes, twice a second. The last chunk of an array, which is not full yet, is written again each
+time; the samples behind the end of the array are NaN.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import threading
+import warnings
+from collections.abc import Generator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray
+import zarr
+import zarr.codecs
+
+from deodar import codec
+from deodar.errors import OutputError, Problem, RecordError
+from deodar.model import output
+from deodar.recording import portable
+from deodar.recording.provenance import KEY
+
+FLUSH_SECONDS = 0.4
+"""Longest time between two commits, in seconds; with a chunk of a run (0.2 s) less than a second is lost."""
+
+CHUNK_BYTES = 2**20
+"""Bytes of a chunk before compression.
+
+A guess: small enough to read one frame, large enough for few files).
+"""
+
+LONGEST_CHUNK = 8192
+"""Largest number of samples in a chunk."""
+
+PENDING_BYTES = 64 * 2**20
+"""Bytes that wait to be written at most; a run that is faster than the disk waits."""
+
+Region = tuple[slice, ...]
+"""The copies (points of a sweep, trials) that samples belong to: a slice of each leading dimension."""
+
+
+class _Samples(NamedTuple):
+    """Samples that wait: values of `arrays` (by name) at `times`, from number `first` on."""
+
+    dimension: str
+    first: int
+    times: np.ndarray
+    arrays: Mapping[str, np.ndarray]
+    region: Region
+
+
+class _Tail:
+    """The last chunk of an array in one region, as far as it is known."""
+
+    def __init__(self, array: Any, axis: int, region: Region) -> None:
+        self.array, self.axis, self.region = array, axis, region
+        self.frames = int(array.chunks[axis])
+        self.start = -1
+        lead = [len(range(*part.indices(n))) for part, n in zip(region, array.shape, strict=False)]
+        self.shape = [*lead, self.frames, *array.shape[axis + 1 :]]
+        self.values = np.empty(0)
+        self.dirty = False
+
+    def add(self, first: int, values: np.ndarray) -> None:
+        """Add samples from number `first` on; chunks that are full are written."""
+        taken, count = 0, values.shape[self.axis]
+        while taken < count:
+            chunk = (first + taken) // self.frames * self.frames
+            if chunk != self.start:
+                self.write()
+                self._begin(chunk, first + taken)
+            inside = first + taken - chunk
+            n = min(self.frames - inside, count - taken)
+            lead = (slice(None),) * self.axis
+            self.values[*lead, inside : inside + n] = values[*lead, taken : taken + n]
+            self.dirty, taken = True, taken + n
+
+    def write(self) -> None:
+        """Write the chunk."""
+        if self.dirty:
+            place = slice(self.start, self.start + self.frames)
+            self.array[*self.region, place] = self.values
+            self.dirty = False
+
+    def _begin(self, chunk: int, first: int) -> None:
+        """Begin a chunk; what it holds before `first` is read from the file."""
+        self.start = chunk
+        self.values = np.full(self.shape, np.nan if self.array.dtype.kind == "f" else 0, self.array.dtype)
+        if self.array.shape[self.axis] < chunk + self.frames:
+            shape = list(self.array.shape)
+            shape[self.axis] = chunk + self.frames
+            self.array.resize(tuple(shape))
+        if first > chunk:
+            lead = (slice(None),) * self.axis
+            self.values[*lead, : first - chunk] = self.array[*self.region, chunk:first]
+
+
+class GrowingRecord:
+    """Writer of a record that grows; one process writes a record at a time.
+
+    Args:
+        path: the Zarr folder, which does not exist yet.
+        empty: the record without samples: every growing dimension has length 0.
+        growing: names of the growing dimensions, each with its coordinate of times.
+        piece: for each leading dimension the number of copies that are written together.
+
+    Raises:
+        OutputError: the record cannot be written.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        empty: xarray.Dataset,
+        growing: Sequence[str] = ("time",),
+        piece: Mapping[str, int] | None = None,
+    ) -> None:
+        self.path = path
+        with _writing(path):
+            _create(path, empty, growing, piece or {})
+        self._open(dict.fromkeys(growing, 0))
+
+    @classmethod
+    def resumed(cls, path: Path, lengths: Mapping[str, int]) -> GrowingRecord:
+        """Return a writer that continues an incomplete record, after `lengths` samples of each dimension.
+
+        Raises:
+            RecordError: the record is shorter, or another process writes it.
+        """
+        self = cls.__new__(cls)
+        self.path = path
+        self._open(lengths)
+        return self
+
+    def _open(self, lengths: Mapping[str, int]) -> None:
+        path = self.path
+        self._lock = _locked(path)
+        with _writing(path):
+            self._group: Any = codec.parse((path / "zarr.json").read_text())
+            layout = codec.parse(self._group["attributes"][portable.KEY])
+            stored = {old: new for new, old in layout["names"].items()}
+            self._names = stored
+            self._arrays: dict[str, Any] = {}
+            self._axis: dict[str, int] = {}
+            self._dimension: dict[str, str] = {}
+            members = self._group["consolidated_metadata"]["metadata"]
+            for name, about in layout["variables"].items():
+                if dimension := about.get("grows"):
+                    self._arrays[name] = zarr.open_array(
+                        path / name, mode="r+", config={"write_empty_chunks": True}
+                    )
+                    self._dimension[name] = dimension
+                    dims = [layout["names"].get(d, d) for d in members[name]["dimension_names"]]
+                    self._axis[name] = dims.index(dimension)
+        self.lengths = {dimension: int(n) for dimension, n in lengths.items()}
+        self._tails: dict[tuple[str, Region], _Tail] = {}
+        self._waiting: list[_Samples] = []
+        self._bytes = 0
+        self._changed = threading.Condition()
+        self._closing = self._flushing = False
+        self._error: BaseException | None = None
+        self._inode = (path / "zarr.json").stat().st_ino
+        self._thread = threading.Thread(target=self._loop, name="deodar-record", daemon=True)
+        self._thread.start()
+
+    # ---------------------------------------------------------------------------------- in the run's thread
+
+    def put(
+        self,
+        dimension: str,
+        times: np.ndarray,
+        arrays: Mapping[str, np.ndarray],
+        first: int | None = None,
+        region: Region = (),
+    ) -> None:
+        """Add samples; the thread of the record writes them within FLUSH_SECONDS.
+
+        Args:
+            dimension: the growing dimension.
+            times: times of the samples.
+            arrays: values by name of the variable: the copies of the region, the samples, the axes.
+            first: number of the first sample; None: they follow the last ones.
+            region: the copies that the values belong to.
+
+        Raises:
+            OutputError: an earlier sample could not be written. What was committed stays readable.
+        """
+        with self._changed:
+            self._changed.wait_for(lambda: self._bytes < PENDING_BYTES or self._error is not None)
+            self._require()
+            start = self.lengths[dimension] if first is None else first
+            self._waiting.append(_Samples(dimension, start, times, arrays, region))
+            self._bytes += sum(array.nbytes for array in arrays.values())
+            self.lengths[dimension] = max(self.lengths[dimension], start + len(times))
+            if self._bytes > PENDING_BYTES // 2:
+                self._changed.notify_all()
+
+    def commit(self) -> None:
+        """Wait until all samples so far are in the file.
+
+        Raises:
+            OutputError: a sample could not be written.
+        """
+        with self._changed:
+            self._flushing = True
+            self._changed.notify_all()
+            self._changed.wait_for(lambda: not self._flushing or self._error is not None)
+            self._require()
+
+    def close(
+        self,
+        complete: bool,
+        more: xarray.Dataset | None = None,
+        settings: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Write what waits, and close the record.
+
+        Args:
+            complete: whether the run came to its end.
+            more: coordinates and attributes to add.
+            settings: entries of the provenance that have changed.
+
+        Raises:
+            OutputError: a sample could not be written; the record stays readable up to the last commit.
+        """
+        with self._changed:
+            self._closing = True
+            self._changed.notify_all()
+        self._thread.join()
+        try:
+            self._require()
+            with _writing(self.path):
+                about = codec.parse(self._group["attributes"][KEY])
+                self._group["attributes"][KEY] = codec.line(
+                    {**about, **(settings or {}), "complete": complete}
+                )
+                for name, array in self._arrays.items():
+                    shape = list(array.shape)
+                    shape[self._axis[name]] = self.lengths[self._dimension[name]]
+                    array.resize(tuple(shape))
+                if more is not None:
+                    self._add(more)
+                self._commit(self.lengths)
+                output.sync_tree(self.path)
+        finally:
+            if self._lock is not None:
+                os.close(self._lock)
+
+    def blank(self, copy: Sequence[int]) -> None:
+        """Set all values of one copy to NaN; called after `commit`."""
+        with _writing(self.path):
+            for name, array in self._arrays.items():
+                if self._axis[name]:  # not the times
+                    array[*copy, : self.lengths[self._dimension[name]]] = np.nan
+
+    def _add(self, more: xarray.Dataset) -> None:
+        """Write further coordinates, and attributes, into the folder and the metadata of the group."""
+        stored = portable.pack(more, narrow=False)
+        layout = codec.parse(self._group["attributes"][portable.KEY])
+        new = codec.parse(stored.attrs.pop(portable.KEY))
+        for name in (str(n) for n in stored.coords if str(n) not in layout["variables"]):
+            zarr.create_array(
+                self.path / name,
+                data=stored[name].values,
+                dimension_names=[str(d) for d in stored[name].dims],
+                attributes=dict(stored[name].attrs),
+            )
+            member = codec.parse((self.path / name / "zarr.json").read_text())
+            self._group["consolidated_metadata"]["metadata"][name] = member
+            layout["variables"][name] = new["variables"][name]
+            layout["coords"].append(name)
+            layout["names"] |= {k: v for k, v in new["names"].items() if k == name}
+        layout["attributes"] |= new["attributes"]
+        self._group["attributes"] |= {**stored.attrs, portable.KEY: codec.line(layout, ascii=True)}
+
+    def _require(self) -> None:
+        if self._error is not None:
+            raise self._error
+
+    # ------------------------------------------------------------------------------- in the record's thread
+
+    def _loop(self) -> None:
+        closing = False
+        while not closing:
+            with self._changed:
+                self._changed.wait_for(
+                    lambda: self._closing or self._flushing or self._bytes > PENDING_BYTES // 2, FLUSH_SECONDS
+                )
+                waiting, self._waiting = self._waiting, []
+                closing, flushing, lengths = self._closing, self._flushing, dict(self.lengths)
+            try:
+                if waiting or flushing:
+                    with _writing(self.path):
+                        self._write(waiting, lengths)
+            except BaseException as error:
+                with self._changed:
+                    self._error, self._flushing = error, False
+                    self._changed.notify_all()
+                return
+            with self._changed:
+                self._bytes -= sum(a.nbytes for samples in waiting for a in samples.arrays.values())
+                self._flushing = self._flushing and not flushing
+                self._changed.notify_all()
+
+    def _write(self, waiting: Sequence[_Samples], lengths: Mapping[str, int]) -> None:
+        self._require_present()
+        for samples in waiting:
+            for name, values in samples.arrays.items():
+                self._tail(self._names.get(name, name), samples.region).add(samples.first, values)
+            self._tail(self._names.get(samples.dimension, samples.dimension), ()).add(
+                samples.first, samples.times
+            )
+        for tail in self._tails.values():
+            tail.write()
+        self._commit(lengths)
+
+    def _tail(self, name: str, region: Region) -> _Tail:
+        key = name, tuple((part.start, part.stop) for part in region)
+        if key not in self._tails:
+            for other in [k for k in self._tails if k[0] == name]:
+                self._tails.pop(other).write()
+            self._tails[key] = _Tail(self._arrays[name], self._axis[name], region)  # type: ignore[index]
+        return self._tails[key]  # type: ignore[index]
+
+    def _commit(self, lengths: Mapping[str, int]) -> None:
+        """Replace the metadata of the group, which state the lengths of all arrays."""
+        members = self._group["consolidated_metadata"]["metadata"]
+        for name, dimension in self._dimension.items():
+            members[name]["shape"][self._axis[name]] = lengths[dimension]
+        place = self.path / "zarr.json"
+        output.write(place, codec.line(self._group).encode(), durable=False)
+        self._inode = place.stat().st_ino
+
+    def _require_present(self) -> None:
+        """Refuse to write into a folder that was removed or replaced: Zarr would create it again."""
+        try:
+            same = (self.path / "zarr.json").stat().st_ino == self._inode
+        except OSError:
+            same = False
+        if not same:
+            raise OutputError(
+                "was removed or replaced while it was being written",
+                where=str(self.path),
+                fix="Run it again with another name",
+            )
+
+
+def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Mapping[str, int]) -> None:
+    """Write the record without samples."""
+    stored = portable.pack(empty, narrow=False)
+    layout = codec.parse(stored.attrs[portable.KEY])
+    encoding: dict[Any, Any] = {}
+    for name in stored.variables:
+        dims = [layout["names"].get(str(d), str(d)) for d in stored[name].dims]
+        for dimension in set(dims) & set(growing):
+            about = layout["variables"][name]
+            about.pop("sha256")
+            about["grows"] = dimension
+            encoding[name] = {
+                "chunks": _chunks(stored[name], dims, dimension, piece),
+                "compressors": [zarr.codecs.ZstdCodec(level=1), zarr.codecs.Crc32cCodec()],
+                "fill_value": np.nan if stored[name].dtype.kind == "f" else 0,
+            }
+    stored.attrs[portable.KEY] = codec.line(layout, ascii=True)
+    stored.attrs[KEY] = codec.line({**codec.parse(stored.attrs[KEY]), "complete": False})
+    with warnings.catch_warnings():
+        # other programs open a record at once, and without a warning, if its metadata are in one file
+        warnings.filterwarnings("ignore", message="Consolidated metadata")
+        stored.to_zarr(path, mode="w-", zarr_format=3, consolidated=True, encoding=encoding)
+
+
+def _chunks(
+    variable: xarray.DataArray, dims: Sequence[str], dimension: str, piece: Mapping[str, int]
+) -> tuple[int, ...]:
+    """Return the shape of the chunks of a growing array: whole frames, of the copies of one piece."""
+    chunks = [min(piece.get(d, n), n) for d, n in zip(dims, variable.shape, strict=True)]
+    axis = dims.index(dimension)
+    frame = math.prod(chunks[:axis]) * math.prod(chunks[axis + 1 :]) * variable.dtype.itemsize
+    chunks[axis] = max(1, min(LONGEST_CHUNK, CHUNK_BYTES // max(1, frame)))
+    return tuple(map(int, chunks))
+
+
+def _locked(path: Path) -> int | None:
+    """Return an open handle of the folder, locked as long as it is open, so that one process writes it.
+
+    Raises:
+        RecordError: another process writes this record.
+    """
+    if os.name != "posix":
+        return None  # folders cannot be opened there, so nothing is locked
+    # only POSIX systems have this module
+    import fcntl
+
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(handle)
+        raise RecordError(
+            "is being written by another process", where=str(path), fix="Wait until it ends, or stop it"
+        ) from None
+    return handle
+
+
+@contextlib.contextmanager
+def _writing(path: Path) -> Generator[None]:
+    """Convert errors of the system into errors that name the record."""
+    try:
+        yield
+    except OutputError as error:
+        raise OutputError([Problem(p.where, p.what) for p in error.problems]) from None
+    except OSError as error:
+        raise OutputError(f"cannot be written: {error.strerror or error}", where=str(path)) from None

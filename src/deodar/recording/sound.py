@@ -1,0 +1,99 @@
+"""The sound part of a record that was written during a run.
+
+Chunks that are missing or damaged end the record before them.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+from typing import Any
+
+import xarray
+
+from deodar import codec
+from deodar.recording import portable
+from deodar.recording.record import about
+
+DAMAGED = "damaged"
+"""Name of the attribute that states what was left out of a damaged record."""
+
+
+def present(data: xarray.Dataset, path: Path) -> xarray.Dataset:
+    """Return a stored Dataset, as a Zarr folder has it, without the samples from a missing chunk on.
+
+    Args:
+        data: the Dataset before `portable.unpack`.
+        path: its folder.
+    """
+    layout = _layout(data)
+    ends: dict[str, tuple[int, str]] = {}
+    for name, stored in layout.get("variables", {}).items():
+        if "grows" not in stored or name not in data.variables:
+            continue
+        variable = data.variables[name]
+        dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
+        axis, chunks = dims.index(stored["grows"]), variable.encoding["chunks"]
+        if axis and not _complete(data):
+            continue  # a piece of the copies that has not begun has no chunks
+        count = [math.ceil(n / c) for n, c in zip(variable.shape, chunks, strict=True)]
+        folder = path / name / "c"
+        for k in range(count[axis]):
+            others = (range(n) if i != axis else [k] for i, n in enumerate(count))
+            if any(not folder.joinpath(*map(str, place)).is_file() for place in itertools.product(*others)):
+                _shorten(ends, str(variable.dims[axis]), k * chunks[axis], layout["names"].get(name, name))
+                break
+    return _cut(data, ends, "missing")
+
+
+def readable(data: xarray.Dataset) -> xarray.Dataset:
+    """Return a stored Dataset without the samples from a chunk on that cannot be read.
+
+    Raises:
+        Exception: an array that does not grow cannot be read.
+    """
+    layout = _layout(data)
+    ends: dict[str, tuple[int, str]] = {}
+    for name, stored in layout.get("variables", {}).items():
+        if "grows" not in stored:
+            continue
+        variable = data.variables[name]
+        dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
+        axis = dims.index(stored["grows"])
+        frames = variable.encoding["chunks"][axis]
+        for first in range(0, variable.shape[axis], frames):
+            try:
+                variable.isel({variable.dims[axis]: slice(first, first + frames)}).to_numpy()
+            except Exception:  # libraries that read untrusted bytes may raise any exception
+                _shorten(ends, str(variable.dims[axis]), first, layout["names"].get(name, name))
+                break
+    return _cut(data, ends, "damaged")
+
+
+def _layout(data: xarray.Dataset) -> dict[str, Any]:
+    text = data.attrs.get(portable.KEY)
+    return {} if text is None else codec.parse(text)
+
+
+def _complete(data: xarray.Dataset) -> bool:
+    return bool(about(data).get("complete", True))
+
+
+def _shorten(ends: dict[str, tuple[int, str]], dimension: str, length: int, name: str) -> None:
+    if dimension not in ends or length < ends[dimension][0]:
+        ends[dimension] = length, name
+
+
+def _cut(data: xarray.Dataset, ends: dict[str, tuple[int, str]], what: str) -> xarray.Dataset:
+    if not ends:
+        return data
+    said = "; ".join(
+        f"{data.sizes[d] - n} of {data.sizes[d]} samples of {d} are left out: a chunk of {name} is {what}"
+        for d, (n, name) in ends.items()
+    )
+    before = data.attrs.get(DAMAGED)
+    layout = _layout(data)
+    layout["attributes"][DAMAGED] = None
+    attributes = {DAMAGED: f"{before}; {said}" if before else said, portable.KEY: codec.line(layout)}
+    return data.isel({d: slice(n) for d, (n, _) in ends.items()}).assign_attrs(attributes)

@@ -1,0 +1,99 @@
+"""States of runs as files, so that another process can continue from them.
+
+A file is a NumPy archive (.npz, never pickled): the arrays of a PyTree in order, and one text, JSON, with
+everything else. The structure of the tree is not stored: the reader has an equal one, of the same model.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+
+from deodar import codec
+from deodar.codec import JsonObject
+from deodar.errors import RecordError
+from deodar.model import output
+from deodar.numerics.pytree import PyTree
+
+VERSION = 1
+HEADER = "header"
+
+
+def leaves(tree: PyTree, of: str) -> list[np.ndarray]:
+    """Return the arrays of a PyTree, copied to the host.
+
+    Raises:
+        RecordError: a leaf is not a number, array, truth value or text; `of` names its owner.
+    """
+    found = [np.array(leaf) for leaf in jax.tree.leaves(tree)]
+    for leaf in found:
+        if leaf.dtype.kind not in "biufcU":
+            raise RecordError(
+                f"the state of {of} contains a {leaf.dtype} value, which a file cannot hold",
+                fix="Let its `keep` return arrays, numbers and containers of them",
+            )
+    return found
+
+
+def filled(template: PyTree, stored: Sequence[np.ndarray], of: str) -> PyTree:
+    """Return a PyTree of the structure of `template` with other leaves.
+
+    Raises:
+        RecordError: the number, shapes or types of the leaves differ; `of` names their owner.
+    """
+    here, structure = jax.tree.flatten(template)
+    own = [np.asarray(leaf) for leaf in here]
+    if [(a.shape, a.dtype.kind) for a in own] != [(a.shape, a.dtype.kind) for a in stored]:
+        raise RecordError(f"the stored state of {of} does not fit: it is of another model or world")
+    return jax.tree.unflatten(structure, list(stored))
+
+
+def write(path: Path, about: Mapping[str, Any], arrays: Sequence[np.ndarray], kind: str) -> None:
+    """Write a state: it is complete or absent.
+
+    Raises:
+        OutputError: the system refused.
+    """
+    text = codec.line({"kind": kind, "version": VERSION, **about})
+
+    numbered = {f"{k:06}": array for k, array in enumerate(arrays)}
+    content = io.BytesIO()
+    np.savez(content, allow_pickle=False, **{HEADER: np.frombuffer(text.encode(), np.uint8)}, **numbered)
+    output.write(path, content.getvalue(), durable=False)
+
+
+def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
+    """Return the text and the arrays of a state.
+
+    Raises:
+        RecordError: there is no such file, it is damaged, of another kind, or of a newer version.
+    """
+    where = str(path)
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise RecordError(f"cannot be read: {error.strerror or error}", where=where) from None
+    try:
+        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+            about = codec.parse(bytes(archive[HEADER]).decode())
+            names = sorted(name for name in archive.files if name != HEADER)
+            arrays = [archive[name] for name in names]
+    except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile) as error:
+        raise RecordError(
+            f"cannot be read as a {kind}, it may be damaged ({type(error).__name__}: {error})", where=where
+        ) from None
+    if not isinstance(about, dict) or about.get("kind") != kind:
+        raise RecordError(f"expected a {kind}, got another file", where=where)
+    if about.get("version", 0) > VERSION:
+        raise RecordError(
+            f"is a {kind} of version {about['version']}; this deodar reads versions up to {VERSION}",
+            where=where,
+            fix="Install a newer deodar",
+        )
+    return about, arrays

@@ -1,0 +1,157 @@
+"""Runs that are killed while they write their record: it holds all samples up to less than a second before,
+with the bits of an undisturbed run, and is resumed to the same end.
+
+The process of a run notes the wall time at which each step was complete, beside the record. A kill may lose
+what is younger than a second, or the samples of the last chunk of steps, where one takes longer.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+import unittest.mock
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import xarray
+
+import deodar as dd
+from deodar.recording import files
+
+LOST_SECONDS = 1.0
+STEPS = 10**6
+ROOT = Path(__file__).parents[2]
+
+
+@dc.dataclass
+class Outcome:
+    """Results after the kills."""
+
+    kills: int = 0
+    samples: int = 0
+    resumed: int = 0
+    worst: float = 0.0
+    errors: list[str] = dc.field(default_factory=list[str])
+
+
+def model(kind: str) -> dd.Model:
+    """Return a noisy model: `line` or `plane` with a node."""
+    made = dd.Model(kind)
+    x = dd.Axis("x", 0, 20, samples=30)
+    axes = [x] if kind == "line" else [x, dd.Axis("y", 0, 20, samples=40)]
+    made.add(dd.Field("u", axes, kernel=[dd.Gaussian(6, 2)], noise=0.5))
+    made.add(dd.GaussianStimulus("s", axes, center=[10.0] * len(axes), sigma=3, amplitude=6)) >> made["u"]
+    made.add(dd.Field("n", [], tau=10, noise=0.2))
+    return made
+
+
+CASES: dict[str, tuple[str, dict[str, Any]]] = {
+    "line": ("line", {"record": ["u", "n"]}),
+    "plane": ("plane", {"record": ["u", "n.output"], "every": 2}),
+    "trials": ("line", {"record": ["u"], "every": 3, "trials": 5}),
+    "pieces": ("line", {"record": ["n"], "every": 50, "trials": 4, "batch": 2}),
+}
+
+
+def child(case: str, out: str, notes: str) -> None:
+    """Run a model without end, and note the wall time of each chunk."""
+    kind, settings = CASES[case]
+    with open(notes, "wb", buffering=0) as file:
+
+        def note(done: int) -> None:
+            file.write(f"{time.time()!r} {done}\n".encode())
+
+        dd.simulate(model(kind), STEPS, seed=3, out=out, snapshots=500, progress=note, **settings)
+
+
+def kill(folder: Path, case: str, seconds: float, outcome: Outcome) -> Path:
+    """Run a case, kill it some seconds after its first samples, and check its record; return the record."""
+    out, notes = folder / f"{case}-{outcome.kills}", folder / "notes"
+    code = f"from tests.attacks.records import child; child({case!r}, {str(out)!r}, {str(notes)!r})"
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")]))
+    process = subprocess.Popen([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path})
+    began = time.time()
+    while not (out / "record.zarr" / "zarr.json").exists() and time.time() < began + 120:
+        time.sleep(0.005)
+    time.sleep(seconds)
+    process.kill()
+    killed = time.time()
+    process.wait()
+    outcome.kills += 1
+    lines = [line.split() for line in notes.read_text().splitlines() if line.count(" ") == 1]
+    record = files.load_record(out)
+    samples = record.sizes["time"]
+    outcome.samples += samples
+    every = int(CASES[case][1].get("every", 1))
+    steps = (samples - 1) * every if samples else 0
+    lost = [killed - float(at) for at, done in lines if int(done) % STEPS >= steps + every]
+    outcome.worst = max([outcome.worst, *lost])
+    if any(age > LOST_SECONDS for age in lost):
+        outcome.errors.append(f"{case}: {max(lost):.2f} s are lost")
+    if not samples:
+        return out
+    expected = undisturbed(case, steps)
+    cut = {name: slice(n) for name, n in record.sizes.items()}
+    whole = expected.isel(cut)
+    for name in record.data_vars:
+        same = record[name].values[..., :samples].tobytes() == whole[name].values.tobytes()
+        if case == "pieces":  # of the second piece nothing may be written yet
+            same = record[name].values[:2].tobytes() == whole[name].values[:2].tobytes()
+        if not same:
+            outcome.errors.append(f"{case}: {name} differs from an undisturbed run")
+    return out
+
+
+def undisturbed(case: str, duration: float) -> xarray.Dataset:
+    """Return the record of a case that nothing disturbed."""
+    kind, settings = CASES[case]
+    return dd.simulate(model(kind), duration, seed=3, **settings)
+
+
+def resume(folder: Path, case: str, outcome: Outcome) -> None:
+    """Stop a run after a number of steps that is drawn, resume it twice, and compare it with a whole one."""
+    kind, settings = CASES[case]
+    out, end = folder / f"{case}-resumed-{outcome.resumed}", 3000.0
+
+    def stopping(after: int) -> Callable[[int], None]:
+        def stop(done: int) -> None:
+            if done >= after:
+                raise KeyboardInterrupt
+
+        return stop
+
+    with unittest.mock.patch("deodar.session.run.CHUNK_SECONDS", 0.002):
+        for again in range(2):
+            try:
+                if again:
+                    dd.resume(out, progress=stopping(1800))
+                else:
+                    given: dict[str, Any] = {"seed": 3, "out": out, "snapshots": 200, **settings}
+                    dd.simulate(model(kind), end, progress=stopping(600), **given)
+            except dd.errors.Interrupted:
+                pass
+            else:
+                outcome.errors.append(f"{case}: the run was not stopped")
+    dd.resume(out)
+    found, whole = files.load_record(out), undisturbed(case, end)
+    outcome.resumed += 1
+    for name in whole.variables:
+        if found[name].values.tobytes() != whole[name].values.tobytes():
+            outcome.errors.append(f"{case}: {name} differs after the run was resumed")
+
+
+def attack(folder: Path, kills: int, seed: int) -> Outcome:
+    """Kill runs at moments that are drawn, and resume some."""
+    draw, outcome = random.Random(seed), Outcome()
+    for k in range(kills):
+        case = list(CASES)[k % len(CASES)]
+        shutil.rmtree(kill(folder, case, draw.uniform(0, 3), outcome), ignore_errors=True)
+    for case in CASES:
+        resume(folder, case, outcome)
+    return outcome
