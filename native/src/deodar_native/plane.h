@@ -54,6 +54,19 @@ int64_t plane_scratch(const PlaneModes& p) {
   return plane.folded() + plane.middle() + plane.halves() + plane.modes() + 64;
 }
 
+// The parts of the scratch memory of a transform, one after another.
+struct Parts {
+  float* folded;        // for each outer class the sums or differences of rows
+  float* middle;        // a row of samples for each outer mode
+  float* sums;          // of the two halves of each such row
+  float* differences;
+  float* found;         // a row of modes for each outer mode, the two inner classes one after another
+
+  Parts(const Plane& p, float* scratch)
+      : folded(scratch), middle(folded + p.folded()), sums(middle + p.middle()), differences(sums + p.halves() / 2),
+        found(sums + p.halves()) {}
+};
+
 // Sums and differences of the rows that are images of each other, each in the part of its class.
 template <typename Number>
 inline void fold_rows(const Plane& p, int64_t j, int64_t at, const float* y, float* folded) {
@@ -100,10 +113,7 @@ inline void unfold_rows(const Plane& p, int64_t j, int64_t at, const float* fold
 
 void plane_to_modes(const PlaneModes& modes, const float* y, float* scratch, float* out) {
   const Plane p(modes);
-  float* folded = scratch;
-  float* middle = folded + p.folded();
-  float* halves = middle + p.middle();
-  float* found = halves + p.halves();
+  const auto [folded, middle, sums, differences, found] = Parts(p, scratch);
   for (int64_t j = 0; j < p.outer_kept; ++j) {
     int64_t at = 0;
     for (; at + LANES <= p.columns; at += LANES) fold_rows<Vector>(p, j, at, y, folded);
@@ -120,8 +130,6 @@ void plane_to_modes(const PlaneModes& modes, const float* y, float* scratch, flo
     to += count * p.row;
   }
   // inner axis: rows of sums, then rows of differences
-  float* sums = halves;
-  float* differences = halves + p.outer_modes * p.inner_row;
   const int64_t pairs = p.columns / 2;
   for (int64_t i = 0; i < p.outer_modes; ++i) {
     const float* from = middle + i * p.row;
@@ -154,10 +162,7 @@ void plane_to_modes(const PlaneModes& modes, const float* y, float* scratch, flo
 
 void plane_from_modes(const PlaneModes& modes, const float* given, float* scratch, float* y) {
   const Plane p(modes);
-  float* folded = scratch;
-  float* middle = folded + p.folded();
-  float* halves = middle + p.middle();
-  float* found = halves + p.halves();
+  const auto [folded, middle, sums, differences, found] = Parts(p, scratch);
   const int64_t first = padded(modes.inner[0]);
   for (int64_t i = 0; i < p.outer_modes; ++i) {
     float* to = found + i * p.modes_row;
@@ -167,8 +172,6 @@ void plane_from_modes(const PlaneModes& modes, const float* given, float* scratc
     for (int64_t j = 0; j < modes.inner[1]; ++j) to[first + j] = row[places[modes.inner[0] + j]];
   }
   // inner axis
-  float* sums = halves;
-  float* differences = halves + p.outer_modes * p.inner_row;
   product(p.outer_modes, vectors_of(p.inner_kept), modes.inner[0], {found, p.modes_row, 1}, modes.inner_table,
           p.inner_row, sums, p.inner_row);
   product(p.outer_modes, vectors_of(p.inner_kept), modes.inner[1], {found + first, p.modes_row, 1},
