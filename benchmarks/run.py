@@ -186,6 +186,7 @@ def machine() -> dict[str, str]:
     import numpy as np
 
     import deodar
+    from deodar.numerics import native
 
     processor = platform.processor() or platform.machine()
     with contextlib.suppress(OSError):
@@ -217,8 +218,14 @@ def machine() -> dict[str, str]:
         "processor": f"{processor}, {os.cpu_count()} cores",
         "python": platform.python_version(),
         "versions": ", ".join(f"{name} {version}" for name, version in versions.items()),
+        "kernels": _kernels(native.version(native.kernels("cpu", "float32"))),
         "compiler": told,
     }
+
+
+def _kernels(version: str) -> str:
+    """The compiled kernels that the steps call."""
+    return f"deodar-native {version}" if version else "none (JAX alone)"
 
 
 def load() -> str:
@@ -283,7 +290,7 @@ def speed_table(about: dict[str, str], rows: list[steps.Row]) -> list[str]:
     known = peers()
     lines = [
         f"Measured on {about['date']}, {about['processor']}, one of them used; Python {about['python']},",
-        f"{about['versions']}; {about['compiler']}.",
+        f"{about['versions']}; {about['compiler']}; compiled kernels: {about['kernels']}.",
         "",
         f"| model | C, us a step | deodar, us | deodar / C | {' | '.join(f'{p} / C' for p in PROGRAMS)} |",
         "|---|---|---|---|" + "---|" * len(PROGRAMS),
@@ -334,7 +341,7 @@ def main() -> None:
         about = machine() | {"load before": load()}
         print(
             f"{about['system']}, {about['processor']}\nPython {about['python']}, {about['versions']}; C:"
-            f" {about['compiler']}; load {load()}"
+            f" {about['compiler']}; compiled kernels: {about['kernels']}; load {load()}"
         )
         if steps.compiler() is None:
             print(

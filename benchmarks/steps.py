@@ -69,7 +69,8 @@ class Timed:
         world = workload.world() if workload.world else None
         model = self.models.setdefault(name, workload.model())
         before = time.process_time()
-        dd.simulate(model, count, trials=workload.trials or None, world=world, progress=False)
+        duration = count * model.document.step
+        dd.simulate(model, duration, trials=workload.trials or None, world=world, progress=False)
         return time.process_time() - before
 
     def _session(self, name: str, workload: workloads.Workload, count: int) -> float:

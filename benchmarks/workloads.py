@@ -1,7 +1,8 @@
 """The models whose steps are timed: single fields in one, two and three dimensions, a batch of trials, two
-architectures of coupled fields, and the planner of a vehicle beside its arena.
+architectures of coupled fields, and those of two papers: the planner of a vehicle beside its arena, and the
+search for a colour in a photograph.
 
-All fields but those of the planner are rings or tori of unit spacing with tau = 20, h = -5, a logistic
+All fields but those of the papers are rings or tori of unit spacing with tau = 20, h = -5, a logistic
 output of steepness 4, noise of strength 1 in every step, global inhibition 0.1, and a kernel of two
 normalised Gaussians, 15 and -8.
 """
@@ -13,8 +14,10 @@ import random
 from collections.abc import Callable, Sequence
 
 import deodar as dd
+from deodar.architectures.saliency import saliency
 from deodar.architectures.spa import maze, spa
 from deodar.couplings.convolve import Convolve
+from deodar.papers.saliency.scenes import photographs
 
 NAMES = "xyz"
 
@@ -122,6 +125,11 @@ def planner() -> dd.Model:
     return spa(maze("z"))
 
 
+def photograph() -> dd.World:
+    """The first of the photographs in which deodar searches."""
+    return photographs()[0].picture
+
+
 def _single(
     shape: tuple[int, ...], sigmas: tuple[int, int], target: float, earlier: float, trials: int = 0
 ) -> Workload:
@@ -165,6 +173,14 @@ WORKLOADS = {
         to="SPA",
         world=lambda: maze("z"),
         session=True,
+    ),
+    "saliency": Workload(
+        saliency,
+        "search in a photograph: a field of 40 x 40 x 30, one of 40 x 40, ...",
+        None,
+        world=photograph,
+        shape=(40, 40, 30),
+        sigmas=(3, 6),
     ),
 }
 CLOSED_LOOP = Workload(

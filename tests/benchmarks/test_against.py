@@ -33,3 +33,19 @@ def test_a_folder_without_workloads_is_refused(
     with pytest.raises(SystemExit):
         against.main()
     assert "is no checkout with benchmarks/steps.py" in capsys.readouterr().err
+
+
+def test_times_to_the_first_step_are_medians_in_alternation(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    times = {tmp_path: iter([1.0, 9.0, 2.0]), against.HERE.parent: iter([3.0, 8.0, 1.0])}
+    called = []
+
+    def first_step(folder: Path, name: str) -> float:
+        called.append(folder == tmp_path)
+        return next(times[folder])
+
+    monkeypatch.setattr(against, "first_step", first_step)
+    against.compare_first(tmp_path, ["SPA"], 3)
+    assert "| SPA          |     2.000 |     3.000 | 1.500 |" in capsys.readouterr().out
+    assert called == [False, True, True, False, False, True]
