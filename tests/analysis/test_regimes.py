@@ -14,7 +14,7 @@ from scipy import optimize
 import deodar as dd
 from deodar.analysis.discretisation import discretisation, obstacle, refined
 from deodar.analysis.isolated import isolate
-from deodar.analysis.memory import forgetting
+from deodar.analysis.memory import forgetting, suppression
 from deodar.analysis.phase import COARSE, phase
 from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
@@ -59,18 +59,49 @@ def test_a_working_memory_is_erased_by_inhibition() -> None:
     assert found.forgetting is not None and found.forgetting < 0
 
 
-def test_a_memory_is_also_erased_by_an_input_at_its_position() -> None:
+def test_a_memory_is_also_erased_by_an_input_beside_its_position() -> None:
     found, driven = regimes(lateral(18, 6, 0.1)), regimes(lateral(12, 0, 0.6))
     assert found.suppression is not None and found.suppression < 0 and driven.suppression is None
     one = isolate(lateral(18, 6, 0.1))
+    (center,), (sigma,) = one.center, one.sigma
     for share, left in ((0.95, 1), (1.05, 0)):
         one.reset(input=1.2 * found.detection)  # type: ignore[operator]
         one.settle()
         one.put(input=0.0)
         one.settle()
+        one.session.set("input.center", center + 0.1 * sigma)
         one.put(input=share * found.suppression)
         one.settle()
         assert len(one.peaks()) == left
+        one.session.set("input.center", center)
+
+
+def test_rounding_does_not_determine_the_input_that_erases_a_memory() -> None:
+    """Exactly over the peak no side is preferred, and the value depended on precision and position."""
+    field = lateral(18, 6, 0.1)
+    home = regimes(field).suppression
+    (center,) = isolate(field).center
+    assert regimes(field, precision="float64").suppression == pytest.approx(home, abs=1e-5)
+    assert regimes(field, center=[center - 3]).suppression == pytest.approx(home, abs=1e-5)
+
+
+def test_an_input_weaker_than_the_one_that_erases_a_memory_moves_it_aside() -> None:
+    one = isolate(lateral(18, 6, 0.1))
+    strong = 1.2 * regimes(one.field).detection  # type: ignore[operator]
+    found = suppression(one, strong)
+    assert found is not None and one.session.get("input.center") == one.center
+    one.restore(found.state)
+    assert not one.peaks()
+    one.session.set("input.center", one.center)
+    one.reset(input=strong)
+    one.settle()
+    one.put(input=0.0)
+    one.settle()
+    one.session.set("input.center", one.center[0] + 0.1 * one.sigma[0])
+    one.put(input=found.before)
+    one.settle()
+    (peak,) = one.peaks()
+    assert peak.position[0] < one.center[0] - one.sigma[0]
 
 
 def test_a_boost_makes_a_peak_at_the_position_of_a_subthreshold_input() -> None:

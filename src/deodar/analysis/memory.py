@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,9 @@ from deodar.errors import AnalysisError
 BOOSTS = 16
 LEAST = 64
 """Strongest localised inhibition tried, relative to the distance between resting level and threshold."""
+
+BESIDE = 0.1
+"""Distance of the localised inhibition from the peak, relative to its width."""
 
 
 @dataclass(frozen=True)
@@ -68,9 +72,12 @@ def outlives(isolated: Isolated, amplitude: float, boost: float = 0.0, limit: fl
 def suppression(
     isolated: Isolated, amplitude: float, accuracy: float = 0.01, limit: float = LIMIT
 ) -> Transition | None:
-    """Return the localised input, below 0, at which a peak that outlives its own input vanishes.
+    """Return the localised input, below 0, below which a peak that outlives its own input vanishes.
 
-    None if no peak outlives its input, or if the peak only moves aside.
+    It is switched on at once, at `BESIDE` of its width from the peak along the first axis; weaker inputs move
+    the peak aside. A slowly growing input always moves it aside, unless it is exactly over the peak. Exactly
+    there no side is preferred, so that rounding errors would determine the value. None if no peak outlives
+    its input, or if every input moves it aside.
 
     Args:
         isolated: the field.
@@ -81,7 +88,13 @@ def suppression(
     kept = outlives(isolated, amplitude, limit=limit)
     if not kept.outlives or isolated.covers(kept.left):
         return None
-    return descend(isolated, "input", 0.0, -LEAST * isolated.scale, accuracy, limit)
+    peak = min(kept.left, key=lambda found: math.dist(found.position, isolated.center))
+    center = (peak.position[0] + BESIDE * isolated.sigma[0], *peak.position[1:])
+    isolated.session.set("input.center", center)
+    try:
+        return descend(isolated, "input", 0.0, -LEAST * isolated.scale, accuracy, limit, sudden=True)
+    finally:
+        isolated.session.set("input.center", isolated.center)
 
 
 def forgetting(

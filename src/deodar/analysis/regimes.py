@@ -42,8 +42,9 @@ class Regimes:
         memory: the field after the input of a peak is removed; None if no input creates a peak.
         forgetting: homogeneous input below which no peak outlives its input; None if no peak does, and on a
             node.
-        suppression: localised input below which a peak that outlives its input vanishes; None if no peak
-            outlives its input, and on a node.
+        suppression: localised input, switched on at a tenth of its width beside a peak that outlives its
+            input, below which the peak vanishes; weaker inputs move it aside. None if no peak outlives its
+            input, and on a node.
         selection: result of two inputs; None if no input creates a peak, and on a node.
         separation: smallest distance, as a share of each axis' range, at which two equal inputs both keep a
             peak; None if no distance does.

@@ -166,10 +166,20 @@ def descend(
     floor: float,
     accuracy: float = 0.01,
     limit: float = LIMIT,
+    sudden: bool = False,
 ) -> Transition | None:
     """Return the transition at which a settled peak vanishes as the input falls from `start`.
 
     None if the peak still exists at `floor`.
+
+    Args:
+        isolated: the field, settled at `start`.
+        by: `input` for localised input, `boost` for homogeneous input.
+        start: the input at which the peak exists.
+        floor: the lowest input tried.
+        accuracy: width of the final bracket relative to the threshold; > 0.
+        limit: longest settling, in time constants.
+        sudden: whether the input falls from `start` to each value at once, instead of slowly.
     """
     fine = tolerance(isolated, accuracy)
     held, state, reach = start, isolated.snapshot(), isolated.scale / 2
@@ -179,11 +189,11 @@ def descend(
         isolated.put(**{by: trial})
         isolated.settle(fine, limit)
         if not isolated.peaks():
-            bracket = Bracket(by, held, trial, state)
+            bracket = Bracket(by, held, trial, state, sudden)
             return bisect(isolated, bracket, lambda: not isolated.peaks(), accuracy, limit)
         if trial <= floor:
             return None
-        held, state, reach = trial, isolated.snapshot(), reach * 2
+        held, state, reach = trial, state if sudden else isolated.snapshot(), reach * 2
 
 
 @dataclass(frozen=True)
@@ -194,13 +204,16 @@ class Bracket:
         by: the input that is varied.
         before: the input at which the field has not changed.
         after: the input at which the field has changed; below `before` if the input falls.
-        state: the field, settled at `before`.
+        state: the field, settled at `before`; if the input changes suddenly, at the input from which it
+            changes.
+        sudden: whether the input changes to each value from that state, instead of slowly.
     """
 
     by: InputKind
     before: float
     after: float
     state: SessionSnapshot
+    sudden: bool = False
 
 
 def bisect(
@@ -226,7 +239,8 @@ def bisect(
         if changed() or settled is None:
             after, settled = trial, (isolated.snapshot(), isolated.activation())
         else:
-            before, state, last = trial, isolated.snapshot(), isolated.activation()
+            before, last = trial, isolated.activation()
+            state = state if bracket.sudden else isolated.snapshot()
     moved = float(np.max(np.abs(settled[1] - last)))
     most = max(float(np.max(np.abs(last))), float(np.max(np.abs(settled[1]))))
     # the passage takes about pi / sqrt(distance) time constants
