@@ -12,6 +12,7 @@ import { Notices } from "./pages/Notices";
 import { ProblemsPage } from "./pages/ProblemsPage";
 import { Splash } from "./pages/Splash";
 import { useView } from "./pages/view";
+import { RecordNotes } from "./replay/RecordNotes";
 import { Timeline } from "./replay/Timeline";
 import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
@@ -53,6 +54,7 @@ function Page() {
     <div className={classes.studio}>
       <Header />
       <Timeline />
+      <RecordNotes />
       <FailureBar />
       <main className={classes.dock}>
         <Dock />

@@ -144,6 +144,14 @@ export type Checked = {
   problems: ListedProblem[];
 };
 
+// Show another trial or point of a sweep of the open record: the index along one of its dimensions.
+export type ChooseCopy = {
+  type: "choose_copy";
+  request?: number;
+  dimension: string;
+  index: number;
+};
+
 // Close the document and show the gallery.
 export type Close = {
   type: "close";
@@ -159,6 +167,12 @@ export type ConnectionView = {
   target: string;
   target_port: string;
   reads: string;
+};
+
+// A dimension of trials or of a sweep, with its values as text.
+export type CopyDimension = {
+  name: string;
+  values: string[];
 };
 
 // Cost of an element: microseconds per step.
@@ -206,7 +220,8 @@ export type DocumentParameterView = {
 // The open document.
 //
 // `file` is relative to the root, and empty if the document has no file; `unsaved`: it was edited since it
-// was written. `undo` and `redo` are the numbers of steps available.
+// was written. `undo` and `redo` are the numbers of steps available. `record`: the document is that of an
+// open record, and nothing runs.
 export type DocumentView = {
   file: string;
   title: string;
@@ -223,6 +238,7 @@ export type DocumentView = {
   unsaved: boolean;
   undo: number;
   redo: number;
+  record?: RecordView | null;
 };
 
 // Confirm that the page has drawn the frames up to the clock of this number; the next ones follow.
@@ -264,7 +280,7 @@ export type FileProblems = {
   problems: ListedProblem[];
 };
 
-// Content of a folder below the root.
+// Content of a folder below the root; `records` are files, and folders that are not in `folders`.
 export type Folder = {
   type: "folder";
   request: number;
@@ -272,6 +288,7 @@ export type Folder = {
   folders: string[];
   files: string[];
   pictures: string[];
+  records: string[];
 };
 
 // Delete stored unsaved edits.
@@ -387,7 +404,7 @@ export type OpenExample = {
   discard?: boolean;
 };
 
-// Open a document below the root. `discard` allows unsaved edits to be lost.
+// Open a document or a record below the root. `discard` allows unsaved edits to be lost.
 export type OpenFile = {
   type: "open_file";
   request?: number;
@@ -405,6 +422,14 @@ export type OpenPackage = {
   session?: number;
   name: string;
   content: string;
+  discard?: boolean;
+};
+
+// Open the document of the open record, as a document without a file, which runs.
+export type OpenRecordModel = {
+  type: "open_record_model";
+  request?: number;
+  session?: number;
   discard?: boolean;
 };
 
@@ -504,6 +529,18 @@ export type PushInput = {
   amplitude: number;
   center?: number[] | null;
   sigma?: number[] | null;
+};
+
+// An open record.
+//
+// `path` is relative to the root. `notes` are sentences on what is missing in it. `ports` lists for each
+// element the ports that were recorded.
+export type RecordView = {
+  path: string;
+  complete: boolean;
+  notes: string[];
+  copies: CopyDimension[];
+  ports: Record<string, string[]>;
 };
 
 // Open stored unsaved edits.
@@ -680,6 +717,7 @@ export type ToPage =
 
 export type ToServer =
   | OpenFile
+  | OpenRecordModel
   | OpenExample
   | OpenText
   | OpenPackage
@@ -706,6 +744,7 @@ export type ToServer =
   | Speed
   | Lengthen
   | Seek
+  | ChooseCopy
   | SeekFrames
   | MeasureCosts
   | PushInput
@@ -806,7 +845,10 @@ export type Welcome = {
 };
 
 // The world from above, sent whenever a box or mark changed; None: the world has no view from above.
+//
+// `note` is a sentence on what a record does not contain of the world.
 export type WorldScene = {
   type: "scene";
   scene: SceneView | null;
+  note?: string;
 };

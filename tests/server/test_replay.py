@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.recording import folder
 from tests.server.page import Page, page, play, studio
 
 
@@ -133,4 +135,183 @@ def test_a_malformed_moment_is_refused(root: Path, message: dict[str, Any]) -> N
         assert "not understood" in answer["problems"][0]["what"]
 
     with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+# -------------------------------------------------------------------------------------------------- records
+
+
+def recorded(root: Path, **how: Any) -> Any:
+    """Write a record of an example as `deodar run` does, and return it."""
+    model = dd.load(root / "selection.json")
+    chosen: dict[str, Any] = {"duration": 60, "record": ["u.activation", "left.output"], "every": 2}
+    data = dd.simulate(model, **chosen | how, progress=False)
+    folder.write(data, model.document, root / "selection-001", "zarr")
+    return data
+
+
+def record_view(p: Page) -> dict[str, Any]:
+    return p.document["record"]
+
+
+async def shows(p: Page) -> None:
+    await p.until(lambda: p.said.get("opened", {}).get("document") and timeline(p))
+
+
+@pytest.mark.parametrize("name", ["selection-001", "selection-001/record.zarr"])
+def test_a_record_opens_with_its_document_and_every_frame(root: Path, name: str) -> None:
+    data = recorded(root)
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        assert record_view(p) == {
+            "path": name,
+            "complete": True,
+            "notes": [],
+            "copies": [],
+            "ports": {p.element("u"): ["activation"], p.element("left"): ["output"]},
+        }
+        assert (timeline(p)["first"], timeline(p)["last"], timeline(p)["frames"]) == (0, 60, 31)
+        assert timeline(p)["time"] == 0 and timeline(p)["second"] == 1000 and timeline(p)["step"] == 2
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("watch", stream=2, element=p.element("u"), port="output")
+        await p.until(lambda: 1 in p.frames and 2 in p.lost)
+        assert "not recorded" in p.lost[2]["problem"]["what"]
+        for time in (0, 31, 60, 12):
+            await p.do("seek", time=time)
+            await p.until(lambda time=time: timeline(p)["time"] == time // 2 * 2 == shown(p))
+            expected = data["u.activation"].sel(time=time // 2 * 2).values
+            np.testing.assert_allclose(p.frames[1][1], expected, rtol=1e-6)
+        await p.do("seek_frames", frames=-3)
+        await p.until(lambda: shown(p) == 6)
+        await p.do("trace", stream=3, element=p.element("u"), port="activation", reduce="max")
+        await p.until(lambda: len(p.samples.get(3, [])) == 31)
+        course = data["u.activation"].max("x").values
+        np.testing.assert_allclose([v for _, v in p.samples[3]], course, rtol=1e-6)
+        assert [t for t, _ in p.samples[3]] == list(range(0, 61, 2))
+
+    with studio(root, root / name) as address:
+        play(address, scene)
+
+
+def test_a_record_neither_runs_nor_changes_and_its_model_can_be_run(root: Path) -> None:
+    recorded(root)
+
+    async def scene(p: Page) -> None:
+        await p.do("open_file", path="selection-001")
+        await shows(p)
+        for request in ({"type": "play"}, {"type": "step", "n": 1}, {"type": "undo"}):
+            answer = await p.ask(**request)
+            assert "a record" in answer["problems"][0]["what"]
+        change = {"element": p.element("u"), "parameter": "tau", "value": 5.0}
+        assert "a record" in (await p.ask("set", **change))["problems"][0]["what"]
+        await p.do("arrange", layout={"panels": {}}, undoable=False)
+        assert not p.document["unsaved"]
+        await p.open("open_record_model")
+        assert p.document["record"] is None and p.document["file"] == ""
+        await p.do("step", n=3)
+        await p.until(lambda: p.clock["tick"] == 3)
+        assert (await p.ask("open_record_model"))["problems"]
+
+    with studio(root) as address:
+        play(address, scene)
+
+
+def test_each_page_chooses_a_trial_and_a_point_of_a_sweep(root: Path) -> None:
+    data = recorded(root, trials=3, sweep={"left.amplitude": [2, 6]})
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        names = ["left.amplitude", "trial"]
+        assert [(c["name"], c["values"]) for c in record_view(p)["copies"]] == [
+            (names[0], ["2", "6"]),
+            (names[1], ["0", "1", "2"]),
+        ]
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("trace", stream=2, element=p.element("u"), port="activation", reduce="max")
+        async with page(addresses[0]) as other:
+            await other.until(lambda: timeline(other))
+            await other.do("watch", stream=1, element=p.element("u"), port="activation")
+            await p.do("choose_copy", dimension="trial", index=2)
+            await p.do("choose_copy", dimension="left.amplitude", index=1)
+            await p.do("seek", time=60)
+            await p.until(lambda: shown(p) == 60)
+            await other.do("seek", time=60)
+            await other.until(lambda: shown(other) == 60)
+            for one, where in ((p, {"trial": 2, names[0]: 1}), (other, {"trial": 0, names[0]: 0})):
+                expected = data["u.activation"].isel(where).sel(time=60).values
+                np.testing.assert_allclose(one.frames[1][1], expected, rtol=1e-6)
+        course = data["u.activation"].isel({"trial": 2, names[0]: 1}).max("x").values
+        await p.until(lambda: np.allclose([v for _, v in p.samples[2]][-31:], course, rtol=1e-6))
+        assert (await p.ask("choose_copy", dimension="noise", index=0))["problems"]
+
+    with studio(root, root / "selection-001") as address:
+        addresses = [address]
+        play(address, scene)
+
+
+def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Path) -> None:
+    recorded(root)
+    (root / "empty").mkdir()
+    (root / "broken.zarr").mkdir()
+    (root / "broken.zarr" / "zarr.json").write_text("{")
+    data = dd.load_record(root / "selection-001")
+    made = json.loads(data.attrs["deodar"])
+    made["document"]["deodar"] = 99
+    dd.save_record(data.assign_attrs(deodar=json.dumps(made)), root / "newer.zarr")
+    dd.save_record(data.assign_attrs(deodar="{"), root / "torn.zarr")
+
+    async def scene(p: Page) -> None:
+        for name, what in (
+            ("empty", "without a record"),
+            ("broken.zarr", "damaged"),
+            ("torn.zarr", "damaged"),
+            ("newer.zarr", "newer"),
+        ):
+            await p.do("open_file", path=name)
+            await p.until(lambda name=name: p.said["file_problems"]["file"].endswith(name))
+            problems = p.said["file_problems"]["problems"]
+            assert len(problems) == 1 and what in problems[0]["what"], problems
+            assert p.document is None
+
+    with studio(root) as address:
+        play(address, scene)
+
+
+def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
+    data = recorded(root)
+    text = data.attrs["deodar"].replace('"complete": true', '"complete": false')
+    path = root / "growing.zarr"
+    dd.save_record(data.isel(time=slice(5)).assign_attrs(deodar=text), path)
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        assert not record_view(p)["complete"] and "incomplete" in record_view(p)["notes"][0]
+        assert timeline(p)["last"] == 8
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("seek", time=8)
+        await p.until(lambda: shown(p) == 8)
+        dd.save_record(data, path, force=True)
+        await p.until(lambda: timeline(p)["last"] == 60 == shown(p))
+        await p.until(lambda: record_view(p)["complete"] and not record_view(p)["notes"])
+
+    with studio(root, path) as address:
+        play(address, scene)
+
+
+def test_records_are_listed_beside_folders_and_documents(root: Path) -> None:
+    recorded(root)
+    (root / "other").mkdir()
+
+    async def scene(p: Page) -> None:
+        await p.do("list_folder")
+        assert p.said["folder"]["records"] == ["selection-001"] and p.said["folder"]["folders"] == ["other"]
+        await p.do("list_folder", path="selection-001")
+        assert p.said["folder"]["records"] == ["record.zarr"]
+        await p.do("open_file", path="selection-001")
+        await shows(p)
+        await p.do("close")
+        await p.until(lambda: p.said["gallery"]["recent"] == ["selection-001"])
+
+    with studio(root) as address:
         play(address, scene)

@@ -1,4 +1,4 @@
-"""The command `deodar studio [FILE]`."""
+"""The command `deodar studio [FILE|RECORD]`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from deodar.cli import _options
 
 HELP = "open the studio in the browser: run a model, tune it, watch it"
 EPILOG = """\
-Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder
+FILE is a document, or a record (.zarr, .nc, or a folder that deodar run wrote), which is played without
+running. Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder
 (without FILE: below the working folder), and listens on this machine only; with --host it can be reached
 from others. The page needs the token in the printed address, also on this machine, which other users may
 share. A restart at the same port keeps the token; with --host each start has a new one."""
@@ -18,7 +19,7 @@ share. A restart at the same port keeps the token; with --host each start has a 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    _options.add_document(parser, nargs="?")
+    _options.add_document(parser, "a document (.json, .deodar), a record, or example:NAME", nargs="?")
     parser.add_argument(
         "--port",
         type=_options.whole,

@@ -157,14 +157,14 @@ class PageConnection:
         hub, engine = self._hub, self._hub.engine
         spoke = False
         while True:
-            source = hub.source()
+            source = hub.source(self.page)
             state = await self._shown(source)
             for message in await self._news_of_state():
                 await self._text(message)
                 spoke = True
             # an answer is never sent before its change, and frames belong to the document that was sent
             now = hub.project.session, hub.project.version
-            if (self._session, self._version) == now and hub.source().identity is source.identity:
+            if (self._session, self._version) == now and hub.source(self.page).identity is source.identity:
                 break
         for message in self._news_of_world(state):
             await self._text(message)
@@ -177,7 +177,8 @@ class PageConnection:
                 await self._text(news)
                 sent = spoke = True
             trace = None if stream.request is None else source.trace(stream.request)
-            data = stream.frame(state, trace) if sent else None
+            more = sent or (trace is not None and source.present() is None)  # a record is being read
+            data = stream.frame(state, trace) if more else None
             if data is not None:
                 await self._socket.send_bytes(data)
                 spoke = True
@@ -211,7 +212,7 @@ class PageConnection:
             -math.inf if time is None else time, 0 if asked is None else asked.further, places
         )
         number, state = found or (0, present or PublishedState(0, 0.0, 0, {}))
-        if kept is not None and state.time != kept.time:
+        if kept is not None and present is not None and state.time != kept.time:
             state = kept  # it is older than all that is stored
         page.moment, self._timeline = state, self._moments(source, (number, state.time))
         return state
@@ -253,7 +254,7 @@ class PageConnection:
 
     def _news_of_world(self, state: PublishedState) -> list[Message]:
         out: list[Message] = []
-        self._new("scene", scene.scene(state.scene), out)
+        self._new("scene", scene.scene(state.scene, self._hub.project.scene[1]), out)
         moved = None if self.page.sent_bodies is None else self.page.sent_bodies.news(state)
         return out if moved is None else [*out, moved]
 

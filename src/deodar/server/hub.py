@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+from collections.abc import Callable
 from pathlib import Path
 
 from deodar import __version__
@@ -14,6 +15,7 @@ from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import try_in_file_thread
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
+from deodar.server.record_frames import RecordFrames
 from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
 from deodar.server.to_page import Costs, CostView, Gallery, RunClock, TimelineView, Welcome
@@ -23,6 +25,10 @@ from deodar.worlds._base import World
 
 KEEP_SECONDS = 3.0
 """Wall time between two checks for unsaved edits to store, in seconds."""
+
+
+FOLLOW_SECONDS = 0.5
+"""Wall time between two checks whether a record grew, in seconds."""
 
 
 class Hub:
@@ -53,6 +59,7 @@ class Hub:
             plots=plots.views(),
         )
         self._keeping = asyncio.create_task(self._keep())
+        self._following = asyncio.create_task(self._follow())
 
     # ---------------------------------------------------------------------------------------------- notifying
 
@@ -107,9 +114,24 @@ class Hub:
             timeline=timeline,
         )
 
-    def source(self) -> FrameSource:
-        """Return what pages watch: the run."""
-        return RunFrames(self.engine)
+    def source(self, page: Page) -> FrameSource:
+        """Return what a page watches: the run, or the open record."""
+        record = self.project.record
+        if record is None:
+            page.frames = None
+            return RunFrames(self.engine)
+        if page.frames is None or page.frames.record is not record:
+            page.frames = RecordFrames(record, self.project.scene[0], self._from(page))
+        return page.frames
+
+    def _from(self, page: Page) -> Callable[[], None]:
+        """Return a function that wakes a page from any thread."""
+
+        def wake() -> None:
+            with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
+                self._loop.call_soon_threadsafe(page.wake)
+
+        return wake
 
     def costs(self) -> Costs:
         """Return the cost of the elements as last measured."""
@@ -157,8 +179,16 @@ class Hub:
             await asyncio.sleep(KEEP_SECONDS)
             await self.project.queue.run(self.project.keep)  # `forget` cannot run while edits are written
 
+    async def _follow(self) -> None:
+        """Show what is added to a record that grows."""
+        while True:
+            await asyncio.sleep(FOLLOW_SECONDS)
+            if await self.project.refresh():
+                self.notify()
+
     async def close(self) -> None:
         """Store unsaved edits and stop the engine."""
         self._keeping.cancel()
+        self._following.cancel()
         await self.project.keep()
         await asyncio.to_thread(self.engine.close)

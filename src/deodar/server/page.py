@@ -7,6 +7,7 @@ import dataclasses as dc
 import math
 
 from deodar.live.published import PublishedState
+from deodar.server.record_frames import RecordFrames
 from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
 
@@ -33,6 +34,7 @@ class Page:
         identity: the source of frames that `asked` and `moment` refer to.
         asked: the moment that the page asked for since the last exchange.
         moment: the state that the page shows; None: the present.
+        frames: the frames of the open record, for this page; None: no record is open.
         news: set when there may be something to send.
     """
 
@@ -44,6 +46,7 @@ class Page:
         self.identity: object = None
         self.asked: MomentRequest | None = None
         self.moment: PublishedState | None = None
+        self.frames: RecordFrames | None = None
         self.news = asyncio.Event()
 
     def wake(self) -> None:

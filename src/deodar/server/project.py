@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
+import msgspec
+
 from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
@@ -20,7 +22,9 @@ from deodar.model import edit, find
 from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.server import content, view
+from deodar.recording import files
+from deodar.recording.replay import RecordReader
+from deodar.server import content, record_frames, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.embodiment import Embodiment
@@ -31,6 +35,7 @@ from deodar.server.to_page import Changed, DocumentView, ListedProblem
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
 from deodar.worlds._base import World
+from deodar.worlds._scene import Scene
 
 Ask = Literal["unsaved", "replace"]
 
@@ -56,6 +61,8 @@ class OpenProject:
         file_problems: the file that could not be opened, and its problems.
         failure: why the document does not run.
         busy: a phrase for the compilation in progress; empty: none.
+        record: the open record, whose document `model` has; None: the document runs.
+        scene: the view of the record's world at its start, and a sentence on what it does not contain.
         checker: finds the warnings after changes of single parameters.
     """
 
@@ -77,6 +84,8 @@ class OpenProject:
         self.file_problems: tuple[str, Sequence[Wrong]] = ("", ())
         self.failure: Sequence[Wrong] = ()
         self.busy = ""
+        self.record: RecordReader | None = None
+        self.scene: tuple[Scene | None, str] = (None, "")
         self.checker = Checker(
             lambda: (self.version, None if self.model is None else self.model.document), self.queue, changed
         )
@@ -101,7 +110,12 @@ class OpenProject:
             return None
         history = self.model.history
         file = "" if self.file is None else self.workspace.shown(self.file)
-        return view.document(self.model.document, file, self.unsaved, history.depth, history.ahead)
+        shown = view.document(self.model.document, file, self.unsaved, history.depth, history.ahead)
+        if self.record is None:
+            return shown
+        record = view.record(self.record, self.workspace.shown(self.record.path))
+        elements = [msgspec.structs.replace(e, pushable=False) for e in shown.elements]
+        return msgspec.structs.replace(shown, record=record, problems=[], elements=elements)
 
     def changes_since(self, session: int, version: int) -> list[Changed] | None:
         """Return the changes from a version to the present one; None if a page needs the whole document."""
@@ -112,6 +126,7 @@ class OpenProject:
         """Whether the document has edits that are not saved to a file."""
         return (
             self.model is not None
+            and self.record is None
             and self._saved is not self.model.document
             and view.plain(self.model.document) != self._saved
         )
@@ -125,16 +140,49 @@ class OpenProject:
     # ------------------------------------------------------------------------------------ opening and closing
 
     async def open_file(self, path: Path, discard: bool) -> str:
-        """Open a document; an example or a file of another tool becomes a document without a file.
+        """Open a document or a record; an example or a file of another tool has no file afterwards.
 
         Problems of the file are stored in `file_problems`, which the page shows. Return a sentence on the
         import of a file of another tool, otherwise an empty string.
         """
         self._ask_unsaved(discard)
+        if await in_file_thread(lambda: path.is_dir() or files.is_record(path), str(path)):
+            await self._open_record(path)
+            return ""
         foreign = await in_file_thread(lambda: content.is_foreign(self.workspace, path), str(path))
         own = None if foreign or examples.holds(path) else path
         await self._open(lambda: content.load(self.workspace, path), own, str(path), discard)
         return self._reported() if foreign else ""
+
+    async def _open_record(self, path: Path) -> None:
+        try:
+            record, scene = await in_file_thread(lambda: record_frames.opened(path), str(path))
+        except DeodarError as error:
+            await self._refuse(str(path), error)
+            return
+        await self._leave()
+        self.record, self.scene = record, scene
+        self.model = Model(document=record.document)
+        await try_in_file_thread(lambda: self.store.opened(path))
+        self._moved()
+
+    async def open_record_model(self, discard: bool) -> None:
+        """Open the document of the open record, as a document without a file."""
+        record = self.record
+        if record is None:
+            raise DocumentError("no record is open")
+        await self._open(lambda: record.document, None, record.document.name, discard)
+
+    async def refresh(self) -> bool:
+        """Read what was added to a record that grows; return whether something was."""
+        record = self.record
+        if record is None or record.complete:
+            return False
+        grew: list[bool] = []
+        await try_in_file_thread(lambda: grew.append(record.refresh()))
+        if record is self.record and record.complete:
+            self._moved()
+        return any(grew)
 
     async def open_copy(self, read: Callable[[], Document], title: str, discard: bool) -> None:
         """Open a document without a file: an example, or a package that was dropped on the page."""
@@ -171,9 +219,7 @@ class OpenProject:
             if found := problems(doc):
                 raise DocumentError(found)
         except DeodarError as error:
-            await self._leave()
-            self.file_problems = (title, error.problems)
-            self._moved()
+            await self._refuse(title, error)
             return
         await self._leave()
         self.model = Model(document=doc, trusted=self._trust)
@@ -185,6 +231,12 @@ class OpenProject:
         self._moved()
         self.queue.start_task(self._start())
 
+    async def _refuse(self, title: str, error: DeodarError) -> None:
+        """Show the problems of a file that cannot be opened."""
+        await self._leave()
+        self.file_problems = (title, error.problems)
+        self._moved()
+
     async def _leave(self) -> None:
         if self._name:
             await try_in_file_thread(lambda: self.store.forget(self._name))
@@ -192,6 +244,7 @@ class OpenProject:
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.file_problems, self.failure, self.busy = ("", ()), (), ""
+        self.record, self.scene = None, (None, "")
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
     async def _start(self) -> None:
@@ -261,6 +314,8 @@ class OpenProject:
             raise ConfirmationRequired("replace")
         doc = model.document
         await in_file_thread(lambda: self.workspace.save(doc, place), path or str(place))
+        if self.record is not None:
+            return place
         self.file, self._saved, self._digest, self._kept = (
             place,
             view.plain(doc),
@@ -308,12 +363,13 @@ class OpenProject:
 
     def require_run(self) -> None:
         """Raise DocumentError if no session runs and none is being compiled."""
+        self._require_model()
         if self.engine.session is None and not self.busy:
             raise DocumentError(self.failure or [Wrong("", "no document is open")])
 
     async def embody(self, world: World) -> None:
         """Use another world, at once or, if the document has no sensors, as soon as a document has some."""
-        model, session = self._require(), self.engine.session
+        model, session = self._require_model(), self.engine.session
         self.embodiment.world(model.document)
         if session is None:
             self.queue.start_task(self._restart())
@@ -339,10 +395,12 @@ class OpenProject:
 
     async def undo(self) -> None:
         """Undo the last change."""
+        self._require_model()
         await self._travel(lambda h: h.undo(), lambda h: h.redo())
 
     async def redo(self) -> None:
         """Redo the change that was undone last."""
+        self._require_model()
         await self._travel(lambda h: h.redo(), lambda h: h.undo())
 
     async def _travel(
@@ -359,7 +417,7 @@ class OpenProject:
         self._moved()
 
     async def _commit(self, doc: Document, gesture: object, leaf: tuple[str, str, Any] | None = None) -> Cost:
-        model = self._require()
+        model = self._require_model()
         if doc == model.document:
             return "live"
         cost = await self._adopt(doc)
@@ -420,6 +478,16 @@ class OpenProject:
     def _reported(self) -> str:
         """Return the first line of the import report, which the importer writes at the start of the notes."""
         return "" if self.model is None else self.model.document.notes.partition("\n")[0]
+
+    def _require_model(self) -> Model:
+        """Return the document that runs; that of a record neither runs nor changes."""
+        if self.record is not None:
+            raise DocumentError(
+                "is a record, which neither runs nor changes",
+                where=self.workspace.shown(self.record.path),
+                fix="Run its model: the button Run its model opens a copy of the document",
+            )
+        return self._require()
 
     def _require(self) -> Model:
         if self.model is None:

@@ -86,6 +86,11 @@ async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
     return Answer(request=m.request, imported=imported)
 
 
+@handles(to_server.OpenRecordModel)
+async def _open_record_model(hub: Hub, page: Page, m: to_server.OpenRecordModel) -> None:
+    await hub.project.open_record_model(m.discard)
+
+
 @handles(to_server.OpenExample)
 async def _open_example(hub: Hub, page: Page, m: to_server.OpenExample) -> None:
     path = gallery.example_file(m.name)
@@ -263,6 +268,16 @@ async def _lengthen(hub: Hub, page: Page, m: to_server.Lengthen) -> None:
 @handles(to_server.Seek)
 async def _seek(hub: Hub, page: Page, m: to_server.Seek) -> None:
     page.seek(m.time)
+
+
+@handles(to_server.ChooseCopy)
+async def _choose_copy(hub: Hub, page: Page, m: to_server.ChooseCopy) -> None:
+    hub.source(page)
+    record = hub.project.record
+    if page.frames is None or record is None or m.dimension not in record.copies:
+        raise DocumentError("the open record has no such dimension", where=m.dimension)
+    page.frames.choose({m.dimension: m.index})
+    page.wake()
 
 
 @handles(to_server.SeekFrames)

@@ -11,10 +11,10 @@ DIGITS = 6
 """Decimal digits of positions in messages: more than a screen shows."""
 
 
-def scene(seen: _scene.Scene | None) -> WorldScene:
+def scene(seen: _scene.Scene | None, note: str = "") -> WorldScene:
     """Return the message with the boxes and marks of a scene, which change only when the user moves them."""
     if seen is None:
-        return WorldScene(scene=None)
+        return WorldScene(scene=None, note=note)
     boxes = [
         BoxView(
             name=b.name,
@@ -28,7 +28,8 @@ def scene(seen: _scene.Scene | None) -> WorldScene:
         for b in seen.boxes
     ]
     marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
-    return WorldScene(scene=SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks))
+    plan = SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks)
+    return WorldScene(scene=plan, note=note)
 
 
 class SentBodies:

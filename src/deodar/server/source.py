@@ -24,7 +24,6 @@ class FrameSource(Protocol):
     Attributes:
         identity: differs between sources whose times have nothing to do with each other.
         ready: whether the axes of ports are known.
-        absent: why a port has no frame at a moment.
     """
 
     @property
@@ -34,15 +33,16 @@ class FrameSource(Protocol):
     def ready(self) -> bool: ...
 
     @property
-    def absent(self) -> Problem: ...
-
-    @property
     def time_unit(self) -> tuple[str, float]:
         """Unit of the times, and the smallest difference of two moments."""
         ...
 
     def axes(self, place: PortKey) -> Axes:
         """Return the axes of a port, or raise DeodarError: the port has no frames."""
+        ...
+
+    def absent(self, place: PortKey) -> Problem:
+        """Return why a port has no frame at the moment found last."""
         ...
 
     def present(self) -> PublishedState | None:
@@ -64,8 +64,6 @@ class FrameSource(Protocol):
 
 class RunFrames:
     """Frames of the run: of the present, and of its last minute."""
-
-    absent = Problem("", "has no values at this moment, because no page watched the port")
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
@@ -98,6 +96,9 @@ class RunFrames:
             return program.axes(program.port(ident, port))
         except KeyError:
             raise ModelError(f"has no port {port!r}", where=ident) from None
+
+    def absent(self, place: PortKey) -> Problem:
+        return Problem("", "has no values at this moment, because no page watched the port")
 
     def present(self) -> PublishedState | None:
         return self._engine.published

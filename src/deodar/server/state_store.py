@@ -107,7 +107,7 @@ class StateStore:
 
     def recent(self) -> list[Path]:
         """Return the recent files that still exist, the last one first."""
-        return [p for p in map(Path, self._names()) if p.is_file()]
+        return [p for p in map(Path, self._names()) if p.exists()]
 
     def _names(self) -> list[str]:
         found: Any = _read(self._recent)

@@ -74,7 +74,7 @@ class Stream:
         if past is not None and self.request is None:
             array = past.arrays.get(self.place)
             if array is None or array.shape != tuple(a.samples for a in self._axes):
-                return _lost(self.number, source.absent)
+                return _lost(self.number, source.absent(self.place))
         if self.request is not None:
             return Announced(stream=self.number, shape=[2], axes=[], folded=[], channels=False)
         channels = is_picture(self._axes)

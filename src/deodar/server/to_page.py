@@ -122,11 +122,33 @@ class DocumentParameterView(Data, frozen=True):
     links: list[LinkView]
 
 
+class CopyDimension(Data, frozen=True):
+    """A dimension of trials or of a sweep, with its values as text."""
+
+    name: str
+    values: list[str]
+
+
+class RecordView(Data, frozen=True):
+    """An open record.
+
+    `path` is relative to the root. `notes` are sentences on what is missing in it. `ports` lists for each
+    element the ports that were recorded.
+    """
+
+    path: str
+    complete: bool
+    notes: list[str]
+    copies: list[CopyDimension]
+    ports: dict[str, list[str]]
+
+
 class DocumentView(Data, frozen=True):
     """The open document.
 
     `file` is relative to the root, and empty if the document has no file; `unsaved`: it was edited since it
-    was written. `undo` and `redo` are the numbers of steps available.
+    was written. `undo` and `redo` are the numbers of steps available. `record`: the document is that of an
+    open record, and nothing runs.
     """
 
     file: str
@@ -144,6 +166,7 @@ class DocumentView(Data, frozen=True):
     unsaved: bool
     undo: int
     redo: int
+    record: RecordView | None = None
 
 
 class ExampleView(Data, frozen=True):
@@ -368,9 +391,13 @@ class SceneView(Data, frozen=True):
 
 @MESSAGES.register
 class WorldScene(Message, frozen=True, tag="scene"):
-    """The world from above, sent whenever a box or mark changed; None: the world has no view from above."""
+    """The world from above, sent whenever a box or mark changed; None: the world has no view from above.
+
+    `note` is a sentence on what a record does not contain of the world.
+    """
 
     scene: SceneView | None
+    note: str = ""
 
 
 @MESSAGES.register
@@ -411,13 +438,14 @@ class Lost(Message, frozen=True, tag="lost"):
 
 @MESSAGES.register
 class Folder(Message, frozen=True, tag="folder"):
-    """Content of a folder below the root."""
+    """Content of a folder below the root; `records` are files, and folders that are not in `folders`."""
 
     request: int
     path: str
     folders: list[str]
     files: list[str]
     pictures: list[str]
+    records: list[str]
 
 
 @MESSAGES.register

@@ -37,9 +37,16 @@ class DocumentRequest(Request, frozen=True):
 
 @MESSAGES.register
 class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
-    """Open a document below the root. `discard` allows unsaved edits to be lost."""
+    """Open a document or a record below the root. `discard` allows unsaved edits to be lost."""
 
     path: Text
+    discard: bool = False
+
+
+@MESSAGES.register
+class OpenRecordModel(DocumentRequest, frozen=True, kw_only=True, tag="open_record_model"):
+    """Open the document of the open record, as a document without a file, which runs."""
+
     discard: bool = False
 
 
@@ -250,6 +257,14 @@ class Seek(Request, frozen=True, kw_only=True, tag="seek"):
     """Show the last frame up to a document time; None: the present. Other pages are not affected."""
 
     time: float | None
+
+
+@MESSAGES.register
+class ChooseCopy(Request, frozen=True, kw_only=True, tag="choose_copy"):
+    """Show another trial or point of a sweep of the open record: the index along one of its dimensions."""
+
+    dimension: Text
+    index: Count
 
 
 @MESSAGES.register

@@ -18,15 +18,18 @@ from deodar.model.parts import value_from_json
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray
+from deodar.recording.replay import RecordReader
 from deodar.server.to_page import (
     AxisView,
     ConnectionView,
+    CopyDimension,
     DocumentParameterView,
     DocumentView,
     ElementView,
     Kind,
     LinkView,
     ListedProblem,
+    RecordView,
 )
 
 BESIDE = ("kind", "id", "every")
@@ -81,6 +84,18 @@ def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> D
         undo=undo,
         redo=redo,
     )
+
+
+def record(reader: RecordReader, path: str) -> RecordView:
+    """Convert a record: its state, its trials and sweep, and the recorded ports."""
+    ports: dict[str, list[str]] = {}
+    for ident, port in reader.ports:
+        ports.setdefault(ident, []).append(port)
+    copies = [
+        CopyDimension(name=name, values=[f"{v:g}" for v in values.tolist()])
+        for name, values in reader.copies.items()
+    ]
+    return RecordView(path=path, complete=reader.complete, notes=reader.notes, copies=copies, ports=ports)
 
 
 def axis(a: Axis, key: str = "") -> AxisView:

@@ -144,12 +144,14 @@ class Workspace:
         except OSError as error:
             raise DocumentError(f"cannot be read: {error.strerror}", where=path) from None
         inside = [e for e in found if self.holds(Path(e.path))]
+        records = [e.name for e in inside if _is(lambda e=e: _is_record(Path(e.path)))]
         return Folder(
             request=request,
             path="" if place == self.root else self.shown(place),
-            folders=[e.name for e in inside if _is(e.is_dir)],
+            folders=[e.name for e in inside if _is(e.is_dir) and e.name not in records],
             files=_ending(inside, DOCUMENTS),
             pictures=_ending(inside, PICTURES),
+            records=records,
         )
 
     def target(self, path: str) -> Path:
@@ -166,6 +168,14 @@ class Workspace:
 
 def _ending(entries: Iterable[os.DirEntry[str]], suffixes: tuple[str, ...]) -> list[str]:
     return [e.name for e in entries if e.name.lower().endswith(suffixes) and _is(e.is_file)]
+
+
+def _is_record(path: Path) -> bool:
+    """Return whether a file or folder looks like a record, by the names in it."""
+    if path.is_dir():
+        inner = (path / "zarr.json", path / "record.zarr" / "zarr.json", path / "record.nc")
+        return any(file.is_file() for file in inner)
+    return path.suffix.lower() == ".nc" and path.is_file()
 
 
 def _is(question: Callable[[], bool]) -> bool:

@@ -3,7 +3,7 @@
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
 import { useStudio } from "../store";
-import { BOX, LIVE, liveHeight, livePort, portHeight } from "./boxes";
+import { BOX, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
 import { useHover } from "./hover";
 import { LiveBox } from "./LiveBox";
 import { Mark } from "./Mark";
@@ -13,7 +13,7 @@ import { useProblem, useWarning } from "./problem";
 export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<BoxNode>) {
   const { element: id, path, name, title, inputs, outputs } = data;
   const selected = useStudio((state) => state.selected.includes(id));
-  const port = useStudio((state) => known(state.elements.get(id), livePort));
+  const port = useStudio((state) => shownPort(state.elements.get(id), state.document?.record?.ports[id]));
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
   const problem = useProblem(id);
   const warning = useWarning(id);

@@ -3,9 +3,10 @@
 
 import { useComputedColorScheme } from "@mantine/core";
 import { useContext, useEffect, useRef } from "react";
+import { isRecord } from "../replay/replay";
 import { socket } from "../socket";
 import type { Live } from "../streams";
-import { clear, drawLive, type Canvas } from "./drawLive";
+import { clear, drawLive, drawWords, type Canvas } from "./drawLive";
 import { PainterContext } from "./PainterContext";
 
 // Samples along an axis: more than the box has room for would be sent in vain.
@@ -34,7 +35,9 @@ export function LiveBox({ element, port, label, width, height }: Props) {
         form = live.form;
         canvas.span = null;
       }
-      painter.wish(canvas, () => drawLive(canvas, live));
+      painter.wish(canvas, () =>
+        live.lost !== null && isRecord() ? drawWords(canvas, "not recorded") : drawLive(canvas, live),
+      );
     });
     return () => {
       leave();

@@ -11,6 +11,19 @@ export function livePort(element: ElementView): string | null {
   return element.outputs.includes("activation") ? "activation" : (element.outputs[0] ?? null);
 }
 
+// In a record without that port, a recorded one of the same shape takes its place.
+export function shownPort(element: ElementView | undefined, recorded?: string[]): string | null {
+  const port = element === undefined ? null : livePort(element);
+  if (element === undefined || port === null || recorded === undefined || recorded.includes(port)) {
+    return port;
+  }
+  return recorded.find((other) => same(element.axes[other], element.axes[port])) ?? port;
+}
+
+function same(one: string[] | undefined, other: string[] | undefined): boolean {
+  return one?.join() === other?.join();
+}
+
 // The height of the live picture: a number needs less than a curve; an unknown content gets the full height.
 export function liveHeight(element: ElementView): number {
   const port = livePort(element);

@@ -54,6 +54,18 @@ export function clear(canvas: Canvas): void {
   prepared(canvas);
 }
 
+// Words in place of a picture.
+export function drawWords(canvas: Canvas, words: string): void {
+  const ctx = prepared(canvas);
+  if (ctx !== null) {
+    ctx.fillStyle = ink().dim;
+    ctx.font = ink().font;
+    ctx.textAlign = "center";
+    ctx.textBaseline = "middle";
+    ctx.fillText(words, canvas.width / 2, canvas.height / 2);
+  }
+}
+
 function drawCurve(canvas: Canvas, values: Float32Array, lower: number, upper: number): void {
   const ctx = prepared(canvas);
   if (ctx === null) {
@@ -124,7 +136,7 @@ function squares({ element }: Canvas, on: boolean): void {
   element.style.imageRendering = on ? "pixelated" : "auto";
 }
 
-type Ink = { line: string; ground: string; text: string; font: string };
+type Ink = { dim: string; line: string; ground: string; text: string; font: string };
 
 const inks = new Map<Shade, Ink>();
 
@@ -136,6 +148,7 @@ function ink(): Ink {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string) => style.getPropertyValue(name).trim();
     found = {
+      dim: read("--text-dim"),
       line: read("--border-strong"),
       ground: read("--border"),
       text: read("--text"),

@@ -9,6 +9,7 @@ import { ElementInspector } from "./ElementInspector";
 export function Inspector() {
   const selected = useStudio((state) => state.selected);
   const open = useStudio((state) => state.document !== null);
+  const record = useStudio((state) => state.document?.record != null);
   const [only] = selected;
   if (!open) {
     return <div className="inspector inspector-empty">No document is open.</div>;
@@ -21,7 +22,10 @@ export function Inspector() {
     );
   }
   return (
-    <div className="inspector">
+    <div className="inspector" inert={record}>
+      {record && (
+        <p className="inspector-record">Parameters of the record; its model can be run and changed.</p>
+      )}
       {only === undefined ? <DocumentInspector /> : <ElementInspector key={only} id={only} />}
     </div>
   );

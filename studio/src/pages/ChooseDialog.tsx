@@ -33,6 +33,7 @@ export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) 
         wants={wants === "pictures" ? "pictures" : "files"}
         onFolder={setPath}
         onFile={answer}
+        records={wants === "files"}
         marked={file}
         first
       />

@@ -7,7 +7,7 @@ import classes from "./DocumentName.module.css";
 
 export function DocumentName() {
   const title = useStudio((state) => state.document?.title ?? "");
-  const file = useStudio((state) => state.document?.file ?? "");
+  const file = useStudio((state) => state.document?.record?.path ?? state.document?.file ?? "");
   const unsaved = useStudio((state) => state.document?.unsaved ?? false);
   useEffect(() => {
     document.title = `${unsaved ? "● " : ""}${title} – deodar studio`;

@@ -1,6 +1,6 @@
 // The folders below the root, and the files of one sort in them.
 
-import { IconFileText, IconFolder, IconPhoto } from "@tabler/icons-react";
+import { IconFileText, IconFolder, IconMovie, IconPhoto } from "@tabler/icons-react";
 import { useEffect, useRef } from "react";
 
 import { useStudio } from "../store";
@@ -18,6 +18,8 @@ type Props = {
   onFile: (path: string) => void;
   // A file that is marked, by its path.
   marked?: string;
+  // Whether records can be chosen; otherwise the folder of a run is a folder.
+  records?: boolean;
   // Whether the keyboard begins in the list.
   first?: boolean;
 };
@@ -29,6 +31,7 @@ export function FolderBrowser({
   onFolder,
   onFile,
   marked,
+  records = false,
   first = false,
 }: Props) {
   const root = useStudio((state) => state.welcome?.root ?? "");
@@ -44,7 +47,9 @@ export function FolderBrowser({
   const FileIcon = wants === "files" ? IconFileText : IconPhoto;
   const at = (name: string) => joined(folder?.path ?? path, name);
   const names = folder?.[wants] ?? [];
-  const empty = folder !== null && folder.folders.length + names.length === 0;
+  const runs = records ? [] : (folder?.records ?? []).filter((name) => !name.endsWith(".nc"));
+  const folders = [...(folder?.folders ?? []), ...runs];
+  const empty = folder !== null && folder.folders.length + folder.records.length + names.length === 0;
   return (
     <div className={classes.browser}>
       <nav className={classes.steps} aria-label="Folder">
@@ -67,7 +72,7 @@ export function FolderBrowser({
         tabIndex={-1}
         data-autofocus={first || undefined}
       >
-        {folder?.folders.map((name) => (
+        {folders.map((name) => (
           <li key={`${name}/`}>
             <button type="button" className={classes.entry} title={name} onClick={() => onFolder(at(name))}>
               <IconFolder size={17} stroke={1.6} aria-label="Folder" />
@@ -75,6 +80,15 @@ export function FolderBrowser({
             </button>
           </li>
         ))}
+        {records &&
+          folder?.records.map((name) => (
+            <li key={`${name} record`}>
+              <button type="button" className={classes.entry} title={name} onClick={() => onFile(at(name))}>
+                <IconMovie size={17} stroke={1.6} aria-label="Record" />
+                <span className="one-line">{name}</span>
+              </button>
+            </li>
+          ))}
         {names.map((name) => (
           <li key={name}>
             <button
@@ -91,7 +105,11 @@ export function FolderBrowser({
         ))}
         {empty && (
           <li className={classes.empty}>
-            {wants === "files" ? "No documents (.json, .deodar) here" : "No pictures here"}
+            {wants === "pictures"
+              ? "No pictures here"
+              : records
+                ? "No documents (.json, .deodar) or records here"
+                : "No documents (.json, .deodar) here"}
           </li>
         )}
         {problem !== null && (

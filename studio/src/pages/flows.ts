@@ -7,6 +7,7 @@ import type {
   OpenExample,
   OpenFile,
   OpenPackage,
+  OpenRecordModel,
   OpenText,
   ListedProblem,
   Recover,
@@ -19,7 +20,7 @@ import { sortOf } from "./paths";
 // The largest message that the server accepts, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;
 
-type Leaving = OpenFile | OpenExample | OpenText | OpenPackage | Recover | Close;
+type Leaving = OpenFile | OpenExample | OpenText | OpenPackage | OpenRecordModel | Recover | Close;
 
 // Go to another document, or to none. Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {

@@ -16,6 +16,7 @@ import { isAt, keepPins, pinsOf, withPin } from "./pins";
 export function Pins() {
   const pins = useStudio((state) => pinsOf(state.document?.layout));
   const open = useStudio((state) => state.document !== null);
+  const record = useStudio((state) => state.document?.record != null);
   // The dragged row, and the row before which it would be placed.
   const [dragged, setDragged] = useState<number | null>(null);
   const [over, setOver] = useState<number | null>(null);
@@ -31,7 +32,7 @@ export function Pins() {
     setOver(null);
   };
   return (
-    <div className="pins">
+    <div className="pins" inert={record}>
       {pins.length === 0 && (
         <div className="pins-empty">
           <p>

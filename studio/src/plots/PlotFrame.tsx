@@ -39,6 +39,7 @@ export function PlotFrame(props: PlotFrameProps) {
   const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } =
     props;
   const running = useStudio((state) => state.clock?.running ?? false);
+  const record = useStudio((state) => state.document?.record != null);
   const packaged = useStudio((state) => state.welcome?.plots) ?? [];
   const { lost, seen } = streaming;
   return (
@@ -100,7 +101,13 @@ export function PlotFrame(props: PlotFrameProps) {
         {!seen && (
           <div className="plot-message" role="status">
             {lost === null ? (
-              <span>{running ? "Waiting for the first values" : "Press play to see values"}</span>
+              <span>
+                {record
+                  ? "Reading the record"
+                  : running
+                    ? "Waiting for the first values"
+                    : "Press play to see values"}
+              </span>
             ) : (
               <>
                 <strong>{lost.what}</strong>

@@ -3,6 +3,7 @@
 import { CloseButton, useComputedColorScheme } from "@mantine/core";
 import { useEffect, useMemo, useRef } from "react";
 import type uPlot from "uplot";
+import { isRecord } from "../replay/replay";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { curveColor } from "./colors";
@@ -68,10 +69,12 @@ export function TimeCourse(props: PlotProps) {
     if (ends.length === 0 || histories.length !== traces.length) {
       return;
     }
+    const [first, last] = [Math.min(...ends.map((end) => end[0])), Math.max(...ends.map((end) => end[1]))];
     span.current = timeRange(
-      Math.min(...ends.map((end) => end[0])),
-      Math.max(...ends.map((end) => end[1])),
-      settings.window,
+      first,
+      last,
+      // a record shorter than the window has no more to come
+      isRecord() && settings.window !== null && last - first < settings.window ? null : settings.window,
       moment,
     );
     data.current = sideBySide(histories, span.current[0]) as uPlot.AlignedData;

@@ -30,9 +30,10 @@ export function Timeline() {
   const unit = useStudio((state) => state.document?.time_unit ?? "");
   const session = useStudio((state) => state.session);
   const { playing, held } = useReplay();
-  useEffect(() => () => useReplay.setState({ playing: null, held: null }), [session]);
+  useEffect(() => () => useReplay.setState({ playing: null, held: null, copy: {} }), [session]);
 
   const off = known === null || known.frames < 2;
+  const record = useStudio((state) => state.document?.record != null);
   const past = known?.time != null;
   const [first, last] = known === null || off ? [0, 1] : [known.first, known.last];
   const at = Math.min(last, Math.max(first, held ?? known?.time ?? last));
@@ -63,7 +64,12 @@ export function Timeline() {
   );
   const on = (direction: 1 | -1) => playing?.direction === direction;
   return (
-    <div className={classes.timeline} role="toolbar" aria-label="Replay" data-past={past || undefined}>
+    <div
+      className={classes.timeline}
+      role="toolbar"
+      aria-label="Replay"
+      data-past={(past && !record) || undefined}
+    >
       <div className={classes.buttons}>
         {act("First frame (Home)", <IconPlayerSkipBack size={ICON} />, seekFirst, classes.wide)}
         {act(
@@ -123,19 +129,21 @@ export function Timeline() {
               : ""}
         </span>
       </div>
-      <Tooltip label="Back to the present">
-        <Button
-          size="compact-xs"
-          w={50}
-          px={0}
-          variant={past ? "filled" : "default"}
-          disabled={!past}
-          aria-label="Live"
-          onClick={showPresent}
-        >
-          Live
-        </Button>
-      </Tooltip>
+      {!record && (
+        <Tooltip label="Back to the present">
+          <Button
+            size="compact-xs"
+            w={50}
+            px={0}
+            variant={past ? "filled" : "default"}
+            disabled={!past}
+            aria-label="Live"
+            onClick={showPresent}
+          >
+            Live
+          </Button>
+        </Tooltip>
+      )}
     </div>
   );
 }

@@ -13,14 +13,19 @@ type Replay = {
   speed: number;
   // Where the user holds the slider; null: the slider shows the moment.
   held: number | null;
+  // The trial and the point of a sweep that the page shows: the index along each dimension; 0 where none is.
+  copy: Record<string, number>;
 };
 
-export const useReplay = create<Replay>(() => ({ playing: null, speed: 1, held: null }));
+export const useReplay = create<Replay>(() => ({ playing: null, speed: 1, held: null, copy: {} }));
 
 const timeline = (): TimelineView | null => useStudio.getState().clock?.timeline ?? null;
 
 // Whether the page shows a moment of the past, or of a record.
 export const isPast = (): boolean => timeline()?.time != null;
+
+// Whether the open document is that of a record.
+export const isRecord = (): boolean => useStudio.getState().document?.record != null;
 
 // Show another moment, null: the present. A run is paused, as a video is.
 export function seek(time: number | null): void {
@@ -88,6 +93,11 @@ export function replay(direction: 1 | -1): void {
 export function setReplaySpeed(speed: number): void {
   const { playing } = useReplay.getState();
   useReplay.setState({ speed, playing: playing === null ? null : { ...playing, speed } });
+}
+
+export function chooseCopy(dimension: string, index: number): void {
+  useReplay.setState(({ copy }) => ({ copy: { ...copy, [dimension]: index } }));
+  socket.post({ type: "choose_copy", dimension, index });
 }
 
 function seekEnd(end: (known: TimelineView) => number): void {

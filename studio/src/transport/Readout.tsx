@@ -14,9 +14,20 @@ export function Readout() {
   const clock = useThrottled(clockOf);
   const unit = useStudio((state) => state.document?.time_unit ?? "");
   const running = useStudio((state) => state.clock?.running ?? false);
+  const record = useStudio((state) => state.document?.record != null);
   const past = clock?.timeline?.time ?? null;
-  const time = clock === null ? "–" : timeText(past ?? clock.time, unit, clock.dt);
-  const tick = clock === null ? "" : past !== null ? "in the past" : `step ${countText(clock.tick)}`;
+  const time =
+    clock === null
+      ? "–"
+      : timeText(past ?? clock.time, unit, record ? (clock.timeline?.step ?? 1) : clock.dt);
+  const tick =
+    clock === null
+      ? ""
+      : past !== null
+        ? record
+          ? "in the record"
+          : "in the past"
+        : `step ${countText(clock.tick)}`;
   const factor = clock === null || !running ? "×–" : factorText(clock.factor);
   const dt =
     clock === null
@@ -32,7 +43,7 @@ export function Readout() {
       <Tooltip label={dt}>
         <div className={classes.time} role="timer" aria-label="Simulated time">
           <div className={classes.number}>{time}</div>
-          <div className={classes.under} data-past={past !== null || undefined}>
+          <div className={classes.under} data-past={(past !== null && !record) || undefined}>
             {tick}
           </div>
         </div>

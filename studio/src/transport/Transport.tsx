@@ -8,6 +8,7 @@ import {
   IconPlayerTrackNextFilled,
 } from "@tabler/icons-react";
 
+import { RecordBar } from "../replay/RecordBar";
 import { useStudio } from "../store";
 import { Busy } from "./Busy";
 import { Readout } from "./Readout";
@@ -19,6 +20,11 @@ import { play, reset, step, useNext } from "./run";
 import classes from "./Transport.module.css";
 
 export function Transport() {
+  const record = useStudio((state) => state.document?.record ?? null);
+  return record === null ? <RunTransport /> : <RecordBar record={record} />;
+}
+
+function RunTransport() {
   // in the past, Play returns to the present and continues
   const running = useStudio(
     (state) => (state.clock?.running ?? false) && (state.clock?.timeline?.time ?? null) === null,

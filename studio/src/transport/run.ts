@@ -3,7 +3,7 @@
 import { create } from "zustand";
 
 import type { Answer } from "../protocol";
-import { isPast, stop } from "../replay/replay";
+import { isPast, isRecord, replay, seekFirst, seekFrames, stop } from "../replay/replay";
 import { request } from "../socket";
 import { useStudio } from "../store";
 
@@ -15,18 +15,27 @@ export const useNext = create<Next>(() => ({ steps: 1, seed: null }));
 
 export const MOST_SEED = 2 ** 32 - 1;
 
-export function play(): Promise<Answer> {
+export function play(): Promise<Answer> | void {
+  if (isRecord()) {
+    return replay(1);
+  }
   stop();
   const running = useStudio.getState().clock?.running === true;
   return request({ type: running && !isPast() ? "pause" : "play" });
 }
 
-export function step(): Promise<Answer> {
+export function step(): Promise<Answer> | void {
+  if (isRecord()) {
+    return seekFrames(1);
+  }
   stop();
   return request({ type: "step", n: useNext.getState().steps });
 }
 
 export async function reset(): Promise<void> {
+  if (isRecord()) {
+    return seekFirst();
+  }
   stop();
   const { seed } = useNext.getState();
   const answer = await request({ type: "reset", seed });

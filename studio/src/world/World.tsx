@@ -33,6 +33,9 @@ import {
 
 const HELP =
   "Drag an object. A double click places a box, Delete removes the selected one, arrow keys move it.";
+const NOTHING =
+  "Nothing to see from above. Start the studio with a world that has a plan, for example: " +
+  "deodar studio FILE --world arena:blocks";
 // A box that is placed, and a step of an arrow key, as shares of the shorter and of the longer side.
 const BOX = 0.06;
 const STEP = 0.01;
@@ -45,6 +48,8 @@ const ARROWS: Record<string, PlanPoint> = {
 
 export function World() {
   const scene = useSyncExternalStore(live.listen, live.scene);
+  const note = useSyncExternalStore(live.listen, live.note);
+  const record = useStudio((state) => state.document?.record != null);
   const open = useStudio((state) => state.connection === "open");
   const shade = useComputedColorScheme();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -119,8 +124,7 @@ export function World() {
   if (scene === null) {
     return (
       <p className="world-none dim" role="status">
-        Nothing to see from above. Start the studio with a world that has a plan, for example: deodar studio
-        FILE --world arena:blocks
+        {note !== "" ? note : record ? "The world of this record has no view from above." : NOTHING}
       </p>
     );
   }
@@ -198,7 +202,11 @@ export function World() {
     find(carrier.held?.name ?? hovered ?? selected) ?? live.now.bodies.find(({ name }) => name === hovered);
   const told =
     looked === undefined
-      ? HELP
+      ? note !== ""
+        ? note
+        : record
+          ? "The objects are at their places at the start of the run."
+          : HELP
       : `${looked.name}: ${placeText(carrier.held?.at ?? looked, scene.border, scene.unit)}`;
   return (
     <section className="world" aria-label="World from above">

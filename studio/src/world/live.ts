@@ -3,10 +3,10 @@
 
 import type { Bodies, BodyView, WorldScene, SceneView } from "../protocol";
 
-export type Seen = { scene: SceneView | null; bodies: BodyView[]; path: number[][] };
+export type Seen = { scene: SceneView | null; note: string; bodies: BodyView[]; path: number[][] };
 
 export class LiveWorld {
-  private seen: Seen = { scene: null, bodies: [], path: [] };
+  private seen: Seen = { scene: null, note: "", bodies: [], path: [] };
   private listeners = new Set<() => void>();
 
   get now(): Seen {
@@ -16,6 +16,8 @@ export class LiveWorld {
   // The static parts, as React reads them: the same object until it changes.
   readonly scene = (): SceneView | null => this.seen.scene;
 
+  readonly note = (): string => this.seen.note;
+
   readonly listen = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
@@ -23,7 +25,7 @@ export class LiveWorld {
 
   take(message: WorldScene | Bodies): void {
     if (message.type === "scene") {
-      this.seen = { ...this.seen, scene: message.scene };
+      this.seen = { ...this.seen, scene: message.scene, note: message.note ?? "" };
     } else {
       const { bodies, fresh, path } = message;
       this.seen = { ...this.seen, bodies, path: fresh ? path : [...this.seen.path, ...path] };

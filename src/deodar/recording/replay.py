@@ -1,0 +1,235 @@
+"""A record that is read one moment at a time, also while it grows.
+
+Times of all ports together are the moments of a record. At a moment each port has its last sample up to then,
+since ports may have sampling intervals of their own.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Generator, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+
+from deodar.errors import DeodarError, RecordError, UnknownName
+from deodar.model import find
+from deodar.model.document import Document
+from deodar.model.resolve import resolve
+from deodar.numerics.axes import Axes
+from deodar.recording import diverged, files, provenance
+from deodar.recording.record import about, time_dimension
+
+MOST_CACHED = 128 * 2**20
+"""Largest sum of the sizes of the chunks that are kept, in bytes."""
+
+FEWEST = 64
+"""Number of frames that are read together from a format without chunks."""
+
+PortPlace = tuple[str, str]
+"""An element by its id, and one of its ports."""
+
+Copy = Mapping[str, int]
+"""One copy of a record with trials or a sweep: the index along each of its dimensions."""
+
+
+class RecordReader:
+    """A record that is read one moment at a time.
+
+    Several threads may read it. `refresh` is called by one thread at a time.
+
+    Attributes:
+        path: the record, as it was opened.
+        document: the document that made it.
+        times: document time of each moment.
+        copies: coordinates of the dimensions of trials and sweeps.
+        complete: whether the run came to its end.
+        notes: sentences on what is missing in it.
+
+    Raises:
+        RecordError: the record cannot be opened, or does not state the document that made it.
+        DocumentError: its document cannot be read, for example because it is of a newer version.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._lock = threading.Lock()
+        self._blocks: OrderedDict[tuple[Any, ...], np.ndarray] = OrderedDict()
+        self._cached = 0
+        self._stamp = _stamp(path)
+        data = files.open_record(path)
+        try:
+            made = about(data)
+            if not isinstance(made.get("document"), dict):
+                raise RecordError("does not state the document that made it", where=str(path))
+            self.document: Document = provenance.document(made)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            text = f"{type(error).__name__}: {error}"
+            raise RecordError(
+                f"is damaged: its provenance cannot be read ({text})", where=str(path)
+            ) from None
+        self._take(data)
+        self._axes = {n.id: {**n.ins, **n.outs} for n in resolve(self.document)[0] if n.declared}
+        self._names: dict[PortPlace, str] = {}
+        for name in map(str, self.data.data_vars):
+            try:
+                entry, port = find.port(self.document, name)
+            except DeodarError:
+                continue  # not a port: a variable of another program
+            self._names[entry.id, port] = name
+        if not self._names:
+            raise RecordError("contains no port of its document", where=str(path))
+
+    def _take(self, data: xarray.Dataset) -> None:
+        made = about(data)
+        times = [_times(v) for v in data.data_vars.values()]
+        found = np.unique(np.concatenate([t for t in times if t is not None] or [np.zeros(0)]))
+        first = next(iter(data.data_vars.values()), None)
+        lead = [] if first is None else [str(d) for d in first.dims[: _time_axis(first)]]
+        self.complete = bool(made.get("complete", True))
+        said = [str(data.attrs[key]) for key in ("damaged", diverged.REASON) if data.attrs.get(key)]
+        self.notes = [] if self.complete else ["The record is incomplete: it ends before the end of its run."]
+        self.notes += [f"{text[0].upper()}{text[1:].rstrip('.')}." for text in said]
+        self.copies = {d: data[d].values if d in data.coords else np.arange(data.sizes[d]) for d in lead}
+        self.data, self.times = data, found
+
+    @property
+    def ports(self) -> Iterable[PortPlace]:
+        """The recorded ports."""
+        return self._names.keys()
+
+    def variable(self, place: PortPlace) -> xarray.DataArray:
+        """Return the variable of a port.
+
+        Raises:
+            UnknownName: the port was not recorded.
+        """
+        name = self._names.get(place)
+        if name is None:
+            path = find.entry(self.document, place[0]).path
+            raise UnknownName(
+                "was not recorded", where=f"{path}.{place[1]}", fix=f"Record it: --record {path}.{place[1]}"
+            )
+        return self.data[name]
+
+    def axes(self, place: PortPlace) -> Axes:
+        """Return the axes of a recorded port.
+
+        Raises:
+            UnknownName: the port was not recorded.
+            RecordError: the variable has other axes than the document.
+        """
+        variable = self.variable(place)
+        axes = self._axes.get(place[0], {}).get(place[1])
+        if axes is None or not _fits(variable, axes):
+            raise RecordError("has other axes in the record than in its document", where=str(variable.name))
+        return axes
+
+    def index(self, time: float) -> int:
+        """Return the number of the last moment up to a time, or 0."""
+        return max(0, int(np.searchsorted(self.times, time, "right")) - 1)
+
+    def frame(self, place: PortPlace, k: int, copy: Copy) -> np.ndarray | None:
+        """Return the last sample of a port up to moment `k`; None before its first sample.
+
+        Raises:
+            RecordError: the sample cannot be read.
+        """
+        variable, times = self.variable(place), _times(self.variable(place))
+        at = 0 if times is None else int(np.searchsorted(times, self.times[k], "right")) - 1
+        if at < 0:
+            return None
+        axis = _time_axis(variable)
+        size = _chunk(variable, axis)
+        first = at // size * size
+        last = min(first + size, 1 if times is None else len(times))
+        lead = tuple(copy.get(str(d), 0) for d in variable.dims[:axis])
+        key = (place, lead, first, last)
+        with self._lock:
+            block = self._blocks.get(key)
+            if block is not None:
+                self._blocks.move_to_end(key)
+        if block is None:
+            block = _read(variable, lead, first, last)
+            with self._lock:
+                if block.nbytes <= MOST_CACHED and key not in self._blocks:
+                    self._blocks[key] = block
+                    self._cached += block.nbytes
+                while self._cached > MOST_CACHED:
+                    self._cached -= self._blocks.popitem(last=False)[1].nbytes
+        return block[at - first]
+
+    def samples(
+        self, place: PortPlace, copy: Copy, most: int
+    ) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
+        """Yield times and frames of a port, chunk by chunk, at most about `most` evenly spaced ones."""
+        variable, times = self.variable(place), _times(self.variable(place))
+        if times is None:
+            return
+        axis = _time_axis(variable)
+        size, stride = _chunk(variable, axis), max(1, -(-len(times) // most))
+        lead = tuple(copy.get(str(d), 0) for d in variable.dims[:axis])
+        size = max(size, size * (2**20 // max(1, size * variable[(0,) * (axis + 1)].nbytes)))
+        for first in range(0, len(times), size):
+            last = min(first + size, len(times))
+            own = np.arange(-(-first // stride) * stride, last, stride)
+            if len(own):
+                yield times[own], _read(variable, lead, first, last)[own - first]
+
+    def refresh(self) -> bool:
+        """Open the record again if it grew; return whether it did.
+
+        Raises:
+            RecordError: it cannot be opened any more.
+        """
+        stamp = _stamp(self.path)
+        if stamp == self._stamp:
+            return False
+        self._take(files.open_record(self.path))
+        self._stamp = stamp
+        return True
+
+
+def _stamp(path: Path) -> tuple[int, ...]:
+    """Return what changes with every commit of a record that grows."""
+    try:
+        place, _ = files.locate(path)
+        inner = place / "zarr.json"
+        found = (inner if inner.is_file() else place).stat()
+    except OSError:
+        return ()
+    return found.st_ino, found.st_mtime_ns, found.st_size
+
+
+def _time_axis(variable: xarray.DataArray) -> int:
+    """Return the number of leading dimensions before the time; all if the variable has no time."""
+    dimension = time_dimension(variable)
+    return variable.ndim if dimension is None else variable.dims.index(dimension)
+
+
+def _times(variable: xarray.DataArray) -> np.ndarray | None:
+    dimension = time_dimension(variable)
+    return None if dimension is None else np.asarray(variable[dimension].values, float)
+
+
+def _fits(variable: xarray.DataArray, axes: Axes) -> bool:
+    return variable.shape[_time_axis(variable) + 1 :] == tuple(a.samples for a in axes)
+
+
+def _chunk(variable: xarray.DataArray, axis: int) -> int:
+    """Return the number of frames that are read together."""
+    chunks = variable.encoding.get("chunks")
+    return int(chunks[axis]) if chunks and axis < len(chunks) else FEWEST
+
+
+def _read(variable: xarray.DataArray, lead: tuple[int, ...], first: int, last: int) -> np.ndarray:
+    try:
+        return np.asarray(variable[(*lead, slice(first, last))].values)
+    except Exception as error:  # libraries that read untrusted bytes may raise any exception
+        text = f"{type(error).__name__}: {' '.join(str(error).split())[:200]}"
+        raise RecordError(
+            f"cannot be read at this moment, the record may be damaged ({text})", where=str(variable.name)
+        ) from None

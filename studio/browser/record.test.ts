@@ -1,0 +1,138 @@
+import { execFileSync } from "node:child_process";
+import { rmSync } from "node:fs";
+import { join } from "node:path";
+
+import { afterAll, beforeAll, expect, test } from "vitest";
+
+import { box, button, choose, drag, drawn, panel, select } from "./hands";
+import { python } from "./server";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+
+const run = (...words: string[]) =>
+  execFileSync(python(), ["-m", "deodar", "run", "selection.json", "--no-progress", ...words], {
+    cwd: studio.folder,
+    env: { ...process.env, DEODAR_STATE: studio.state },
+    stdio: "pipe",
+  });
+
+beforeAll(async () => {
+  studio = await startStudio({ copies: ["examples/selection.json"] });
+  const how = ["--duration", "600", "--record", "u.activation", "u.output", "--every", "2"];
+  run(...how, "--out", "single");
+  run(...how, "--out", "trials", "--trials", "3", "--sweep", "left.amplitude=2,6");
+});
+
+afterAll(() => studio.stop());
+
+const bar = () => studio.page.getByRole("toolbar", { name: "Replay" });
+const moment = () => bar().getByRole("status", { name: "Moment shown" });
+const said = (text: RegExp) => expect.poll(() => moment().innerText()).toMatch(text);
+const plot = () => studio.page.getByRole("region", { name: /of u$/ }).locator("canvas").first();
+
+async function open(name: string): Promise<void> {
+  const { page } = studio;
+  await page.keyboard.press("Control+o");
+  const dialog = page.getByRole("dialog");
+  await dialog.getByRole("button", { name, exact: false }).click();
+  await dialog.waitFor({ state: "detached" });
+  await page.getByRole("toolbar", { name: "Record" }).waitFor();
+}
+
+test("a record opens from the list of files, and the slider moves every plot and box", async () => {
+  const { page } = studio;
+  await open("single");
+  await said(/^0 ms\s+frame 1 of 301/);
+  expect(await page.getByRole("heading", { level: 1 }).innerText()).toBe("selection");
+  await box(page, "u").waitFor();
+  const first = await drawn(plot());
+  await drag(page, bar().getByRole("slider", { name: "Moment" }), 0.75);
+  await said(/^4[45]\d ms/);
+  await expect.poll(() => drawn(plot())).not.toBe(first);
+  await shot(page, "record");
+  await page.keyboard.press("End");
+  await said(/^600 ms\s+frame 301 of 301/);
+  await page.keyboard.press("ArrowLeft");
+  await said(/^598 ms/);
+  await page.keyboard.press("Home");
+  await said(/^0 ms/);
+});
+
+test("Space plays a record to its end at the chosen speed, and backward", async () => {
+  const { page } = studio;
+  await bar().getByLabel("Speed of the replay").selectOption("0.5");
+  await page.locator("main").press("Space");
+  await button(page, "Stop replay").waitFor();
+  await said(/^600 ms/);
+  await bar().getByLabel("Speed of the replay").selectOption("5");
+  await button(page, "Replay backward").click();
+  await said(/^0 ms/);
+});
+
+test("a port that was not recorded says so, in its box and in its plot", async () => {
+  const { page } = studio;
+  await box(page, "left").dblclick();
+  const lost = page.getByRole("region", { name: /of left$/ }).getByRole("status");
+  await expect.poll(() => lost.innerText()).toMatch(/was not recorded/);
+  await shot(page, "record-lost");
+});
+
+test("a time course of the whole record is drawn, with a line at the moment", async () => {
+  const { page } = studio;
+  await select(page, "u");
+  const region = page.getByRole("region", { name: /of u$/ });
+  await region.getByRole("button", { name: "Menu of this plot" }).click();
+  await page.getByRole("menuitem", { name: "Time course", exact: true }).click();
+  const course = () =>
+    drawn(page.getByRole("region", { name: "Time course of u" }).locator("canvas").first());
+  await bar().getByRole("slider", { name: "Moment" }).press("Home");
+  await said(/^0 ms/);
+  await expect.poll(course).toBeTruthy();
+  const before = await course();
+  await bar().getByRole("slider", { name: "Moment" }).press("End");
+  await said(/^600 ms/);
+  await expect.poll(course).not.toBe(before);
+  await shot(page, "record-course");
+});
+
+test("the inspector shows the parameters of a record without changing them", async () => {
+  const { page } = studio;
+  await panel(page, "Inspector").getByText("Parameters of the record").waitFor();
+  expect(await panel(page, "Inspector").locator("[inert]").count()).toBe(1);
+});
+
+test("the trial and the point of a sweep are chosen", async () => {
+  const { page } = studio;
+  await open("trials");
+  await said(/^0 ms/);
+  await page.keyboard.press("End");
+  await said(/^600 ms/);
+  const record = page.getByRole("toolbar", { name: "Record" });
+  const before = await drawn(plot());
+  await record.getByLabel("trial").selectOption("2");
+  await expect.poll(() => drawn(plot())).not.toBe(before);
+  const after = await drawn(plot());
+  await record.getByLabel("left.amplitude").selectOption("6");
+  await expect.poll(() => drawn(plot())).not.toBe(after);
+  await shot(page, "record-trials");
+});
+
+test("the model of a record runs as a copy of its document", async () => {
+  const { page } = studio;
+  await button(page, "Run its model").click();
+  await button(page, "Play").click();
+  await button(page, "Pause").click();
+  await choose(page, "File menu", "Close");
+});
+
+test("a damaged record opens as far as it is sound, or shows one error", async () => {
+  const { page } = studio;
+  rmSync(join(studio.folder, "single", "record.zarr", "zarr.json"));
+  await page
+    .getByRole("list", { name: "Recent files" })
+    .getByRole("button", { name: /^single/ })
+    .click();
+  await page.getByText("There is one problem.").waitFor();
+  await page.getByText("is a folder without a record in it").waitFor();
+});

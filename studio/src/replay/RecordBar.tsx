@@ -1,0 +1,45 @@
+// Above a record: which trial and point of a sweep is shown, and a way to run its model.
+
+import { Button, NativeSelect, Tooltip } from "@mantine/core";
+import { IconMovie, IconPlayerPlay } from "@tabler/icons-react";
+
+import { leave } from "../pages/flows";
+import type { RecordView } from "../protocol";
+import { chooseCopy, useReplay } from "./replay";
+import classes from "./RecordBar.module.css";
+
+export function RecordBar({ record }: { record: RecordView }) {
+  const copy = useReplay((state) => state.copy);
+  return (
+    <div className={classes.bar} role="toolbar" aria-label="Record">
+      <span className={classes.mark} title={record.path}>
+        <IconMovie size={16} stroke={1.6} aria-hidden="true" />
+        Record{record.complete ? "" : ", incomplete"}
+      </span>
+      {record.copies.map(({ name, values }) => (
+        <label key={name} className={classes.choice}>
+          <span className="one-line" title={name}>
+            {name}
+          </span>
+          <NativeSelect
+            size="xs"
+            aria-label={name}
+            data={values.map((value, index) => ({ value: String(index), label: value }))}
+            value={String(copy[name] ?? 0)}
+            onChange={(event) => chooseCopy(name, Number(event.currentTarget.value))}
+          />
+        </label>
+      ))}
+      <Tooltip label="Open a copy of the document of this record, which runs and can be changed">
+        <Button
+          size="compact-sm"
+          variant="default"
+          leftSection={<IconPlayerPlay size={15} />}
+          onClick={() => void leave({ type: "open_record_model" })}
+        >
+          Run its model
+        </Button>
+      </Tooltip>
+    </div>
+  );
+}
