@@ -141,3 +141,19 @@ def test_ports_with_intervals_of_their_own_have_their_last_sample_at_each_moment
     for k in (1, 4, 5, 20):
         np.testing.assert_array_equal(reader.frame(n, k, {}), slow.values[(k - 1) // 4])
     assert [len(t) for t, _ in reader.samples(n, {}, 100)] == [5]
+
+
+def test_a_saved_record_has_chunks_of_whole_frames_of_one_copy(data: xarray.Dataset, tmp_path: Path) -> None:
+    opened = dd.open_record(dd.save_record(data, tmp_path / "r.zarr"))
+    assert opened["u.activation"].encoding["chunks"] == (1, 1, 21, 11)
+    assert opened["n.output"].encoding["chunks"] == (1, 1, 21)
+
+
+def test_a_record_written_during_a_run_is_read(tmp_path: Path) -> None:
+    kept = dd.simulate(
+        model(), duration=300, record=["u.activation", "n.output"], out=tmp_path / "r.zarr", progress=False
+    )
+    reader = RecordReader(tmp_path / "r.zarr")
+    u = place(reader, "u.activation")
+    for k in (0, 123, 300):
+        np.testing.assert_array_equal(reader.frame(u, k, {}), kept["u.activation"].values[k])

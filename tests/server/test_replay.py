@@ -266,7 +266,7 @@ def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Pat
             ("empty", "without a record"),
             ("broken.zarr", "damaged"),
             ("torn.zarr", "damaged"),
-            ("newer.zarr", "newer"),
+            ("newer.zarr", "version 99"),
         ):
             await p.do("open_file", path=name)
             await p.until(lambda name=name: p.said["file_problems"]["file"].endswith(name))

@@ -12,14 +12,16 @@ from collections.abc import Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import psutil
 import xarray
 
-from deodar import renamed
+from deodar import codec, renamed
 from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
 from deodar.model import output
-from deodar.recording import places, portable, sound, table
+from deodar.recording import growing, places, portable, sound, table
 from deodar.recording.provenance import KEY
+from deodar.recording.record import time_dimension
 
 SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
 """Formats and their file name endings."""
@@ -220,7 +222,23 @@ def _write_zarr(data: xarray.Dataset, path: Path) -> None:
     with warnings.catch_warnings():
         # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
-        portable.pack(data, narrow=False).to_zarr(path, mode="w", zarr_format=3, consolidated=True)
+        stored = portable.pack(data, narrow=False)
+        chunks = {name: {"chunks": shape} for name, shape in _frame_chunks(stored).items()}
+        stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=chunks)
+
+
+def _frame_chunks(stored: xarray.Dataset) -> dict[Any, tuple[int, ...]]:
+    """Return chunks of whole frames of one copy, so that one moment of a long record is read at once."""
+    names = codec.parse(stored.attrs[portable.KEY])["names"]
+    found: dict[Any, tuple[int, ...]] = {}
+    for name, variable in stored.data_vars.items():
+        dims = [names.get(str(d), str(d)) for d in variable.dims]
+        time = time_dimension(xarray.DataArray(np.empty((0,) * len(dims)), dims=dims))
+        if time is not None and variable.size:
+            lead = dict.fromkeys(dims[: dims.index(time)], 1)
+            wanted = growing.frame_chunks(variable, dims, time, lead)
+            found[name] = tuple(min(n, c) for n, c in zip(variable.shape, wanted, strict=True))
+    return found
 
 
 def _write_netcdf(data: xarray.Dataset, path: Path) -> None:

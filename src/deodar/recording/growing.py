@@ -369,7 +369,7 @@ def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Ma
             about.pop("sha256")
             about["grows"] = dimension
             encoding[name] = {
-                "chunks": _chunks(stored[name], dims, dimension, piece),
+                "chunks": frame_chunks(stored[name], dims, dimension, piece),
                 "compressors": [zarr.codecs.ZstdCodec(level=1), zarr.codecs.Crc32cCodec()],
                 "fill_value": np.nan if stored[name].dtype.kind == "f" else 0,
             }
@@ -381,10 +381,10 @@ def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Ma
         stored.to_zarr(path, mode="w-", zarr_format=3, consolidated=True, encoding=encoding)
 
 
-def _chunks(
+def frame_chunks(
     variable: xarray.DataArray, dims: Sequence[str], dimension: str, piece: Mapping[str, int]
 ) -> tuple[int, ...]:
-    """Return the shape of the chunks of a growing array: whole frames, of the copies of one piece."""
+    """Return the shape of the chunks of an array: whole frames, of the copies of one piece."""
     chunks = [min(piece.get(d, n), n) for d, n in zip(dims, variable.shape, strict=True)]
     axis = dims.index(dimension)
     frame = math.prod(chunks[:axis]) * math.prod(chunks[axis + 1 :]) * variable.dtype.itemsize
