@@ -58,6 +58,7 @@ SCRIPT = [
     "Session",
     "simulate",
     "resume",
+    "Probe",
     "Experiment",
     "save",
     "load",

@@ -159,6 +159,7 @@ from deodar.numerics.windows import Window as Window
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record
+from deodar.recording.probe import Probe as Probe
 from deodar.registry import register as register
 from deodar.session.session import Session as Session
 from deodar.worlds._base import Signal as Signal

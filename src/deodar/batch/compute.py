@@ -22,10 +22,11 @@ from deodar.elements.field import Field
 from deodar.errors import Interrupted, NotFinite, ParameterError, TimeError, WorkerError
 from deodar.model import find
 from deodar.model.document import Document
-from deodar.model.model import Handle, Model, path_of
+from deodar.model.model import Model
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import show
+from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import provenance
 from deodar.session import memory
 from deodar.session.exchange import embodied
@@ -72,14 +73,12 @@ def compute(
     require_step(doc, step)
     seed = require_seed(request.seed)
     steps = whole(request.duration, step, "the duration")
-    gap = 1 if request.every is None else whole(request.every, step, "every")
-    if request.every is not None and gap == 0:
-        raise TimeError("every is 0; expected at least one step")
+    asked_for, gap, strides = _probes(request, step, out)
     names, numbers = _trials(request.trials)
     points = Points(doc, sweep or {})
     for document in points.documents():
         require_step(document, step)
-    ports = _ports(doc, request.record)
+    ports, strides = _ports(doc, asked_for, strides)
     start, gap = (steps, steps + 1) if request.record is None else (0, gap)
     count = 0 if start > steps else 1 + (steps - start) // gap
     copies = Batch(points.size if sweep else None, len(numbers) if names else None)
@@ -98,8 +97,9 @@ def compute(
         min(points.size, cut.batch),
         beside,
     )
-    paths = None if request.record is None else [find.written(doc, path) for path in _list(request.record)]
-    request = dc.replace(request, duration=float(request.duration), seed=seed, record=paths)
+    paths = [dc.replace(probe, path=find.written(doc, probe.path)) for probe in asked_for]
+    request = dc.replace(request, duration=float(request.duration), seed=seed)
+    request = dc.replace(request, record=list(map(str, paths)) or None)
     labels, grid = list(numbers) if names else None, points.by_path
     asked = {"trials": labels, "sweep": grid, "workers": request.workers, "device": device}
     if isinstance(out, RunOutput):
@@ -137,7 +137,7 @@ def compute(
         found = [program.port(i, port) for i, port in ports]
         settings = {name: getattr(request, name) for name in PROVENANCE}
         about = provenance(doc, run, **settings, **asked, batch=cut.batch)
-        sampling = Sampling(start, gap, count, float(step))
+        sampling = Sampling(start, gap, count, float(step), strides)
         part = out.part(0) if isinstance(out, RunOutput) else out
         store = _Store(program, found, filled, count if part is None else 0)
         try:
@@ -303,32 +303,52 @@ class _Store:
         self.taken = self.count
 
 
-def _ports(doc: Document, record: Sequence[str] | str | None) -> list[tuple[str, str]]:
-    if record is None:
+def _probes(
+    request: SimulationRequest, step: float, out: object
+) -> tuple[list[Probe], int, list[tuple[int, str | None]]]:
+    """Return the probes of a run, the steps between two of its samples, and for each probe how many samples
+    lie between two of its own, and its condition.
+
+    Without probes, the final state of all fields is recorded.
+    """
+    found = [] if request.record is None else probes(request.record)
+    own = [probe for probe in found if probe.alone]
+    copies = request.trials is not None or bool(request.sweep)
+    if own and (out is None or copies):
+        where = "into a file" if out is None else "of a single run"
+        raise ParameterError(
+            "an interval or a condition of its own needs a record that is written " + where,
+            where=str(own[0]),
+            fix="Give `out`" if out is None else "Leave out trials and sweep",
+        )
+    every = [request.every if probe.every is None else probe.every for probe in found]
+    gaps = [1 if time is None else whole(time, step, "every") for time in every or [request.every]]
+    if 0 in gaps:
+        raise TimeError("every is 0; expected at least one step")
+    gap = math.gcd(*gaps)
+    return found, gap, [(n // gap, probe.when) for n, probe in zip(gaps, found, strict=False)]
+
+
+def _ports(
+    doc: Document, found: Sequence[Probe], strides: Sequence[tuple[int, str | None]]
+) -> tuple[list[tuple[str, str]], list[tuple[int, str | None]]]:
+    """Return the ports to record, each once, and their strides and conditions."""
+    if not found:
         fields = [(e.id, "activation") for e in doc.entries if isinstance(e.element, Field)]
         if not fields:
             raise ParameterError(
                 "the model has no field, so the ports to record must be named",
                 fix="For example record=['left.output']",
             )
-        return fields
-    found = [find.shown(doc, path) for path in _list(record)]
-    if not found:
-        raise ParameterError("record is empty", fix="Name at least one port, or leave it out")
-    return list(dict.fromkeys((entry.id, port) for entry, port in found))
-
-
-def _list(record: Sequence[str] | str) -> list[str]:
-    paths: list[Any] = (
-        [record] if isinstance(record, (str, Handle)) or not np.iterable(record) else list(record)
-    )
-    paths = [path_of(p) if isinstance(p, Handle) else p for p in paths]
-    if not all(isinstance(path, str) for path in paths):
-        raise ParameterError(
-            f"record names ports by their paths, not {show(record)}",
-            fix="For example record=['u.activation']",
-        )
-    return paths
+        return fields, [(1, None)] * len(fields)
+    ports: dict[tuple[str, str], tuple[int, str | None]] = {}
+    for probe, stride in zip(found, strides, strict=True):
+        entry, port = find.shown(doc, probe.path)
+        if ports.setdefault((entry.id, port), stride) != stride:
+            raise ParameterError(
+                "is recorded with two intervals or conditions", where=probe.path, fix="Record it once"
+            )
+    return list(ports), list(ports.values())
 
 
 def _cells(nodes: Sequence[Node], ident: str, port: str) -> int:

@@ -17,7 +17,7 @@ from deodar.compiler.program import Port
 from deodar.errors import DeodarError, RecordError
 from deodar.model.document import Document
 from deodar.numerics.axes import shape
-from deodar.recording import provenance, stored
+from deodar.recording import probe, provenance, stored
 from deodar.session import checkpoint
 from deodar.session.run import Run
 
@@ -34,12 +34,16 @@ CHECKPOINT_SECONDS = 30.0
 
 
 class Sampling(NamedTuple):
-    """The samples of a run: after `start` steps and then after each `gap`, `most` of them."""
+    """The samples of a run: after `start` steps and then after each `gap`, `most` of them.
+
+    `probes` states for each variable how many gaps lie between its samples, and their condition.
+    """
 
     start: int
     gap: int
     most: int
     dt: float
+    probes: Sequence[tuple[int, str | None]] = ()
 
     def times(self, doc: Document, first: int, n: int) -> np.ndarray:
         """Return the times of `n` samples from number `first` on."""
@@ -140,7 +144,12 @@ class RunOutput:
                 else:
                     folder.begin(self.doc, self.path, self.force)
                 piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
-                self.writer = GrowingRecord(self.record, empty, piece=piece)
+                times = [
+                    d
+                    for d in map(str, empty.dims)
+                    if d.rpartition(".")[2] == probe.TIME and not empty.sizes[d]
+                ]
+                self.writer = GrowingRecord(self.record, empty, times, piece)
         return self.writer
 
     def _opened(self) -> GrowingRecord:
@@ -148,8 +157,8 @@ class RunOutput:
         # start-up time: this imports xarray
         from deodar.recording.growing import GrowingRecord
 
-        samples = self.state[0]["samples"] if self.state is not None else 0
-        return GrowingRecord.resumed(self.record, {"time": samples})
+        lengths = self.state[0]["lengths"] if self.state is not None else {}
+        return GrowingRecord.resumed(self.record, lengths)
 
     def close(self) -> xarray.Dataset:
         """Complete the record and return it, opened."""
@@ -176,8 +185,7 @@ class RunOutput:
 
         if self.writer is None:
             return None
-        with contextlib.suppress(DeodarError):
-            self.writer.close(False)
+        self.writer.abandon()
         with contextlib.suppress(DeodarError):
             return files.open_record(self.record)
         return None
@@ -202,6 +210,11 @@ class OutputPart:
         self.program, self.variables, self.sampling, self.about = program, variables, sampling, about
         doc = self.out.doc
         self.names = [f"{doc.by_id()[ident].path}.{port}" for ident, port, _ in variables]
+        strides, conditions = zip(*sampling.probes, strict=True)
+        thresholds = [probe.threshold(doc.by_id()[ident].element, port) for ident, port, _ in variables]
+        self.selector = probe.Selector(
+            probe.series(self.names, strides, conditions), dict(zip(self.names, thresholds, strict=True))
+        )
 
     def write(self, data: xarray.Dataset, complete: bool) -> None:
         """Write the record of the piece, which a worker process computed."""
@@ -216,7 +229,7 @@ class OutputPart:
         if not complete:
             return
         self.end(reasons)
-        about = {"piece": -1, "samples": data.sizes["time"], "done": self.out.done}
+        about = {"piece": -1, "lengths": writer.lengths, "done": self.out.done}
         stored.write(
             self.out.record / CHECKPOINT, about | {"pieces": self.out.cut.count}, [], checkpoint.KIND
         )
@@ -251,7 +264,8 @@ class OutputPart:
         }
         writer = self.out.begin(self._empty()) if self.out.writer is None else self.out.writer
         times = self.sampling.times(self.out.doc, k, n)
-        writer.put("time", times, values, first=k, region=self.region)
+        for one in self.selector.choose(k, times, values, len(sizes)):
+            writer.put(one.dimension, one.times, one.values, one.first, self.region)
         self._taken = k + n
 
     def record(
@@ -276,7 +290,7 @@ class OutputPart:
             KeyboardInterrupt: the run was stopped; the state is stored.
         """
         begun = self._resumed(run)
-        start, gap, most, _ = self.sampling
+        start, gap, most = self.sampling[:3]
         taken = self._taken
         run.probe = 1  # no second may pass before the first samples are written
 
@@ -315,7 +329,8 @@ class OutputPart:
         about = {
             "piece": self.number,
             "steps": done,
-            "samples": self.sampling.most if self.out.done else self._taken,
+            "lengths": self.out.writer.lengths,
+            "above": self.selector.above,
             "taken": self._taken,
             "done": self.out.done,
             "pieces": self.out.cut.count,
@@ -330,6 +345,7 @@ class OutputPart:
         about, arrays = self.out.state
         checkpoint.put(run, about, arrays)
         self._taken, self._saved_at = int(about["taken"]), int(about["steps"])
+        self.selector.above = dict(about["above"])
         return int(about["steps"])
 
     def end(self, reasons: Mapping[tuple[int, ...], str]) -> None:
@@ -346,7 +362,7 @@ class OutputPart:
 
     def _empty(self) -> xarray.Dataset:
         # start-up time: this imports xarray
-        from deodar.recording.record import dataset
+        from deodar.recording import record
 
         copies, doc = self._copies(list(self.out.sizes().values())), self.out.doc
         variables: list[Any] = []
@@ -355,4 +371,7 @@ class OutputPart:
             array = np.empty((*copies, 0, *shape(axes)), self.program.program.dtype)
             variables.append((doc.by_id()[ident], port, axes, array))
         about = {**self.about, **self.out.settings}
-        return dataset(doc, variables, np.empty(0), self.out.labels, self.out.grid, about)
+        data = record.dataset(doc, variables, np.empty(0), self.out.labels, self.out.grid, about)
+        return record.with_times(
+            data, {name: one.dimension for one in self.selector.found for name in one.names}
+        )

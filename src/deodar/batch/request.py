@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 
 @dc.dataclass(frozen=True)
@@ -17,7 +18,7 @@ class SimulationRequest:
         duration: document time; a whole number of steps.
         dt: Euler step; none: the document's own.
         seed: seed of all noise.
-        record: paths of ports; none: all fields and nodes, at the end.
+        record: paths of ports, handles or probes; none: all fields and nodes, at the end.
         every: document time between records; none: dt.
         trials: number of trials, or a list of trial numbers; none: one run without a dimension `trial`.
         sweep: for each parameter path its values; none: no sweep.
@@ -34,7 +35,7 @@ class SimulationRequest:
     duration: float
     dt: float | None = None
     seed: int = 0
-    record: Sequence[str] | str | None = None
+    record: Any = None
     every: float | None = None
     trials: int | Sequence[int] | None = None
     sweep: Mapping[str, Sequence[float]] | None = None

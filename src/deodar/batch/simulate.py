@@ -16,8 +16,9 @@ from deodar.batch.progress import Shown
 from deodar.batch.request import SimulationRequest
 from deodar.batch.workers import run as in_workers
 from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
-from deodar.model.model import Model
+from deodar.model.model import Handle, Model
 from deodar.parameters import real
+from deodar.recording.probe import Probe
 from deodar.session.run import MOST_STEPS
 from deodar.session.session import require_model
 from deodar.worlds._base import World
@@ -39,7 +40,7 @@ def simulate(
     duration: float,
     dt: float | None = None,
     seed: int = 0,
-    record: Sequence[str] | str | None = None,
+    record: Probe | Handle | str | Sequence[Probe | Handle | str] | None = None,
     every: float | None = None,
     trials: int | Sequence[int] | None = None,
     sweep: Mapping[str, Sequence[float]] | None = None,
@@ -73,8 +74,9 @@ def simulate(
         duration: document time; a whole number of steps.
         dt: Euler step; none: the document's own, else 1.
         seed: seed of all noise, 0 to 2^32 - 1.
-        record: paths of ports; the path of a field alone means its activation. None: the activation of every
-            field and node, at the end only.
+        record: paths of ports; the path of a field alone means its activation. With `out` a `dd.Probe`, or
+            its text `u,every=10,when=peak`, gives a port an interval or a condition of its own. None: the
+            activation of every field and node, at the end only.
         every: sampling interval in document time; none: dt. The first sample is the initial state.
         trials: number of trials (0 to n - 1 of the seed), or a list of trial numbers; trials differ in their
             noise.

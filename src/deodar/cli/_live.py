@@ -1,18 +1,24 @@
-"""The options `deodar run FILE --live` and `deodar run FILE --cost`: a session without a record."""
+"""The options `deodar run FILE --live` and `deodar run FILE --cost`: a session, paced or measured."""
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
 
 if TYPE_CHECKING:
+    from deodar.session.recorder import Recorder
     from deodar.session.session import Session
 
-OF_A_RECORD = ("record", "every", "trials", "workers", "sweep", "out", "force")
+OF_A_BATCH = ("trials", "workers", "sweep", "snapshots")
+"""Options that a session does not have."""
+
+OF_A_RECORD = ("record", "every", "out", "force")
 """Options that require a record."""
 
 OF_A_LIVE_RUN = ("speed", "longest_step")
@@ -23,7 +29,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--live",
         action="store_true",
-        help="pace the run to the wall clock and print how well it kept to it; writes no record",
+        help="pace the run to the wall clock and print how well it kept to it; recorded with --record",
     )
     parser.add_argument(
         "--speed",
@@ -53,12 +59,7 @@ def refuse_alone(args: argparse.Namespace) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the session and print the meter, the costs, or both. Status 1 if it was stopped."""
-    given = [name for name in OF_A_RECORD if getattr(args, name)]
-    if given:
-        args.wrong(
-            f"--{'live' if args.live else 'cost'} writes no record, so {_flags(given)} cannot be given; leave"
-            " out one of them"
-        )
+    _refuse(args)
     if not args.live:
         refuse_alone(args)
     elif args.duration is None and args.file.is_file():
@@ -73,14 +74,20 @@ def run(args: argparse.Namespace) -> int:
         from deodar.session.run_live import run_live
 
         pace = Pace()
-        try:
-            meter = run_live(session, duration, speed, args.longest_step, pace=pace)
-        except KeyboardInterrupt:  # Ctrl-C is the usual end of a live run: the measurements are printed
-            meter, unit = pace.meter(session), session.document.time_unit
-            stopped = f"stopped at {session.time:g} of {duration:g} {unit}"
+        with _recorded(args, session) as recorder:
+            try:
+                meter = run_live(session, duration, speed, args.longest_step, pace=pace)
+            except KeyboardInterrupt:  # Ctrl-C is the usual end of a live run: the measurements are printed
+                meter, unit = pace.meter(session), session.document.time_unit
+                stopped = f"stopped at {session.time:g} of {duration:g} {unit}"
         answer["meter"] = meter.data() | {"complete": not stopped}
         if not args.json:
             print(_options.paragraph([str(meter)]))
+        if recorder is not None:
+            answer["out"] = str(recorder.path)
+            if not args.json:
+                shown = _options.shown(recorder.path)
+                print(f"Wrote {', '.join(recorder.names)} to {shown}. Look at it with: deodar plot {shown}")
     else:
         session.run(duration)
     if args.cost and not stopped:
@@ -93,6 +100,34 @@ def run(args: argparse.Namespace) -> int:
     if stopped:
         print(f"deodar run: {_options.paragraph([stopped])}", file=sys.stderr)
     return 1 if stopped else 0
+
+
+def _refuse(args: argparse.Namespace) -> None:
+    """Refuse options that do not fit."""
+    given = [name for name in (*OF_A_BATCH, *OF_A_RECORD) if getattr(args, name)]
+    if args.live and args.record:
+        given = [name for name in given if name in OF_A_BATCH]
+        if args.format != "zarr":
+            args.wrong(f"a live run is recorded as zarr; `deodar export` converts it to {args.format}")
+    if given:
+        what = "a session has no batch" if args.live and args.record else "nothing is recorded"
+        args.wrong(
+            f"with --{'live' if args.live else 'cost'} {what}, so {_flags(given)} cannot be given"
+            + (" without --record" if args.live and not args.record else "")
+        )
+
+
+def _recorded(
+    args: argparse.Namespace, session: Session
+) -> contextlib.AbstractContextManager[Recorder | None]:
+    """Begin the record of a live run, if one was asked for."""
+    if not args.record:
+        return contextlib.nullcontext()
+    # start-up time: these bring JAX
+    from deodar.recording import places
+
+    out = args.out or places.free(Path(), session.document.name)
+    return session.record(out, args.record, args.every, args.force)
 
 
 def _session(args: argparse.Namespace) -> Session:

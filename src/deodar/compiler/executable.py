@@ -223,11 +223,14 @@ class Executable:
         """Return the state at the start and the noise keys, for the given trials of a seed."""
         return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
 
-    def chunk(self, ports: Sequence[Port]) -> tuple[Compiled, int]:
-        """Return the executable that steps and records, and the capacity of its buffer in records."""
-        key = ("chunk", tuple(ports))
+    def chunk(self, ports: Sequence[Port], most: int | None = None) -> tuple[Compiled, int]:
+        """Return the executable that steps and records, and the capacity of its buffer in records.
+
+        `most` bounds the capacity: a chunk of few steps should not fill a large buffer.
+        """
+        key = ("chunk", tuple(ports), most)
         if key not in self._known:
-            capacity = self.capacity(ports)
+            capacity = min(self.capacity(ports), most or 2**31)
             chunk, _ = self.compile(
                 lambda *a: self._chunk(ports, capacity, ProgramArguments(*a)), *self._example
             )

@@ -370,7 +370,7 @@ class Engine:
             made = program
             if model is not None:
                 made = session.compiled(document, model)
-                made.chunk(())
+                session.precompile(made)
             return made, [_found(known, made, places) or port_reader(made, places) for places in wanted]
 
         there = [_found(known, program, places) for places in wanted]

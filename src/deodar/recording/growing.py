@@ -27,7 +27,7 @@ import zarr
 import zarr.codecs
 
 from deodar import codec
-from deodar.errors import OutputError, Problem, RecordError
+from deodar.errors import DeodarError, OutputError, Problem, RecordError
 from deodar.model import output
 from deodar.recording import portable
 from deodar.recording.provenance import KEY
@@ -164,7 +164,7 @@ class GrowingRecord:
                     self._dimension[name] = dimension
                     dims = [layout["names"].get(d, d) for d in members[name]["dimension_names"]]
                     self._axis[name] = dims.index(dimension)
-        self.lengths = {dimension: int(n) for dimension, n in lengths.items()}
+        self.lengths = {dimension: int(lengths.get(dimension, 0)) for dimension in self._dimension.values()}
         self._tails: dict[tuple[str, Region], _Tail] = {}
         self._waiting: list[_Samples] = []
         self._bytes = 0
@@ -257,6 +257,21 @@ class GrowingRecord:
         finally:
             if self._lock is not None:
                 os.close(self._lock)
+
+    def annotate(self, name: str, text: str) -> None:
+        """Set an attribute of the record; it is in the file after the next commit."""
+        with self._changed:
+            layout = codec.parse(self._group["attributes"][portable.KEY])
+            layout["attributes"][name] = None
+            attributes = {**self._group["attributes"], name: text, portable.KEY: codec.line(layout)}
+            self._group = {**self._group, "attributes": attributes}
+            self._flushing = True
+            self._changed.notify_all()
+
+    def abandon(self) -> None:
+        """Close the record after an error: what was committed stays, and errors are not raised again."""
+        with contextlib.suppress(DeodarError):
+            self.close(False)
 
     def blank(self, copy: Sequence[int]) -> None:
         """Set all values of one copy to NaN; called after `commit`."""

@@ -12,9 +12,8 @@ from deodar import codec
 from deodar.codec import JsonObject
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
+from deodar.recording.probe import TIME
 from deodar.recording.provenance import KEY
-
-TIME = "time"
 
 Variable = tuple[Entry, str, Axes, np.ndarray]
 """Element, port, axes of the port, and the array: sweep points, trials, time, axes."""
@@ -62,6 +61,23 @@ def dataset(
             attributes["threshold"] = threshold
         out[f"{entry.path}.{port}"] = ([*lead, *dims], shaped, attributes)
     return xarray.Dataset(out, coords, {KEY: codec.line(about), "title": doc.name})
+
+
+def with_times(data: xarray.Dataset, dimensions: Mapping[str, str]) -> xarray.Dataset:
+    """Return a record without samples whose variables have dimensions of time of their own.
+
+    Args:
+        data: the record; its dimension `time` has length 0.
+        dimensions: name of the dimension of each variable.
+    """
+    times, coords = data[TIME], {n: c for n, c in data.coords.items() if n != TIME}
+    variables: dict[Any, Any] = {}
+    for name, variable in data.data_vars.items():
+        dims = [dimensions[str(name)] if d == TIME else d for d in variable.dims]
+        variables[name] = (dims, variable.values, variable.attrs)
+    for dimension in dimensions.values():
+        coords[dimension] = (dimension, times.values, times.attrs)
+    return xarray.Dataset(variables, coords, data.attrs)
 
 
 def about(data: xarray.Dataset) -> JsonObject:

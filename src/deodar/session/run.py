@@ -129,13 +129,14 @@ class Run:
         every: int,
         collect: Callable[[int, tuple[np.ndarray, ...]], None],
         progress: Callable[[int], None] | None = None,
+        most: int | None = None,
     ) -> None:
         """Advance by `steps` Euler steps; record after the first `start` of them, then after each `every`.
 
         `collect(k, arrays)` is called with the records from number k on; each array has the batch axes first,
-        then the records.
+        then the records. `most` bounds the records of a chunk.
         """
-        chunk, capacity = self.program.chunk(ports)
+        chunk, capacity = self.program.chunk(ports, most)
         done, taken, due = 0, 0, start
         while due <= steps:
             gap, steady = due - done, self._until_sensing()

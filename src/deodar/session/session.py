@@ -6,6 +6,7 @@ import dataclasses as dc
 import html
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
+from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described
 from deodar.session import memory, rearrange
 from deodar.session.changes import LeafChange, changed_leaves
@@ -31,6 +33,7 @@ from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
 from deodar.session.meter import Meter
 from deodar.session.port_reader import PortKey, PortReader
+from deodar.session.recorder import Recorder
 from deodar.session.run import Run, require_duration, require_step, whole
 from deodar.session.run_live import run_live
 from deodar.session.snapshot import SessionSnapshot, fill, rows
@@ -91,6 +94,7 @@ class Session:
         self._precision = precision
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
+        self._recorder: Recorder | None = None
         self._ports: dict[str, tuple[Executable, Port]] = {}
         doc = require_model(model).document
         model.require()
@@ -111,7 +115,7 @@ class Session:
         while left:
             left -= self._to_new_dt(left)
             if left:
-                self._run.advance(left if self._coming_dt is None else 0)
+                self._advance(left if self._coming_dt is None else 0)
                 left = 0 if self._coming_dt is None else left
 
     def run(self, duration: float) -> None:
@@ -149,6 +153,7 @@ class Session:
         """Reset state, time and noise to the start, with another seed if one is given; parameters stay."""
         new = self.seed if seed is None else require_seed(seed)
         self.journal.append(Change(self.tick, "reset", new))
+        self._end_record("the session was reset")
         self._run.seed = new
         self._run.reset()
 
@@ -163,9 +168,15 @@ class Session:
         self.journal.append(Change(self.tick, f"push {entry.path}", (FrozenArray(amount), n)))
         g, r = self._run.program.plan.row[entry.id]
         for _ in range(n):
-            dt = self.dt
-            self.step()
+            dt, recorder, self._recorder = self.dt, self._recorder, None
+            try:
+                self.step()
+            finally:
+                self._recorder = recorder
             self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), amount, dt) or state)
+            if recorder is not None:  # a sample at this tick contains the injected input
+                recorder.note(self.journal)
+                recorder.sample(self._run)
 
     def _to_new_dt(self, most: int) -> int:
         """Advance to the next tick common to all parts, where a changed dt takes effect.
@@ -178,11 +189,14 @@ class Session:
         wait = -self.tick % ticks
         taken = min(wait, most)
         if taken:
-            self._run.advance(taken)
+            self._advance(taken)
         if taken == wait:
-            self._run.exchange.restep(self.tick, self.dt / self._coming_dt)
+            factor = self.dt / self._coming_dt
+            self._run.exchange.restep(self.tick, factor)
             self._run.clock = self._run.clock.at(self._coming_dt)
             self._coming_dt = None
+            if self._recorder is not None and self._recorder.open:
+                self._recorder.restep(self._run, factor)
         return taken
 
     def require_injection(self, ident: str) -> None:
@@ -227,6 +241,12 @@ class Session:
         return executable(
             model or self._model, document, self._precision, device=self.device, accuracy=self._accuracy
         )
+
+    def precompile(self, program: Executable) -> None:
+        """Compile what this session calls of a program; another thread may do it while the session runs."""
+        program.chunk(())
+        if self._recorder is not None and self._recorder.open:
+            self._recorder.compile(program)
 
     def cost(self, document: Document) -> str:
         """Return the cost of continuing with another document: live, rebuild or recompile."""
@@ -306,6 +326,7 @@ class Session:
         if not set(self.document.by_id()) & set(snapshot.document.by_id()):
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
         self.journal.append(Change(self.tick, "restore", snapshot))
+        self._end_record("a snapshot was restored")
         run, clock, seed = self._run, self._run.clock, self._run.seed
         try:
             run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
@@ -317,6 +338,40 @@ class Session:
             raise
         fill(run, snapshot.states)
         run.exchange.put(snapshot.world)
+
+    def record(
+        self,
+        path: str | Path,
+        record: Probe | Handle | str | Sequence[Probe | Handle | str],
+        every: float | None = None,
+        force: bool = False,
+    ) -> Recorder:
+        """Record ports into a file from now on, while the session is advanced by any means.
+
+        All samples are committed twice a second: if the process is killed, less than a second is lost. The
+        record states every change of the session with its tick.
+
+        For example `with session.record("night", ["u", dd.Probe("v", every=100)]): session.run(1e6)`.
+
+        Args:
+            path: a name that ends in .zarr, or a folder, which gets the record and the model.
+            record: paths of ports, handles, or probes with an interval or a condition of their own.
+            every: document time between two samples; None: every step. The first sample is the present state.
+            force: whether to replace an existing record.
+
+        Raises:
+            OutputExists: the path exists.
+            OutputError: it cannot be written.
+            ParameterError: the session is recorded already, or a port is named twice.
+        """
+        if self._recorder is not None and self._recorder.open:
+            raise ParameterError(
+                f"the session is recorded already, into {self._recorder.path}",
+                fix="Close that recorder first",
+            )
+        self._recorder = Recorder(self._run, Path(path), probes(record), every, force)
+        self._recorder.pass_over(self.journal)
+        return self._recorder
 
     def keep(self) -> list[str]:
         """Write learned values (weights, traces, gains) back to the model as initial values, for `save`.
@@ -440,6 +495,19 @@ class Session:
         return f"<b>{html.escape(d.name)}</b>: time {self.time:g} {d.time_unit} (tick {self.tick}), {how}"
 
     # ------------------------------------------------------------------------------------------------- inside
+
+    def _advance(self, steps: int) -> None:
+        """Advance the run, and record the samples that are due."""
+        recorder = self._recorder
+        if recorder is None or not recorder.open:
+            self._run.advance(steps)
+            return
+        recorder.note(self.journal)
+        recorder.advance(self._run, steps)
+
+    def _end_record(self, reason: str) -> None:
+        if self._recorder is not None:
+            self._recorder.end(reason)
 
     def _port(self, path: str | Handle) -> Port:
         path, program = path_of(path), self._run.program

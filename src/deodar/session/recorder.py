@@ -1,0 +1,271 @@
+"""Record a session into a file while a script, the wall clock or the studio advances it."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from deodar import codec
+from deodar.codec import Json
+from deodar.compiler.executable import Executable
+from deodar.compiler.program import Port
+from deodar.errors import DeodarError, ParameterError, TimeError
+from deodar.model import files as documents
+from deodar.model import find
+from deodar.model.document import Document
+from deodar.numerics.axes import shape
+from deodar.parameters import FrozenArray
+from deodar.recording import probe as probing
+from deodar.recording import provenance
+from deodar.recording.probe import Probe, Selector
+from deodar.session.run import Run, whole
+
+if TYPE_CHECKING:
+    from deodar.recording.growing import GrowingRecord
+
+MOST_RECORDS = 64
+"""Records of one chunk: a session advances by few steps at a time."""
+
+
+class Changed(Protocol):
+    """An entry of the journal of a session."""
+
+    @property
+    def tick(self) -> int:
+        """Tick of the change."""
+        ...
+
+    @property
+    def what(self) -> str:
+        """What was changed."""
+        ...
+
+    @property
+    def value(self) -> Any:
+        """Its new value."""
+        ...
+
+
+class Recorder:
+    """The record of a session that is being written; `Session.record` returns it.
+
+    It ends with `close`, at the end of a `with` block, or by itself where the record cannot continue: after a
+    reset or a restored snapshot, if a recorded element is removed or gets other axes, or if the interval is
+    not a multiple of a new dt. `ended` then states the reason.
+
+    Attributes:
+        path: the record, or the folder with the record and the model.
+        names: names of the variables.
+        ended: why it ended; empty while it is written.
+    """
+
+    def __init__(
+        self, run: Run, path: Path, probes: Sequence[Probe], every: float | None, force: bool = False
+    ) -> None:
+        # start-up time: these import xarray
+        from deodar.recording import files, folder, places, record
+        from deodar.recording.growing import GrowingRecord
+
+        self.path, self.ended = path, ""
+        doc = run.doc
+        found = [find.shown(doc, probe.path) for probe in probes]
+        if len(set(found)) < len(found):
+            raise ParameterError("a port is recorded twice", fix="Record each port once")
+        self._places = [(entry.id, port) for entry, port in found]
+        self._every = [every if probe.every is None else probe.every for probe in probes]
+        gaps = self._gaps(run)
+        self._gap = math.gcd(*gaps)
+        self._axes = [run.program.axes(port) for port in self._ports(run.program)]
+        self.names = [f"{entry.path}.{port}" for entry, port in found]
+        strides = [gap // self._gap for gap in gaps]
+        series = probing.series(self.names, strides, [probe.when for probe in probes])
+        limits = [probing.threshold(entry.element, port) for entry, port in found]
+        self._selector = Selector(series, dict(zip(self.names, limits, strict=True)))
+        self._taken, self._next = 0, run.clock.tick
+        self._changes: list[dict[str, Json]] = []
+        self._seen = 0
+        bare = path.suffix.lower() == files.SUFFIXES["zarr"]
+        target = path if bare else path / folder.record_name("zarr")
+        variables: list[Any] = [
+            (entry, port, axes, np.empty((0, *shape(axes)), run.program.program.dtype))
+            for (entry, port), axes in zip(found, self._axes, strict=True)
+        ]
+        settings: dict[str, Any] = {
+            "session": {"tick": run.clock.tick, "time": run.clock.time},
+            "seed": run.seed,
+            "record": list(map(str, probes)),
+            "every": every,
+        }
+        about = provenance.provenance(doc, run, **settings)
+        empty = record.dataset(doc, variables, np.empty(0), None, {}, about)
+        if bare:
+            files.claim(path, "zarr", force)
+            places.clear(path)
+        else:
+            folder.begin(doc, path, force)
+        dimensions = {name: one.dimension for one in series for name in one.names}
+        self._writer: GrowingRecord | None = GrowingRecord(
+            target, record.with_times(empty, dimensions), [one.dimension for one in series]
+        )
+        self.compile(run.program)
+        self.sample(run)
+
+    # ------------------------------------------------------------------------------------- by the session
+
+    def compile(self, program: Executable) -> None:
+        """Compile what `advance` calls of a program, if that has all recorded ports."""
+        if all(ident in program.plan.row for ident, _ in self._places):
+            program.chunk(self._ports(program), MOST_RECORDS)
+
+    def advance(self, run: Run, steps: int) -> None:
+        """Advance a run by `steps` Euler steps, and record the samples that are due.
+
+        Raises:
+            OutputError: samples cannot be written; the record has ended, and the steps may be taken again.
+        """
+        if not self._fits(run):
+            run.advance(steps)
+            return
+        clock, due = run.clock, self._next - run.clock.tick
+
+        def collect(k: int, seen: tuple[np.ndarray, ...]) -> None:
+            ticks = clock.tick + due + (k + np.arange(len(seen[0]))) * self._gap
+            self._put(clock.t0 + (ticks - clock.tick0) * clock.dt, [np.array(values) for values in seen])
+
+        run.record(steps, self._ports(run.program), due, self._gap, collect, most=MOST_RECORDS)
+
+    def sample(self, run: Run) -> None:
+        """Record the present state, if a sample is due at this tick."""
+        if self._next == run.clock.tick and self._fits(run):
+            self._put(
+                np.asarray([run.clock.time]), [values[None] for values in run.read(self._ports(run.program))]
+            )
+
+    def pass_over(self, journal: Sequence[Changed]) -> None:
+        """Leave out the changes before the record began."""
+        self._seen = len(journal)
+
+    def note(self, journal: Sequence[Changed]) -> None:
+        """Store the changes of the session since the last call, with their ticks."""
+        new, self._seen = journal[self._seen :], len(journal)
+        self._changes += [
+            {"tick": change.tick, "what": change.what, "value": _plain(change.value)} for change in new
+        ]
+        if new and self._writer is not None:
+            self._writer.annotate("changes", codec.line(self._changes))
+
+    def restep(self, run: Run, factor: float) -> None:
+        """Adapt to a new step of the run; `factor` is the old step over the new one.
+
+        The next sample stays at its time, rounded up to a step.
+        """
+        try:
+            gaps = self._gaps(run)
+        except TimeError as error:
+            self.end(f"the step has become {run.clock.dt:g}: {error.problems[0].what}")
+            return
+        self._gap = math.gcd(*gaps)
+        strides = {name: gap // self._gap for name, gap in zip(self.names, gaps, strict=True)}
+        new = [one._replace(stride=strides[one.names[0]]) for one in self._selector.found]
+        if new != self._selector.found:  # some interval is a time, another one a step
+            self._selector.found, self._taken = new, 0
+        self._next = run.clock.tick + math.ceil((self._next - run.clock.tick) * factor - 1e-6)
+
+    def end(self, reason: str) -> None:
+        """End the record before its time."""
+        if self._writer is not None:
+            self.ended = reason
+            writer, self._writer = self._writer, None
+            writer.close(False, settings={"ended": reason})
+
+    # -------------------------------------------------------------------------------------- by the script
+
+    def close(self) -> None:
+        """Complete the record; a second call does nothing.
+
+        Raises:
+            OutputError: samples cannot be written; those before are in the file.
+        """
+        if self._writer is not None:
+            self.ended = "closed"
+            writer, self._writer = self._writer, None
+            writer.close(True)
+
+    @property
+    def open(self) -> bool:
+        """Whether samples are still recorded."""
+        return self._writer is not None
+
+    def __enter__(self) -> Recorder:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self.end(f"{kind.__name__} ended the script")
+
+    # --------------------------------------------------------------------------------------------- inside
+
+    def _put(self, times: np.ndarray, values: Sequence[np.ndarray]) -> None:
+        assert self._writer is not None
+        named = dict(zip(self.names, values, strict=True))
+        try:
+            for one in self._selector.choose(self._taken, times, named):
+                self._writer.put(one.dimension, one.times, one.values)
+        except DeodarError as error:
+            writer, self._writer = self._writer, None
+            self.ended = error.problems[0].what
+            writer.abandon()
+            error.advise(f"The record until then is kept: {self.path}")
+            raise
+        self._taken += len(times)
+        self._next += len(times) * self._gap
+
+    def _fits(self, run: Run) -> bool:
+        """Return whether the record continues; end it if a recorded port is gone or has other axes."""
+        if self._writer is None:
+            return False
+        row = run.program.plan.row
+        lost = [n for n, (ident, _) in zip(self.names, self._places, strict=True) if ident not in row]
+        if lost:
+            self.end(f"{lost[0]} was removed")
+            return False
+        for name, port, axes in zip(self.names, self._ports(run.program), self._axes, strict=True):
+            if run.program.axes(port) != axes:
+                self.end(f"{name} has other axes")
+                return False
+        return True
+
+    def _ports(self, program: Executable) -> list[Port]:
+        return [program.port(ident, port) for ident, port in self._places]
+
+    def _gaps(self, run: Run) -> list[int]:
+        """Return the steps between two samples of each variable."""
+        gaps = [1 if time is None else whole(time, run.clock.dt, "every") for time in self._every]
+        if 0 in gaps:
+            raise TimeError("every is 0; expected at least one step")
+        return gaps
+
+
+def _plain(value: Any) -> Json:
+    """Return a changed value as plain data."""
+    if isinstance(value, Document):
+        return documents.to_data(value)[0]
+    if isinstance(value, FrozenArray):
+        return value.data.tolist()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if dc.is_dataclass(value) and not isinstance(value, type):
+        return repr(value)
+    try:
+        return codec.parse(codec.line(value))
+    except (TypeError, ValueError):
+        return repr(value)
