@@ -1,12 +1,31 @@
 import { execFileSync } from "node:child_process";
-import { rmSync } from "node:fs";
+import { rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { box, button, choose, drag, drawn, panel, select } from "./hands";
+import { box, button, choose, colours, drag, drawn, panel, select } from "./hands";
 import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
+
+const part = (kind: string, id: string, more: object) => ({ kind, id, axes: [], ...more });
+const DRIVING = {
+  deodar: 1,
+  name: "driving",
+  dt: 64,
+  axes: { of: { name: "of", lower: 0, upper: 2, samples: 3 } },
+  elements: {
+    "go left": part("Boost", "00000001", { amplitude: 1000 }),
+    left: part("Motor", "00000002", { motor: "left" }),
+    "go right": part("Boost", "00000003", { amplitude: 800 }),
+    right: part("Motor", "00000004", { motor: "right" }),
+    pose: part("Sensor", "00000005", { axes: ["of"], sensor: "pose" }),
+  },
+  connections: [
+    { source: "go left.output", target: "left.input" },
+    { source: "go right.output", target: "right.input" },
+  ],
+};
 
 let studio: Studio;
 
@@ -123,6 +142,34 @@ test("the model of a record runs as a copy of its document", async () => {
   await button(page, "Run its model").click();
   await button(page, "Play").click();
   await button(page, "Pause").click();
+  await choose(page, "File menu", "Close");
+});
+
+test("the world of a record shows its body, or states that it was not recorded", async () => {
+  const { page } = studio;
+  writeFileSync(join(studio.folder, "driving.json"), JSON.stringify(DRIVING));
+  const drive = (out: string, ...ports: string[]) =>
+    execFileSync(
+      python(),
+      ["-m", "deodar", "run", "driving.json", "--no-progress", "--duration", "6400", "--out", out]
+        .concat(["--world", "arena:blocks", "--record"])
+        .concat(ports),
+      { cwd: studio.folder, env: { ...process.env, DEODAR_STATE: studio.state }, stdio: "pipe" },
+    );
+  drive("drive", "pose.output");
+  drive("blind", "left.input");
+  const world = panel(page, "World");
+  await open("drive");
+  const canvas = world.getByRole("img", { name: /^The world from above/ });
+  await canvas.waitFor();
+  await expect.poll(() => colours(canvas)).toBeGreaterThan(4);
+  const start = await drawn(canvas);
+  await page.keyboard.press("End");
+  await said(/^6\.400 s/);
+  await expect.poll(() => drawn(canvas)).not.toBe(start);
+  await shot(page, "record-world");
+  await open("blind");
+  await world.getByText("The position of the body was not recorded").waitFor();
   await choose(page, "File menu", "Close");
 });
 

@@ -124,3 +124,25 @@ test("a time course marks the moment with a line", async () => {
   await expect.poll(course).not.toBe(later);
   await shot(page, "replay-course");
 });
+
+test("the slider marks the time with fewer frames, where older ones were removed", async () => {
+  const small = await startStudio({
+    copies: ["examples/selection.json"],
+    file: "selection.json",
+    files: {
+      "small_ring.py":
+        "from deodar.live.ring import StateRing\nStateRing.__init__.__defaults__ = (60.0, 40_000)\n",
+    },
+    imports: ["small_ring"],
+  });
+  try {
+    const other = await small.observe();
+    await other.runs();
+    await box(small.page, "u").waitFor();
+    await openPast(other, 60);
+    await small.page.getByTitle(/^Before \d+ ms some frames were removed to save memory$/).waitFor();
+    await shot(small.page, "replay-thinned");
+  } finally {
+    await small.stop();
+  }
+});

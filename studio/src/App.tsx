@@ -12,6 +12,7 @@ import { Notices } from "./pages/Notices";
 import { ProblemsPage } from "./pages/ProblemsPage";
 import { Splash } from "./pages/Splash";
 import { useView } from "./pages/view";
+import { ComparisonBar } from "./replay/ComparisonBar";
 import { RecordNotes } from "./replay/RecordNotes";
 import { Timeline } from "./replay/Timeline";
 import { useShortcuts } from "./shortcuts";
@@ -55,6 +56,7 @@ function Page() {
       <Header />
       <Timeline />
       <RecordNotes />
+      <ComparisonBar />
       <FailureBar />
       <main className={classes.dock}>
         <Dock />

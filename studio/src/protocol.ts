@@ -160,6 +160,29 @@ export type Close = {
   discard?: boolean;
 };
 
+// Compare the open record with another one below the root; a `comparison` message follows.
+export type CompareRecord = {
+  type: "compare_record";
+  request?: number;
+  session?: number;
+  path: string;
+};
+
+// The comparison of the open record with another one; an empty `path`: there is none.
+//
+// `progress` is the share that was compared, 1 at the end. `differences` lists the first one of each port
+// that differs, the earliest first, `compared` the ports that both records have. `notes` are sentences on
+// what was not compared.
+export type Comparison = {
+  type: "comparison";
+  path: string;
+  progress: number;
+  compared: number;
+  differences: DifferenceView[];
+  notes: string[];
+  problems: ListedProblem[];
+};
+
 // A connection from an output port to an input port.
 export type ConnectionView = {
   source: string;
@@ -208,6 +231,20 @@ export type Describe = {
   name?: string | null;
   notes?: string | null;
   dt?: number | null;
+};
+
+// The first moment at which a port of two records differs, and the sample with the largest difference.
+//
+// `at` is the position of the sample, as text; `copy` the trial and the point of a sweep, as indices. A value
+// that is not finite is None.
+export type DifferenceView = {
+  element: string;
+  path: string;
+  time: number;
+  copy: Record<string, number>;
+  at: string;
+  value: number | null;
+  other: number | null;
 };
 
 // A document parameter and the parameters that it sets.
@@ -263,6 +300,13 @@ export type ElementView = {
   outputs: string[];
   axes: Record<string, string[]>;
   pushable: boolean;
+};
+
+// Show the open record alone again.
+export type EndComparison = {
+  type: "end_comparison";
+  request?: number;
+  session?: number;
 };
 
 // An entry of the gallery; `picture` is an address on the server, or empty.
@@ -704,6 +748,7 @@ export type ToPage =
   | Gallery
   | Opened
   | FileProblems
+  | Comparison
   | Changed
   | Checked
   | RunClock
@@ -718,6 +763,8 @@ export type ToPage =
 export type ToServer =
   | OpenFile
   | OpenRecordModel
+  | CompareRecord
+  | EndComparison
   | OpenExample
   | OpenText
   | OpenPackage
@@ -804,7 +851,7 @@ export type UseWorldContent = {
 
 // Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
 //
-// The page chooses the number `stream`.
+// The page chooses the number `stream`. `other`: of the record that the open one is compared with.
 export type Watch = {
   type: "watch";
   request?: number;
@@ -812,11 +859,12 @@ export type Watch = {
   element: string;
   port: string;
   most?: number;
+  other?: boolean;
 };
 
 // Send a time course of a port: a node's value, or an array's value at a position, maximum or mean.
 //
-// `at` is in axis units.
+// `at` is in axis units; `other` as in `watch`.
 export type WatchTrace = {
   type: "trace";
   request?: number;
@@ -825,6 +873,7 @@ export type WatchTrace = {
   port: string;
   reduce?: "at" | "max" | "mean";
   at?: number[];
+  other?: boolean;
 };
 
 // Start or stop sending `bodies`.

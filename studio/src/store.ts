@@ -4,6 +4,7 @@
 import { create } from "zustand";
 import type {
   Changed,
+  Comparison,
   RunClock,
   Costs,
   DocumentView,
@@ -38,6 +39,8 @@ export type Studio = {
   fileProblems: FileProblems | null;
   clock: RunClock | null;
   costs: Costs | null;
+  // The comparison of the open record with another one; null: there is none.
+  comparison: Comparison | null;
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -62,6 +65,7 @@ export const useStudio = create<Studio>((set) => ({
   fileProblems: null,
   clock: null,
   costs: null,
+  comparison: null,
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -103,6 +107,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { fileProblems: message.problems.length > 0 ? message : null };
     case "clock":
       return { clock: message };
+    case "comparison":
+      return { comparison: message.path === "" ? null : message };
     case "costs":
       return { costs: message };
     default:

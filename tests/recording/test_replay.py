@@ -96,8 +96,8 @@ def test_a_damaged_chunk_is_an_error_of_its_frames_alone(data: xarray.Dataset, t
 def test_chunks_are_kept_up_to_a_limit(reader: RecordReader, monkeypatch: pytest.MonkeyPatch) -> None:
     u = place(reader, "u.activation")
     reads: list[int] = []
-    read = replay._read
-    monkeypatch.setattr(replay, "_read", lambda *a: reads.append(1) or read(*a))
+    read = RecordReader._read
+    monkeypatch.setattr(RecordReader, "_read", lambda *a: reads.append(1) or read(*a))
     for k in (3, 4, 3):
         reader.frame(u, k, {})
     assert len(reads) == 1

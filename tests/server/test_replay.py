@@ -11,6 +11,7 @@ import pytest
 
 import deodar as dd
 from deodar.recording import folder
+from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio
 
 
@@ -314,4 +315,129 @@ def test_records_are_listed_beside_folders_and_documents(root: Path) -> None:
         await p.until(lambda: p.said["gallery"]["recent"] == ["selection-001"])
 
     with studio(root) as address:
+        play(address, scene)
+
+
+def test_two_records_are_compared_and_shown_at_one_moment(root: Path) -> None:
+    data = recorded(root)
+    other = data.copy(deep=True)
+    other["u.activation"].values[20, 30] += 1
+    other["u.activation"].values[25:] = np.nan
+    dd.save_record(other, root / "other.zarr")
+    dd.save_record(data, root / "same.zarr")
+    dd.save_record(data.isel(time=slice(10))[["u.activation"]], root / "short.zarr")
+
+    def said(p: Page, path: str) -> bool:
+        known = p.said["comparison"]
+        return bool(known["path"] == path and known["progress"] == 1)
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        assert p.said["comparison"]["path"] == ""
+        await p.do("compare_record", path="other.zarr")
+        await p.until(lambda: said(p, "other.zarr"))
+        found = p.said["comparison"]
+        assert found["compared"] == 2 and not found["notes"] and not found["problems"]
+        first = data["u.activation"].values[20, 30]
+        assert found["differences"] == [
+            {
+                "element": p.element("u"),
+                "path": "u.activation",
+                "time": 40,
+                "copy": {},
+                "at": "x 30 deg",
+                "value": pytest.approx(first),
+                "other": pytest.approx(first + 1),
+            }
+        ]
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("watch", stream=2, element=p.element("u"), port="activation", other=True)
+        await p.do(
+            "trace", stream=3, element=p.element("u"), port="activation", at=[30], reduce="at", other=True
+        )
+        for time in (38, 40):
+            await p.do("seek", time=time)
+            await p.until(lambda time=time: shown(p) == shown(p, 2) == time)
+            gap = p.frames[2][1] - p.frames[1][1]
+            assert np.abs(gap).max() == pytest.approx(float(time == 40), abs=1e-5)
+        await p.until(lambda: len(p.samples.get(3, [])) == 31)
+        assert p.samples[3][20][1] == pytest.approx(first + 1)
+        await p.do("compare_record", path="same.zarr")
+        await p.until(lambda: said(p, "same.zarr"))
+        assert p.said["comparison"]["differences"] == []
+        await p.do("compare_record", path="short.zarr")
+        await p.until(lambda: said(p, "short.zarr"))
+        alone, moments = p.said["comparison"]["notes"]
+        assert alone == "Not compared: 1 ports of the open record, 0 of the other."
+        assert moments == "The moments differ (0 to 60 and 0 to 18 ms); those that both have are compared."
+        await p.do("end_comparison")
+        await p.until(lambda: p.said["comparison"]["path"] == "")
+        answer = await p.ask("compare_record", path="selection.json")
+        assert "not a record" in answer["problems"][0]["what"]
+        await p.open("open_record_model")
+        assert "no record is open" in (await p.ask("compare_record", path="same.zarr"))["problems"][0]["what"]
+
+    with studio(root, root / "selection-001") as address:
+        play(address, scene)
+
+
+# ------------------------------------------------------------------------------------- worlds of records
+
+
+def driven(folder: Path, *ports: str) -> Any:
+    """Write a record of a robot that drives in an arena."""
+    model = dd.Model("driving", dt=64)
+    for name, amplitude in (("left", 1000.0), ("right", 800.0)):
+        model.add(dd.Boost(f"go {name}", [], amplitude)) >> model.add(dd.Motor(name, [], name))
+    model.add(dd.Sensor("pose", [dd.Axis("of", 0, 2, 3)], "pose"))
+    how: dict[str, Any] = {"world": Arena(LAYOUT), "record": list(ports)}
+    data = dd.simulate(model, duration=3200, progress=False, **how)
+    dd.save_record(data, folder / "drive.zarr")
+    return data
+
+
+LAYOUT: dict[str, Any] = {
+    "arena": {"x": [0, 3], "y": [0, 2]},
+    "boxes": [{"name": "crate", "center": [0.8, 1.5], "size": [0.2, 0.2], "color": [0.7, 0.5, 0.3]}],
+    "start": [0.2, 1.0],
+    "goal": [2.5, 0.5],
+}
+
+
+def test_the_body_of_a_recorded_world_is_where_its_pose_was_recorded(tmp_path: Path) -> None:
+    pose = driven(tmp_path, "pose.output")["pose.output"]
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        await p.do("watch_world", on=True)
+        await p.until(lambda: "bodies" in p.said)
+        seen = p.said["scene"]
+        assert seen["note"] == "" and seen["scene"]["boxes"][0]["fixed"] and seen["scene"]["border"][2] == 3
+        for time in (0, 1280, 3200, 640):
+            await p.do("seek", time=time)
+            await p.until(lambda time=time: timeline(p)["time"] == time)
+            x, y, heading = pose.sel(time=time).values
+            body = p.said["bodies"]["bodies"][0]
+            assert (body["x"], body["y"], body["heading"]) == pytest.approx((x, y, heading), abs=1e-5)
+        path: list[list[float]] = []
+        for m in p.all:
+            if m["type"] == "bodies":
+                path = ([] if m["fresh"] else path) + m["path"]
+        assert path == [pytest.approx(list(pose.values[k, :2]), abs=1e-5) for k in range(11)]
+
+    with studio(tmp_path, tmp_path / "drive.zarr") as address:
+        play(address, scene)
+
+
+def test_a_recorded_world_without_a_pose_says_so(tmp_path: Path) -> None:
+    driven(tmp_path, "left.input")
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        await p.do("watch_world", on=True)
+        await p.until(lambda: "scene" in p.said and "bodies" in p.said)
+        assert "was not recorded" in p.said["scene"]["note"] and p.said["bodies"]["bodies"] == []
+        assert p.said["scene"]["scene"]["boxes"][0]["name"] == "crate"
+
+    with studio(tmp_path, tmp_path / "drive.zarr") as address:
         play(address, scene)

@@ -36,6 +36,20 @@ Copy = Mapping[str, int]
 """One copy of a record with trials or a sweep: the index along each of its dimensions."""
 
 
+class _Recorded:
+    """A recorded variable: copies, times, axes."""
+
+    def __init__(self, variable: xarray.Variable, times: np.ndarray, axis: int) -> None:
+        self.variable, self.times, self.axis = variable, times, axis
+        self.shape = variable.shape[axis + 1 :]
+        chunks = variable.encoding.get("chunks")
+        self.chunk = int(chunks[axis]) if chunks and axis < len(chunks) else FEWEST
+
+    def lead(self, copy: Copy) -> tuple[int, ...]:
+        """Return the indices of a copy."""
+        return tuple(copy.get(str(d), 0) for d in self.variable.dims[: self.axis])
+
+
 class RecordReader:
     """A record that is read one moment at a time.
 
@@ -79,41 +93,43 @@ class RecordReader:
                 entry, port = find.port(self.document, name)
             except DeodarError:
                 continue  # not a port: a variable of another program
-            self._names[entry.id, port] = name
+            if name in self._recorded:
+                self._names[entry.id, port] = name
         if not self._names:
             raise RecordError("contains no port of its document", where=str(path))
 
     def _take(self, data: xarray.Dataset) -> None:
         made = about(data)
-        times = [_times(v) for v in data.data_vars.values()]
-        found = np.unique(np.concatenate([t for t in times if t is not None] or [np.zeros(0)]))
-        first = next(iter(data.data_vars.values()), None)
-        lead = [] if first is None else [str(d) for d in first.dims[: _time_axis(first)]]
+        found: dict[str, _Recorded] = {}
+        for name, variable in data.data_vars.items():
+            dimension = time_dimension(variable)
+            if dimension is not None:
+                times = np.asarray(data[dimension].values, float)
+                found[str(name)] = _Recorded(variable.variable, times, variable.dims.index(dimension))
+        times = {str(f.variable.dims[f.axis]): f.times for f in found.values()}
+        first = next(iter(found.values()), None)
+        lead = [] if first is None else [str(d) for d in first.variable.dims[: first.axis]]
         self.complete = bool(made.get("complete", True))
         said = [str(data.attrs[key]) for key in ("damaged", diverged.REASON) if data.attrs.get(key)]
         self.notes = [] if self.complete else ["The record is incomplete: it ends before the end of its run."]
         self.notes += [f"{text[0].upper()}{text[1:].rstrip('.')}." for text in said]
         self.copies = {d: data[d].values if d in data.coords else np.arange(data.sizes[d]) for d in lead}
-        self.data, self.times = data, found
+        self.times = np.unique(np.concatenate([*times.values(), np.zeros(0)]))
+        self.data, self._recorded = data, found
 
     @property
     def ports(self) -> Iterable[PortPlace]:
         """The recorded ports."""
         return self._names.keys()
 
-    def variable(self, place: PortPlace) -> xarray.DataArray:
-        """Return the variable of a port.
-
-        Raises:
-            UnknownName: the port was not recorded.
-        """
+    def _of(self, place: PortPlace) -> _Recorded:
         name = self._names.get(place)
         if name is None:
             path = find.entry(self.document, place[0]).path
             raise UnknownName(
                 "was not recorded", where=f"{path}.{place[1]}", fix=f"Record it: --record {path}.{place[1]}"
             )
-        return self.data[name]
+        return self._recorded[name]
 
     def axes(self, place: PortPlace) -> Axes:
         """Return the axes of a recorded port.
@@ -122,10 +138,10 @@ class RecordReader:
             UnknownName: the port was not recorded.
             RecordError: the variable has other axes than the document.
         """
-        variable = self.variable(place)
+        shape = self._of(place).shape
         axes = self._axes.get(place[0], {}).get(place[1])
-        if axes is None or not _fits(variable, axes):
-            raise RecordError("has other axes in the record than in its document", where=str(variable.name))
+        if axes is None or shape != tuple(a.samples for a in axes):
+            raise RecordError("has other axes in the record than in its document", where=self._names[place])
         return axes
 
     def index(self, time: float) -> int:
@@ -138,22 +154,20 @@ class RecordReader:
         Raises:
             RecordError: the sample cannot be read.
         """
-        variable, times = self.variable(place), _times(self.variable(place))
-        at = 0 if times is None else int(np.searchsorted(times, self.times[k], "right")) - 1
+        port = self._of(place)
+        at = int(np.searchsorted(port.times, self.times[k], "right")) - 1
         if at < 0:
             return None
-        axis = _time_axis(variable)
-        size = _chunk(variable, axis)
-        first = at // size * size
-        last = min(first + size, 1 if times is None else len(times))
-        lead = tuple(copy.get(str(d), 0) for d in variable.dims[:axis])
+        first = at // port.chunk * port.chunk
+        last = min(first + port.chunk, len(port.times))
+        lead = port.lead(copy)
         key = (place, lead, first, last)
         with self._lock:
             block = self._blocks.get(key)
             if block is not None:
                 self._blocks.move_to_end(key)
         if block is None:
-            block = _read(variable, lead, first, last)
+            block = self._read(place, lead, first, last)
             with self._lock:
                 if block.nbytes <= MOST_CACHED and key not in self._blocks:
                     self._blocks[key] = block
@@ -162,22 +176,42 @@ class RecordReader:
                     self._cached -= self._blocks.popitem(last=False)[1].nbytes
         return block[at - first]
 
+    def sample_times(self, place: PortPlace) -> np.ndarray:
+        """Return the times of the samples of a port."""
+        return self._of(place).times
+
+    def chunks(self, place: PortPlace) -> list[tuple[int, int]]:
+        """Return the first sample of each chunk of a port, and the one after its last."""
+        size, count = self._of(place).chunk, len(self.sample_times(place))
+        return [(first, min(first + size, count)) for first in range(0, count, size)]
+
+    def block(self, place: PortPlace, copy: Copy, first: int, last: int) -> np.ndarray:
+        """Read consecutive samples of a port.
+
+        Raises:
+            RecordError: they cannot be read.
+        """
+        return self._read(place, self._of(place).lead(copy), first, last)
+
     def samples(
         self, place: PortPlace, copy: Copy, most: int
     ) -> Generator[tuple[np.ndarray, np.ndarray], None, None]:
         """Yield times and frames of a port, chunk by chunk, at most about `most` evenly spaced ones."""
-        variable, times = self.variable(place), _times(self.variable(place))
-        if times is None:
-            return
-        axis = _time_axis(variable)
-        size, stride = _chunk(variable, axis), max(1, -(-len(times) // most))
-        lead = tuple(copy.get(str(d), 0) for d in variable.dims[:axis])
-        size = max(size, size * (2**20 // max(1, size * variable[(0,) * (axis + 1)].nbytes)))
-        for first in range(0, len(times), size):
-            last = min(first + size, len(times))
+        times = self.sample_times(place)
+        stride = max(1, -(-len(times) // most))
+        for first, last in self.chunks(place):
             own = np.arange(-(-first // stride) * stride, last, stride)
             if len(own):
-                yield times[own], _read(variable, lead, first, last)[own - first]
+                yield times[own], self.block(place, copy, first, last)[own - first]
+
+    def _read(self, place: PortPlace, lead: tuple[int, ...], first: int, last: int) -> np.ndarray:
+        try:
+            return np.asarray(self._of(place).variable[(*lead, slice(first, last))].values)
+        except Exception as error:  # libraries that read untrusted bytes may raise any exception
+            text = f"{type(error).__name__}: {' '.join(str(error).split())[:200]}"
+            raise RecordError(
+                f"cannot be read at this moment, the record may be damaged ({text})", where=self._names[place]
+            ) from None
 
     def refresh(self) -> bool:
         """Open the record again if it grew; return whether it did.
@@ -202,34 +236,3 @@ def _stamp(path: Path) -> tuple[int, ...]:
     except OSError:
         return ()
     return found.st_ino, found.st_mtime_ns, found.st_size
-
-
-def _time_axis(variable: xarray.DataArray) -> int:
-    """Return the number of leading dimensions before the time; all if the variable has no time."""
-    dimension = time_dimension(variable)
-    return variable.ndim if dimension is None else variable.dims.index(dimension)
-
-
-def _times(variable: xarray.DataArray) -> np.ndarray | None:
-    dimension = time_dimension(variable)
-    return None if dimension is None else np.asarray(variable[dimension].values, float)
-
-
-def _fits(variable: xarray.DataArray, axes: Axes) -> bool:
-    return variable.shape[_time_axis(variable) + 1 :] == tuple(a.samples for a in axes)
-
-
-def _chunk(variable: xarray.DataArray, axis: int) -> int:
-    """Return the number of frames that are read together."""
-    chunks = variable.encoding.get("chunks")
-    return int(chunks[axis]) if chunks and axis < len(chunks) else FEWEST
-
-
-def _read(variable: xarray.DataArray, lead: tuple[int, ...], first: int, last: int) -> np.ndarray:
-    try:
-        return np.asarray(variable[(*lead, slice(first, last))].values)
-    except Exception as error:  # libraries that read untrusted bytes may raise any exception
-        text = f"{type(error).__name__}: {' '.join(str(error).split())[:200]}"
-        raise RecordError(
-            f"cannot be read at this moment, the record may be damaged ({text})", where=str(variable.name)
-        ) from None

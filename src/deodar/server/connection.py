@@ -28,6 +28,7 @@ from deodar.server.source import FrameSource
 from deodar.server.to_page import (
     Answer,
     Checked,
+    Comparison,
     Costs,
     FileProblems,
     Folder,
@@ -39,6 +40,7 @@ from deodar.server.to_page import (
     WorldScene,
 )
 from deodar.server.to_server import MESSAGES, Drawn
+from deodar.session.port_reader import PortKey
 from deodar.session.unit import unit_seconds
 
 MOST_ANSWERS = 64
@@ -60,7 +62,7 @@ class PageConnection:
         self._answers: deque[Answer | Folder] = deque()
         self._exchange = 0
         self._ready = True
-        self._published = -1
+        self._published = self._published_other = -1
         self._known: dict[str, Any] = {}
         self._timeline: TimelineView | None = None
         self._session, self._version = -1, -1
@@ -171,17 +173,14 @@ class PageConnection:
             spoke = True
         sent = state.number != self._published
         self._published = state.number
-        for stream in list(self.page.streams.values()):
-            news = stream.news(source, self.page.moment)
-            if news is not None:
-                await self._text(news)
-                sent = spoke = True
-            trace = None if stream.request is None else source.trace(stream.request)
-            more = sent or (trace is not None and source.present() is None)  # a record is being read
-            data = stream.frame(state, trace) if more else None
-            if data is not None:
-                await self._socket.send_bytes(data)
-                spoke = True
+        spoke = await self._send_frames(source, state, self.page.moment, False, sent) or spoke
+        others = hub.other_source(self.page)
+        if others is not None:
+            found = await others.at(state.time, 0, self._places(True))
+            if found is not None:
+                sent = found[1].number != self._published_other
+                self._published_other = found[1].number
+                spoke = await self._send_frames(others, found[1], found[1], True, sent) or spoke
         while self._answers:
             await self._text(self._answers.popleft())
             self._room.set()
@@ -196,6 +195,34 @@ class PageConnection:
             # the last state contained nothing for this page, which still waits for one that does
             engine.want()
 
+    def _places(self, other: bool) -> set[PortKey]:
+        """Return the ports whose frames the page watches, of the open record or of the other one."""
+        watched = (s for s in self.page.streams.values() if s.request is None and s.other == other)
+        return {stream.place for stream in watched}
+
+    async def _send_frames(
+        self,
+        source: FrameSource,
+        state: PublishedState,
+        past: PublishedState | None,
+        other: bool,
+        sent: bool,
+    ) -> bool:
+        """Send what is new of the streams of one source; return whether anything was sent."""
+        spoke = False
+        for stream in [s for s in self.page.streams.values() if s.other == other]:
+            news = stream.news(source, past)
+            if news is not None:
+                await self._text(news)
+                sent = spoke = True
+            trace = None if stream.request is None else source.trace(stream.request)
+            more = sent or (trace is not None and source.present() is None)  # a record is being read
+            data = stream.frame(state, trace) if more else None
+            if data is not None:
+                await self._socket.send_bytes(data)
+                spoke = True
+        return spoke
+
     async def _shown(self, source: FrameSource) -> PublishedState:
         """Return the state that the page shows, after what it asked for, and keep its timeline."""
         page, present = self.page, source.present()
@@ -207,11 +234,14 @@ class PageConnection:
         if present is not None and time is None:
             page.moment, self._timeline = None, self._moments(source, None)
             return present
-        places = {stream.place for stream in page.streams.values() if stream.request is None}
+        places = self._places(False)
         found = await source.at(
             -math.inf if time is None else time, 0 if asked is None else asked.further, places
         )
-        number, state = found or (0, present or PublishedState(0, 0.0, 0, {}))
+        if found is None and present is not None:
+            page.moment, self._timeline = None, self._moments(source, None)
+            return present
+        number, state = found or (0, PublishedState(0, 0.0, 0, {}))
         if kept is not None and present is not None and state.time != kept.time:
             state = kept  # it is older than all that is stored
         page.moment, self._timeline = state, self._moments(source, (number, state.time))
@@ -250,6 +280,7 @@ class PageConnection:
         if project.checker.found is not None:
             self._new("checked", project.checker.found, out)
         self._new("costs", self._hub.costs(), out)
+        self._new("comparison", project.compared(), out)
         return out
 
     def _news_of_world(self, state: PublishedState) -> list[Message]:
@@ -261,7 +292,7 @@ class PageConnection:
     def _new(
         self,
         what: str,
-        message: Gallery | FileProblems | Checked | RunClock | Costs | WorldScene,
+        message: Gallery | FileProblems | Checked | RunClock | Costs | Comparison | WorldScene,
         out: list[Message],
     ) -> None:
         if self._known.get(what) != message:

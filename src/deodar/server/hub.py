@@ -124,6 +124,21 @@ class Hub:
             page.frames = RecordFrames(record, self.project.scene[0], self._from(page))
         return page.frames
 
+    def other_source(self, page: Page) -> RecordFrames | None:
+        """Return the record that the open one is compared with; None: there is none."""
+        comparison, frames = self.project.comparison, page.frames
+        if comparison is None or frames is None:
+            page.others = None
+        elif page.others is None or page.others.record is not comparison.other:
+            page.others = RecordFrames(comparison.other, None, self._from(page))
+            page.others.choose(frames.copy)
+        return page.others
+
+    def from_thread(self) -> None:
+        """Wake all pages, from any thread."""
+        with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left
+            self._loop.call_soon_threadsafe(self.notify)
+
     def _from(self, page: Page) -> Callable[[], None]:
         """Return a function that wakes a page from any thread."""
 

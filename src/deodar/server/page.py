@@ -35,6 +35,7 @@ class Page:
         asked: the moment that the page asked for since the last exchange.
         moment: the state that the page shows; None: the present.
         frames: the frames of the open record, for this page; None: no record is open.
+        others: the frames of the record that it is compared with.
         news: set when there may be something to send.
     """
 
@@ -47,6 +48,7 @@ class Page:
         self.asked: MomentRequest | None = None
         self.moment: PublishedState | None = None
         self.frames: RecordFrames | None = None
+        self.others: RecordFrames | None = None
         self.news = asyncio.Event()
 
     def wake(self) -> None:

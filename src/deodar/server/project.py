@@ -27,11 +27,12 @@ from deodar.recording.replay import RecordReader
 from deodar.server import content, record_frames, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
+from deodar.server.comparison import RecordComparison
 from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.recent_changes import RecentChanges
 from deodar.server.state_store import StateStore
-from deodar.server.to_page import Changed, DocumentView, ListedProblem
+from deodar.server.to_page import Changed, Comparison, DocumentView, ListedProblem
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -62,6 +63,7 @@ class OpenProject:
         failure: why the document does not run.
         busy: a phrase for the compilation in progress; empty: none.
         record: the open record, whose document `model` has; None: the document runs.
+        comparison: the comparison of the open record with another one.
         scene: the view of the record's world at its start, and a sentence on what it does not contain.
         checker: finds the warnings after changes of single parameters.
     """
@@ -86,6 +88,7 @@ class OpenProject:
         self.busy = ""
         self.record: RecordReader | None = None
         self.scene: tuple[Scene | None, str] = (None, "")
+        self.comparison: RecordComparison | None = None
         self.checker = Checker(
             lambda: (self.version, None if self.model is None else self.model.document), self.queue, changed
         )
@@ -173,6 +176,30 @@ class OpenProject:
             raise DocumentError("no record is open")
         await self._open(lambda: record.document, None, record.document.name, discard)
 
+    async def compare(self, path: Path, changed: Callable[[], None]) -> None:
+        """Compare the open record with another one; `changed` is called in another thread."""
+        record = self.record
+        if record is None:
+            raise DocumentError("no record is open", fix="Open one, then compare it with another one")
+        found = await in_file_thread(lambda: RecordComparison(record, path, changed), str(path))
+        self.end_comparison()
+        self.comparison = found
+        self._changed()
+
+    def end_comparison(self) -> None:
+        """Show the open record alone."""
+        if self.comparison is not None:
+            self.comparison.end()
+        self.comparison = None
+        self._changed()
+
+    def compared(self) -> Comparison:
+        """Return the comparison as a message."""
+        found = self.comparison
+        if found is None:
+            return view.NO_COMPARISON
+        return view.comparison(found, self.workspace.shown(found.other.path))
+
     async def refresh(self) -> bool:
         """Read what was added to a record that grows; return whether something was."""
         record = self.record
@@ -245,6 +272,7 @@ class OpenProject:
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.file_problems, self.failure, self.busy = ("", ()), (), ""
         self.record, self.scene = None, (None, "")
+        self.end_comparison()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
     async def _start(self) -> None:

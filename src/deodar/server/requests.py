@@ -91,6 +91,16 @@ async def _open_record_model(hub: Hub, page: Page, m: to_server.OpenRecordModel)
     await hub.project.open_record_model(m.discard)
 
 
+@handles(to_server.CompareRecord)
+async def _compare_record(hub: Hub, page: Page, m: to_server.CompareRecord) -> None:
+    await hub.project.compare(hub.workspace.inside(m.path), hub.from_thread)
+
+
+@handles(to_server.EndComparison)
+async def _end_comparison(hub: Hub, page: Page, m: to_server.EndComparison) -> None:
+    hub.project.end_comparison()
+
+
 @handles(to_server.OpenExample)
 async def _open_example(hub: Hub, page: Page, m: to_server.OpenExample) -> None:
     path = gallery.example_file(m.name)
@@ -277,6 +287,9 @@ async def _choose_copy(hub: Hub, page: Page, m: to_server.ChooseCopy) -> None:
     if page.frames is None or record is None or m.dimension not in record.copies:
         raise DocumentError("the open record has no such dimension", where=m.dimension)
     page.frames.choose({m.dimension: m.index})
+    others = hub.other_source(page)
+    if others is not None:
+        others.choose({m.dimension: m.index})
     page.wake()
 
 
@@ -377,7 +390,7 @@ async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> No
 @handles(to_server.Watch)
 async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
     _require_room(hub, page, m.stream)
-    page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most)
+    page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most, other=m.other)
     hub.watch()
 
 
@@ -385,7 +398,9 @@ async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
 async def _trace(hub: Hub, page: Page, m: to_server.WatchTrace) -> None:
     _require_room(hub, page, m.stream)
     place = (m.element, m.port)
-    page.streams[m.stream] = Stream(m.stream, place, request=TraceRequest(place, m.reduce, tuple(m.at)))
+    page.streams[m.stream] = Stream(
+        m.stream, place, request=TraceRequest(place, m.reduce, tuple(m.at)), other=m.other
+    )
     hub.watch()
 
 

@@ -20,12 +20,20 @@ CHANNELS = ("channel", 3)
 
 
 class Stream:
-    """A port of an element, or with a `request` its time course, under a number that the page chose."""
+    """A port of an element, or with a `request` its time course, under a number that the page chose.
+
+    `other`: of the record that the open one is compared with.
+    """
 
     def __init__(
-        self, number: int, place: PortKey, most: int = 0, request: TraceRequest | None = None
+        self,
+        number: int,
+        place: PortKey,
+        most: int = 0,
+        request: TraceRequest | None = None,
+        other: bool = False,
     ) -> None:
-        self.number, self.place, self.most, self.request = number, place, most, request
+        self.number, self.place, self.most, self.request, self.other = number, place, most, request, other
         self._said: Announced | Lost | None = None
         self._axes: Axes = ()
         self._trace: Trace | None = None

@@ -238,6 +238,39 @@ class FileProblems(Message, frozen=True, tag="file_problems"):
     problems: list[ListedProblem]
 
 
+class DifferenceView(Data, frozen=True):
+    """The first moment at which a port of two records differs, and the sample with the largest difference.
+
+    `at` is the position of the sample, as text; `copy` the trial and the point of a sweep, as indices. A
+    value that is not finite is None.
+    """
+
+    element: Id
+    path: str
+    time: float
+    copy: dict[str, int]
+    at: str
+    value: float | None
+    other: float | None
+
+
+@MESSAGES.register
+class Comparison(Message, frozen=True, tag="comparison"):
+    """The comparison of the open record with another one; an empty `path`: there is none.
+
+    `progress` is the share that was compared, 1 at the end. `differences` lists the first one of each port
+    that differs, the earliest first, `compared` the ports that both records have. `notes` are sentences on
+    what was not compared.
+    """
+
+    path: str
+    progress: float
+    compared: int
+    differences: list[DifferenceView]
+    notes: list[str]
+    problems: list[ListedProblem]
+
+
 @MESSAGES.register
 class Changed(Message, frozen=True, tag="changed"):
     """The new value of one parameter, the only difference to the previous version of the document."""

@@ -51,6 +51,18 @@ class OpenRecordModel(DocumentRequest, frozen=True, kw_only=True, tag="open_reco
 
 
 @MESSAGES.register
+class CompareRecord(DocumentRequest, frozen=True, kw_only=True, tag="compare_record"):
+    """Compare the open record with another one below the root; a `comparison` message follows."""
+
+    path: Text
+
+
+@MESSAGES.register
+class EndComparison(DocumentRequest, frozen=True, kw_only=True, tag="end_comparison"):
+    """Show the open record alone again."""
+
+
+@MESSAGES.register
 class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"):
     """Open an example, as a document without a file."""
 
@@ -352,20 +364,21 @@ class RemoveObject(Request, frozen=True, kw_only=True, tag="remove_object"):
 class Watch(Request, frozen=True, kw_only=True, tag="watch"):
     """Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
 
-    The page chooses the number `stream`.
+    The page chooses the number `stream`. `other`: of the record that the open one is compared with.
     """
 
     stream: Count
     element: Id
     port: Text
     most: Count = 0
+    other: bool = False
 
 
 @MESSAGES.register
 class WatchTrace(Request, frozen=True, kw_only=True, tag="trace"):
     """Send a time course of a port: a node's value, or an array's value at a position, maximum or mean.
 
-    `at` is in axis units.
+    `at` is in axis units; `other` as in `watch`.
     """
 
     stream: Count
@@ -373,6 +386,7 @@ class WatchTrace(Request, frozen=True, kw_only=True, tag="trace"):
     port: Text
     reduce: Literal["at", "max", "mean"] = "max"
     at: list[float] = []
+    other: bool = False
 
 
 @MESSAGES.register

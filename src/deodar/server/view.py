@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -18,11 +19,15 @@ from deodar.model.parts import value_from_json
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray
+from deodar.recording.first_difference import FirstDifference
 from deodar.recording.replay import RecordReader
+from deodar.server.comparison import RecordComparison
 from deodar.server.to_page import (
     AxisView,
+    Comparison,
     ConnectionView,
     CopyDimension,
+    DifferenceView,
     DocumentParameterView,
     DocumentView,
     ElementView,
@@ -96,6 +101,38 @@ def record(reader: RecordReader, path: str) -> RecordView:
         for name, values in reader.copies.items()
     ]
     return RecordView(path=path, complete=reader.complete, notes=reader.notes, copies=copies, ports=ports)
+
+
+NO_COMPARISON = Comparison(path="", progress=0.0, compared=0, differences=[], notes=[], problems=[])
+
+
+def comparison(found: RecordComparison, path: str) -> Comparison:
+    """Convert a comparison of two records."""
+    return Comparison(
+        path=path,
+        progress=found.progress,
+        compared=len(found.ports),
+        differences=[_difference(found.record, d) for d in found.differences],
+        notes=found.notes,
+        problems=problems(found.problems),
+    )
+
+
+def _difference(reader: RecordReader, found: FirstDifference) -> DifferenceView:
+    axes = reader.axes(found.place)
+    at = ", ".join(
+        f"{a.name} {a.points[i]:g} {a.unit}".rstrip() for a, i in zip(axes, found.index, strict=True)
+    )
+    value, other = (v if math.isfinite(v) else None for v in found.values)
+    return DifferenceView(
+        element=found.place[0],
+        path=found.path,
+        time=found.time,
+        copy=dict(found.copy),
+        at=at,
+        value=value,
+        other=other,
+    )
 
 
 def axis(a: Axis, key: str = "") -> AxisView:

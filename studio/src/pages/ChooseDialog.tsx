@@ -13,10 +13,11 @@ const ACCEPTED = {
   files: "application/json,.json,.deodar",
   pictures: "image/*",
   values: "application/json,.json",
+  records: "",
 };
 
 export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) {
-  const file = useStudio((state) => state.document?.file ?? "");
+  const file = useStudio((state) => state.document?.record?.path ?? state.document?.file ?? "");
   const [path, setPath] = useState(parent(file));
   const listing = useFolder(path);
   return (
@@ -30,21 +31,25 @@ export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) 
       <FolderBrowser
         path={path}
         listing={listing}
-        wants={wants === "pictures" ? "pictures" : "files"}
+        wants={wants === "pictures" || wants === "records" ? wants : "files"}
         onFolder={setPath}
         onFile={answer}
-        records={wants === "files"}
+        records={wants === "files" || wants === "records"}
         marked={file}
         first
       />
       <Group gap="xs" mt="md" justify="space-between">
-        <FileButton accept={ACCEPTED[wants]} onChange={(chosen) => chosen !== null && answer(chosen)}>
-          {(props) => (
-            <Button variant="default" {...props}>
-              From elsewhere on this computer…
-            </Button>
-          )}
-        </FileButton>
+        {wants === "records" ? (
+          <span />
+        ) : (
+          <FileButton accept={ACCEPTED[wants]} onChange={(chosen) => chosen !== null && answer(chosen)}>
+            {(props) => (
+              <Button variant="default" {...props}>
+                From elsewhere on this computer…
+              </Button>
+            )}
+          </FileButton>
+        )}
         <Button variant="subtle" color="gray" onClick={() => answer(null)}>
           Cancel
         </Button>

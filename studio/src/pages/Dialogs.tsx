@@ -54,6 +54,7 @@ const WANTED = {
   files: "Open a file",
   pictures: "Choose a picture",
   values: "Apply the values of a file",
+  records: "Compare with another record",
 };
 
 function titleOf(asked: Asked): string {

@@ -13,7 +13,7 @@ type Props = {
   // The present folder and its content; from useFolder.
   path: string;
   listing: ReturnType<typeof useFolder>;
-  wants: "files" | "pictures";
+  wants: "files" | "pictures" | "records";
   onFolder: (path: string) => void;
   onFile: (path: string) => void;
   // A file that is marked, by its path.
@@ -46,7 +46,7 @@ export function FolderBrowser({
   }, [path]);
   const FileIcon = wants === "files" ? IconFileText : IconPhoto;
   const at = (name: string) => joined(folder?.path ?? path, name);
-  const names = folder?.[wants] ?? [];
+  const names = wants === "records" ? [] : (folder?.[wants] ?? []);
   const runs = records ? [] : (folder?.records ?? []).filter((name) => !name.endsWith(".nc"));
   const folders = [...(folder?.folders ?? []), ...runs];
   const empty = folder !== null && folder.folders.length + folder.records.length + names.length === 0;
@@ -107,9 +107,11 @@ export function FolderBrowser({
           <li className={classes.empty}>
             {wants === "pictures"
               ? "No pictures here"
-              : records
-                ? "No documents (.json, .deodar) or records here"
-                : "No documents (.json, .deodar) here"}
+              : wants === "records"
+                ? "No records here"
+                : records
+                  ? "No documents (.json, .deodar) or records here"
+                  : "No documents (.json, .deodar) here"}
           </li>
         )}
         {problem !== null && (

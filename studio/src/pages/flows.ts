@@ -47,6 +47,16 @@ export async function open(): Promise<boolean> {
   return typeof chosen === "string" ? leave({ type: "open_file", path: chosen }) : takeFile(chosen);
 }
 
+// Compare the open record with another one.
+export async function compare(): Promise<boolean> {
+  const chosen = await ask("choose", { wants: "records" });
+  if (typeof chosen !== "string") {
+    return false;
+  }
+  const answer = await request({ type: "compare_record", path: chosen });
+  return (answer.problems ?? []).length === 0;
+}
+
 // Write the document, to its own file where the path is empty. True where it was written.
 export async function save(path = "", replace = false): Promise<boolean> {
   const own = useStudio.getState().document?.file ?? "";

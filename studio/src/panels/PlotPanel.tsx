@@ -10,6 +10,7 @@ import { Picture } from "../plots/Picture";
 import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
 import { TimeCourse } from "../plots/TimeCourse";
+import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 
@@ -34,6 +35,7 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
       : plotKinds(portAxes(state.document, element, port), state.welcome?.plots).join(),
   );
   const visible = useVisible(api);
+  const compared = useStudio((state) => state.comparison !== null);
   const kinds = offered.split(",");
   const kind = plot.kind !== null && kinds.includes(plot.kind) ? plot.kind : (kinds[0] ?? "course");
 
@@ -66,11 +68,14 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
     change,
     set: (settings) => change({ settings: { ...plot.settings, ...settings } }),
   };
-  if (isOwn(kind)) {
-    const Plot = PLOTS[kind];
-    return <Plot key={kind} {...props} />;
-  }
-  return packaged === undefined ? null : <PackagedPlot key={kind} plot={packaged} {...props} />;
+  const Plot = isOwn(kind) ? PLOTS[kind] : null;
+  const drawing =
+    Plot !== null ? (
+      <Plot key={kind} {...props} />
+    ) : packaged === undefined ? null : (
+      <PackagedPlot key={kind} plot={packaged} {...props} />
+    );
+  return compared ? <SideBySide key={kind}>{drawing}</SideBySide> : drawing;
 }
 
 function useVisible(api: IDockviewPanelProps["api"]): boolean {

@@ -1,8 +1,9 @@
 // Live arrays for a component: drawing happens once for each picture of the browser and past React; the
 // component renders again only when the content of the streams changes.
 
-import { useEffect, useState } from "react";
+import { useContext, useEffect, useState } from "react";
 import type { Announced, ListedProblem } from "../protocol";
+import { OtherRecord } from "../replay/OtherRecord";
 import { socket } from "../socket";
 import type { Live, Wish } from "../streams";
 import { useLatest } from "./useLatest";
@@ -21,7 +22,8 @@ const NOTHING: Streaming = { forms: [], lost: null, seen: false };
 export function useStreams(wishes: Wish[], on: boolean, draw: (lives: Live[]) => void): Streaming {
   const [streaming, setStreaming] = useState(NOTHING);
   const drawing = useLatest(draw);
-  const key = JSON.stringify(wishes);
+  const other = useContext(OtherRecord);
+  const key = JSON.stringify(other ? wishes.map((wish) => ({ ...wish, other })) : wishes);
 
   useEffect(() => {
     if (!on) {

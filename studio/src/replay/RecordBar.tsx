@@ -1,9 +1,9 @@
 // Above a record: which trial and point of a sweep is shown, and a way to run its model.
 
 import { Button, NativeSelect, Tooltip } from "@mantine/core";
-import { IconMovie, IconPlayerPlay } from "@tabler/icons-react";
+import { IconArrowsDiff, IconMovie, IconPlayerPlay } from "@tabler/icons-react";
 
-import { leave } from "../pages/flows";
+import { compare, leave } from "../pages/flows";
 import type { RecordView } from "../protocol";
 import { chooseCopy, useReplay } from "./replay";
 import classes from "./RecordBar.module.css";
@@ -30,6 +30,16 @@ export function RecordBar({ record }: { record: RecordView }) {
           />
         </label>
       ))}
+      <Tooltip label="Show another record of this document beside this one, and find the first difference">
+        <Button
+          size="compact-sm"
+          variant="default"
+          leftSection={<IconArrowsDiff size={15} />}
+          onClick={() => void compare()}
+        >
+          Compare
+        </Button>
+      </Tooltip>
       <Tooltip label="Open a copy of the document of this record, which runs and can be changed">
         <Button
           size="compact-sm"

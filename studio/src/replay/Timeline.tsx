@@ -9,13 +9,23 @@ import {
   IconPlayerSkipBack,
   IconPlayerSkipForward,
 } from "@tabler/icons-react";
-import { type KeyboardEvent, type ReactNode, useEffect } from "react";
+import { type KeyboardEvent, type ReactNode, useEffect, useRef } from "react";
 
 import { type Studio, useStudio } from "../store";
 import { countText, timeText } from "../transport/format";
 import { useThrottled } from "../transport/throttled";
 import { thinnedShare } from "./playback";
-import { replay, seek, seekFirst, seekFrames, seekLast, showPresent, stop, useReplay } from "./replay";
+import {
+  replay,
+  seek,
+  seekFirst,
+  seekFrames,
+  seekLast,
+  showAgain,
+  showPresent,
+  stop,
+  useReplay,
+} from "./replay";
 import { ReplaySpeed } from "./ReplaySpeed";
 import classes from "./Timeline.module.css";
 
@@ -31,6 +41,16 @@ export function Timeline() {
   const session = useStudio((state) => state.session);
   const { playing, held } = useReplay();
   useEffect(() => () => useReplay.setState({ playing: null, held: null, copy: {} }), [session]);
+
+  const open = useStudio((state) => state.connection === "open");
+  const before = useRef<number | null>(null);
+  useEffect(() => {
+    if (open) {
+      showAgain(before.current);
+    } else {
+      before.current = useStudio.getState().clock?.timeline?.time ?? null;
+    }
+  }, [open]);
 
   const off = known === null || known.frames < 2;
   const record = useStudio((state) => state.document?.record != null);

@@ -100,6 +100,16 @@ export function chooseCopy(dimension: string, index: number): void {
   socket.post({ type: "choose_copy", dimension, index });
 }
 
+// After a new connection, whose page the server does not know yet.
+export function showAgain(time: number | null): void {
+  for (const [dimension, index] of Object.entries(useReplay.getState().copy)) {
+    socket.post({ type: "choose_copy", dimension, index });
+  }
+  if (time !== null) {
+    socket.post({ type: "seek", time });
+  }
+}
+
 function seekEnd(end: (known: TimelineView) => number): void {
   const known = timeline();
   if (known !== null) {
