@@ -47,6 +47,18 @@ def test_an_opened_record_reads_only_what_is_selected(
     assert opened.identical(data)
 
 
+@pytest.mark.parametrize("names", [["u.output", "n.activation"], ["n.activation", "u.output"]])
+def test_an_opened_record_lists_variables_in_the_order_in_which_they_were_asked_for(
+    names: list[str], tmp_path: Path
+) -> None:
+    """A record that is written during its run has a folder for each of them, in any order."""
+    model = dd.Model("two")
+    for name in "un":
+        model.add(dd.Field(name))
+    assert list(dd.simulate(model, 3, record=names, out=tmp_path / "record.zarr").data_vars) == names
+    assert list(dd.open_record(tmp_path / "record.zarr").data_vars) == names
+
+
 def test_a_damaged_record_names_itself_when_opened(data: xarray.Dataset, tmp_path: Path) -> None:
     path = files.save_record(data, tmp_path / "record.zarr")
     (path / "zarr.json").write_text("{")

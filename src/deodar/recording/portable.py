@@ -135,6 +135,10 @@ def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
     data = stored.rename(changed)
     for name, about in kept["variables"].items():
         data.variables[names.get(name, name)].attrs = dict(about["attributes"])
+    # a folder lists its arrays in any order
+    coords = data.coords
+    data = data[[names.get(n, n) for n in kept["variables"] if names.get(n, n) not in coords]]
+    data = data.assign_coords({name: c for name, c in coords.items() if name not in data.coords})
     data.attrs = {
         k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in kept["attributes"].items()
     }
