@@ -59,6 +59,8 @@ SCRIPT = [
     "simulate",
     "resume",
     "Probe",
+    "save_snapshot",
+    "load_snapshot",
     "Experiment",
     "save",
     "load",

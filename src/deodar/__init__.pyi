@@ -162,6 +162,8 @@ from deodar.recording.files import save_record as save_record
 from deodar.recording.probe import Probe as Probe
 from deodar.registry import register as register
 from deodar.session.session import Session as Session
+from deodar.session.snapshot_file import load_snapshot as load_snapshot
+from deodar.session.snapshot_file import save_snapshot as save_snapshot
 from deodar.worlds._base import Signal as Signal
 from deodar.worlds._base import World as World
 from deodar.worlds._pure import PureWorld as PureWorld

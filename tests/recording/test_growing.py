@@ -230,3 +230,16 @@ def test_a_flush_that_fails_at_the_end_is_an_error(
     monkeypatch.setattr(output, "sync_tree", refuse)
     with pytest.raises(OutputError, match="No space left"):
         writer.close(True)
+
+
+def test_a_record_of_a_newer_version_is_named(
+    whole: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as newer:
+        newer.setattr("deodar.recording.portable.VERSION", 9)
+        writer = begin(whole, tmp_path / "r.zarr")
+        put(writer, whole, 0, 3)
+        writer.close(True)
+    for read in (dd.open_record, dd.load_record):
+        with pytest.raises(RecordError, match="of version 9"):
+            read(tmp_path / "r.zarr")

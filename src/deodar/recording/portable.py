@@ -22,6 +22,9 @@ from deodar.errors import RecordError
 KEY = "deodar_layout"
 """Name of the attribute that lists the changes."""
 
+VERSION = 2
+"""Version of the layout; version 1, which stated none, had no arrays that grow."""
+
 LONGEST = 100
 RESERVED = frozenset(
     [
@@ -52,6 +55,7 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
     """
     names = _names([*data.variables, *data.dims])
     kept: dict[str, Any] = {
+        "version": VERSION,
         "names": {new: str(old) for old, new in names.items() if new != old},
         "variables": {},
     }
@@ -86,7 +90,7 @@ def unpack(stored: xarray.Dataset) -> xarray.Dataset:
     text = stored.attrs.get(KEY)
     if text is None:
         return stored
-    kept = codec.parse(text)
+    kept = _layout(text)
     names: Mapping[str, str] = kept["names"]
     if set(kept["variables"]) != set(map(str, stored.variables)):
         raise RecordError(
@@ -118,7 +122,7 @@ def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
     text = stored.attrs.get(KEY)
     if text is None:
         return stored
-    kept = codec.parse(text)
+    kept = _layout(text)
     names: Mapping[str, str] = kept["names"]
     stored = stored.isel({d: slice(0, 0) for d in kept.get("empty", ())})
     whole = [
@@ -143,6 +147,18 @@ def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
         k: stored.attrs[k] if v is None and k in stored.attrs else v for k, v in kept["attributes"].items()
     }
     return data
+
+
+def _layout(text: str) -> dict[str, Any]:
+    """Return the layout that an attribute lists; raise RecordError if it is of a newer version."""
+    kept = codec.parse(text)
+    version = kept.get("version", 1)
+    if version > VERSION:
+        raise RecordError(
+            f"is a record of version {version}; this deodar reads versions up to {VERSION}",
+            fix="Install a newer deodar",
+        )
+    return kept
 
 
 def _stored(name: str, array: np.ndarray, narrow: bool) -> tuple[np.ndarray, dict[str, Any]]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from deodar.errors import NotFinite, RecordError
 from deodar.recording import stored
-from deodar.session.exchange import WorldState
+from deodar.session import world_file
 from deodar.session.run import Run
 
 KIND = "state of a run"
@@ -27,22 +27,10 @@ def save(run: Run, path: Path, about: Mapping[str, Any]) -> None:
         OutputError: the system refused.
     """
     own = stored.leaves(run.state, "the model")
-    kept = run.exchange.keep()
-    world: dict[str, Any] | None = None
-    arrays = list(own)
-    if kept is not None:
-        theirs = stored.leaves(kept.world, f"the world {kept.kind.__name__}")
-        commands = dict(kept.commands or {})
-        world = {
-            "kind": kept.kind.__name__,
-            "leaves": len(theirs),
-            "commands": None if kept.commands is None else list(commands),
-        }
-        world |= {"last": kept.last, "due": kept.due, "origin": kept.origin}
-        arrays += [*theirs, *map(np.asarray, commands.values())]
+    world, theirs = world_file.to_file(run.exchange.keep())
     lost = [[list(copy), error.problems[0].what, error.step] for copy, error in run.lost.items()]
     text = {"clock": dc.asdict(run.clock), "leaves": len(own), "world": world, "lost": lost}
-    stored.write(path, {**about, "run": text}, arrays, KIND)
+    stored.write(path, {**about, "run": text}, [*own, *theirs], KIND)
 
 
 def read(path: Path) -> tuple[dict[str, Any], list[np.ndarray]]:
@@ -66,19 +54,10 @@ def put(run: Run, about: Mapping[str, Any], arrays: list[np.ndarray]) -> None:
     run.clock = dc.replace(run.clock, **text["clock"])
     run.lost = {tuple(copy): NotFinite(what, [], step=step) for copy, what, step in text["lost"]}
     run.forget()
-    world, here = text["world"], run.exchange.keep()
-    if (world is None) != (here is None) or (here is not None and world["kind"] != here.kind.__name__):
+    here = run.exchange.world
+    if (text["world"] is None) != (here is None):
         raise RecordError("the stored state is of a run in another world")
-    if here is not None:
-        theirs, commands = rest[: world["leaves"]], rest[world["leaves"] :]
-        names = world["commands"]
-        run.exchange.put(
-            WorldState(
-                here.kind,
-                stored.filled(here.world, theirs, f"the world {world['kind']}"),
-                world["last"],
-                world["due"],
-                world["origin"],
-                None if names is None else dict(zip(names, commands, strict=True)),
-            )
-        )
+    kept = world_file.from_file(text["world"], rest)
+    if kept is not None and not isinstance(here, kept.kind):
+        raise RecordError(f"the stored state is of a run in the world {kept.kind.__name__}")
+    run.exchange.put(kept)

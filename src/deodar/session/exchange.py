@@ -19,6 +19,7 @@ from deodar.errors import NotFinite, WorldError
 from deodar.model.document import Document
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import show
+from deodar.recording import stored
 from deodar.worlds._base import Signal, World, fitting
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
@@ -40,12 +41,19 @@ class ExchangeInstant:
 
 
 @dc.dataclass(frozen=True)
+class StoredLeaves:
+    """The leaves of the state of a world, from a file; the world itself has their structure."""
+
+    leaves: Sequence[np.ndarray]
+
+
+@dc.dataclass(frozen=True)
 class WorldState:
     """State of a world and of its exchange.
 
     Attributes:
         kind: class of the world.
-        world: the state that `World.keep` returned.
+        world: the state that `World.keep` returned, or its leaves from a file.
         last: tick of the last exchange.
         due: tick of the next exchange.
         origin: tick from which periods are counted.
@@ -203,8 +211,14 @@ class Exchange:
         """Restore a state that `keep` returned; the sensors are read again."""
         self.unread = True
         if kept is not None and self.world is not None and isinstance(self.world, kept.kind):
+            state = kept.world
+            if isinstance(state, StoredLeaves):
+                name = f"the world {type(self.world).__name__}"
+                with errors_of(self.world, "keep"):
+                    structure = self.world.keep()
+                state = stored.filled(structure, state.leaves, name)
             with errors_of(self.world, "put"):
-                self.world.put(kept.world)
+                self.world.put(state)
             self._last, self._due, self._origin, self._commands = (
                 kept.last,
                 kept.due,

@@ -1,0 +1,180 @@
+"""Runs that write their record while they run, and are resumed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.batch import output
+from deodar.cli import main
+from deodar.errors import Interrupted, NotFinite, OutputExists, RecordError
+from deodar.recording import files
+from deodar.recording.record import about
+from tests.recording.models import model
+from tests.worlds.test_recording import driving
+
+
+def stopping(after: int) -> Callable[[int], None]:
+    """Return a function that stops a run after that number of steps."""
+
+    def stop(done: int) -> None:
+        if done >= after:
+            raise KeyboardInterrupt
+
+    return stop
+
+
+@pytest.fixture(autouse=True)
+def short_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("deodar.session.run.CHUNK_SECONDS", 0.0)
+
+
+CASES: dict[str, dict[str, Any]] = {
+    "single": {},
+    "trials": {"trials": [4, 2, 7]},
+    "sweep": {"sweep": {"s.amplitude": [1.0, 2.0], "u.tau": [10.0, 20.0]}},
+    "pieces": {"trials": 3, "sweep": {"s.amplitude": [1.0, 2.0]}, "batch": 2},
+    "workers": {"trials": 4, "workers": 2},
+    "end": {"record": None, "every": None},
+    "double": {"precision": "float64"},
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_record_in_a_file_equals_the_one_in_memory(case: str, tmp_path: Path) -> None:
+    given = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES[case]}
+    here = dd.simulate(model(), 40, **given)
+    there = dd.simulate(model(), 40, out=tmp_path / "run", **given)
+    assert files.load_record(tmp_path / "run").identical(here) and there.load().identical(here)
+    assert dd.load(tmp_path / "run" / "model.json").document == model().document
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case != "workers"])
+def test_a_stopped_run_is_resumed_to_the_same_record(case: str, tmp_path: Path) -> None:
+    given = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES[case]}
+    here = dd.simulate(model(), 40, **given)
+    steps = 40 * (3 if case == "pieces" else 1)
+    for k, after in enumerate((steps // 4, steps // 2, 3 * steps // 4)):
+        with pytest.raises(Interrupted) as caught:
+            if k:
+                dd.resume(tmp_path / "run", progress=stopping(after))
+            else:
+                dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(after), **given)
+        if case == "end":  # its only sample is at the end
+            assert caught.value.data is None
+            return
+        assert about(caught.value.data)["complete"] is False
+    assert dd.resume(tmp_path / "run").load().identical(here)
+
+
+def test_a_run_in_a_world_is_resumed(tmp_path: Path) -> None:
+    given = {"record": ["eyes", "u", "left.output"], "every": 32, "seed": 4}
+    here = dd.simulate(driving(), 1600, world=dd.Arena("blocks"), **given)
+    with pytest.raises(Interrupted):
+        dd.simulate(
+            driving(),
+            1600,
+            world=dd.Arena("blocks"),
+            out=tmp_path / "run",
+            progress=stopping(40),
+            **given,
+        )
+    assert dd.resume(tmp_path / "run").load().identical(here)
+
+
+def test_a_complete_run_becomes_longer(tmp_path: Path) -> None:
+    given = {"record": ["u"], "every": 5, "seed": 3}
+    dd.simulate(model(), 20, out=tmp_path / "run", **given)
+    with pytest.raises(RecordError, match="is complete"):
+        dd.resume(tmp_path / "run")
+    with pytest.raises(RecordError, match="shorter"):
+        dd.resume(tmp_path / "run", duration=10)
+    longer = dd.resume(tmp_path / "run", duration=40)
+    assert longer.load().identical(dd.simulate(model(), 40, **given))
+
+
+def test_a_run_in_pieces_does_not_become_longer(tmp_path: Path) -> None:
+    dd.simulate(model(), 20, record="u", every=5, trials=4, batch=2, out=tmp_path / "run")
+    with pytest.raises(RecordError, match="several pieces"):
+        dd.resume(tmp_path / "run", duration=40)
+
+
+def test_a_run_that_was_killed_before_its_first_state_begins_again(tmp_path: Path) -> None:
+    given = {"record": ["u"], "every": 5, "seed": 3}
+    with pytest.raises(Interrupted):
+        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(10), **given)
+    (tmp_path / "run" / "record.zarr" / output.CHECKPOINT).unlink()
+    assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 40, **given))
+
+
+def test_other_versions_are_an_error_unless_accepted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
+        with pytest.raises(Interrupted):
+            dd.simulate(model(), 40, record="u", every=5, out=tmp_path / "run", progress=stopping(10))
+    with pytest.raises(RecordError, match="a toaster then"):
+        dd.resume(tmp_path / "run")
+    assert main(["run", str(tmp_path / "run"), "--resume"]) == 1
+    assert "a toaster then" in capsys.readouterr().err
+    assert main(["run", str(tmp_path / "run"), "--resume", "--yes"]) == 0
+    assert files.load_record(tmp_path / "run").sizes["time"] == 9
+
+
+def test_copies_that_diverge_are_nan_in_the_file(tmp_path: Path) -> None:
+    made = model()
+    given = {"record": ["u"], "every": 5, "sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0]}}
+    with pytest.warns(dd.errors.RunWarning):
+        here = dd.simulate(made, 40, **given)
+    with pytest.warns(dd.errors.RunWarning):
+        there = dd.simulate(made, 40, out=tmp_path / "run", **given)
+    assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
+
+
+def test_a_run_that_diverges_keeps_its_record_until_then(tmp_path: Path) -> None:
+    made = model()
+    made.set({"s.amplitude": 90.0, "s.windows": [dd.Window(20, 40)], "u.sigmoid": dd.Step(0.0)})
+    made.set("u.kernel.0.amplitude", 3e38)
+    with pytest.raises(NotFinite, match="is kept"):
+        dd.simulate(made, 40, record="u", every=1, out=tmp_path / "run")
+    kept = dd.open_record(tmp_path / "run")
+    assert about(kept)["complete"] is False and 0 < kept.sizes["time"] < 41
+
+
+def test_an_existing_run_is_replaced_only_with_force(tmp_path: Path) -> None:
+    given = {"record": "u", "every": 5, "out": tmp_path / "run"}
+    dd.simulate(model(), 20, **given)
+    with pytest.raises(OutputExists):
+        dd.simulate(model(), 40, **given)
+    assert dd.open_record(tmp_path / "run").sizes["time"] == 5
+    dd.simulate(model(), 40, force=True, **given)
+    assert dd.open_record(tmp_path / "run").sizes["time"] == 9
+
+
+def test_a_bare_record_has_no_model_file(tmp_path: Path) -> None:
+    dd.simulate(model(), 20, record="u", every=5, out=tmp_path / "run.zarr")
+    assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
+    assert files.load_record(tmp_path / "run.zarr").sizes["time"] == 5
+
+
+def test_the_command_resumes_and_answers_in_json(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(Interrupted):
+        dd.simulate(model(), 40, record="u", every=5, out=tmp_path / "run", progress=stopping(10))
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "run", "--resume", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["complete"] is True and answer["variables"]["u.activation"]["time"] == 9
+    assert main(["run", "run", "--resume", "--duration", "60"]) == 0
+    assert "13 times" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        main(["run", "run", "--resume", "--seed", "4"])
+    assert "--seed cannot be given" in capsys.readouterr().err
