@@ -179,7 +179,7 @@ def test_a_record_that_its_format_cannot_hold_is_kept_as_zarr(
     here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(output, "sync", lambda path: None)
-    monkeypatch.setattr(files, "LARGEST_NETCDF", 10)
+    monkeypatch.setattr(files.netcdf, "LARGEST", 10)
     assert main([*RUN, "--format", "netcdf"]) == 1
     assert "NetCDF 3 holds" in capsys.readouterr().err
     assert files.load_record(here / "result" / "record.zarr").sizes["time"] == 5

@@ -211,7 +211,8 @@ def test_type_has_the_size_and_the_font_of_the_file(data: xarray.Dataset) -> Non
     panels = [FigurePanel("u.activation", trial=0), FigurePanel("n.activation")]
     figure = FigureFile(panels, font_size=12, font="DejaVu Serif").draw(data)
     figure.draw_without_rendering()
-    for ax in figure.axes:
+    assert figure.axes[0].child_axes
+    for ax in [*figure.axes, *figure.axes[0].child_axes]:
         assert {label.get_fontsize() for label in ax.get_yticklabels()} == {12 * 7 / 8}
         assert ax.yaxis.label.get_fontsize() == 12
         fonts = {label.get_fontfamily()[0] for label in [ax.yaxis.label, *ax.get_yticklabels()]}
@@ -236,8 +237,8 @@ def test_panels_have_letters_titles_labels_and_ranges(data: xarray.Dataset) -> N
         letters="(A)",
         columns=2,
     ).draw(data)
-    one, two = (ax for ax in figure.axes if ax.get_label() != "<colorbar>")
-    (bar,) = (ax for ax in figure.axes if ax.get_label() == "<colorbar>")
+    one, two = figure.axes
+    (bar,) = two.child_axes
     assert written(one) == {"(A)", "a node"} and written(two) == {"(B)", "trial 0"}
     assert one.get_legend() is None and dd.time_course(data["n.activation"]).axes[0].get_legend() is not None
     assert one.get_xlim() == (0, 15) and one.get_ylim() == (-7, 1)
@@ -252,7 +253,7 @@ def test_panels_with_one_time_share_its_axis(data: xarray.Dataset) -> None:
         FigurePanel("n.activation", at=[5]),
     ]
     figure = FigureFile(panels).draw(data)
-    above, below, last = (ax for ax in figure.axes if ax.get_label() != "<colorbar>")
+    above, below, last = figure.axes
     assert above.get_shared_x_axes().joined(above, below) and not above.get_xlabel()
     assert below.get_xlabel() == "time (ms)" and not below.get_shared_x_axes().joined(below, last)
     figure.draw_without_rendering()

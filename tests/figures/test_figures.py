@@ -23,7 +23,8 @@ def data() -> xarray.Dataset:
 
 
 def labels(figure: Any) -> set[str]:
-    return {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
+    every = [part for axes in figure.axes for part in (axes, *axes.child_axes)]  # colour bars are inside
+    return {text for axes in every for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
 
 
 def images(figure: Any) -> list[np.ndarray]:

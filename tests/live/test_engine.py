@@ -15,8 +15,8 @@ from deodar.errors import ModelError, ParameterError, TimeError
 from deodar.live.engine import Engine, Injection
 from deodar.live.trace import CAPACITY, Trace, TraceRequest
 from deodar.model import edit
+from deodar.model.unit import unit_seconds
 from deodar.session.pace import Pace
-from deodar.session.unit import unit_seconds
 
 X = dd.Axis("x", 0, 100, samples=101)
 WAIT = 600.0

@@ -8,16 +8,14 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from deodar import codec
-from deodar.cli import _options
-from deodar.errors import FigureError, RecordError, did_you_mean
+from deodar.cli import _figure, _options
+from deodar.errors import FigureError, RecordError
 
 if TYPE_CHECKING:
-    import xarray
-
-    from deodar.figures._file import FigureFile, FigurePanel
+    from deodar.figures._file import FigureFile
 
 HELP = "draw the variables of a record, or the file of a figure, as SVG, PDF or PNG"
 EPILOG = """\
@@ -26,38 +24,12 @@ space_time (one dimension over time), snapshot (one time), snapshots (several), 
 dimensions and more). Several variables become panels of one figure. The file of a figure (.toml) has the
 panels, ranges, labels and sizes of a figure for a paper; --save-as writes one to start from."""
 
-WORDS = (
-    "kind",
-    "at",
-    "trial",
-    "where",
-    "axes",
-    "reduce",
-    "place",
-    "time_range",
-    "value_range",
-    "gif",
-    "save_as",
-)
-"""Options that the file of a figure replaces."""
-
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument(
-        "record",
-        type=Path,
-        metavar="RECORD",
-        help="a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml)",
-    )
-    parser.add_argument(
-        "variables",
-        nargs="*",
-        metavar="VARIABLE",
-        help=("paths of variables, for example u.activation (default: all); after a .toml file: the record"),
-    )
-    add_view(parser)
+    _figure.add_record(parser)
+    _figure.add_view(parser)
     parser.add_argument(
         "--gif",
         type=Path,
@@ -94,56 +66,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     _options.wrong(parser)
 
 
-def add_view(parser: argparse.ArgumentParser) -> None:
-    """Add the options that select a part of the variables."""
-    parser.add_argument(
-        "--kind",
-        metavar="K",
-        help="time_course, space_time, snapshot, snapshots, projection, path, or one of a package",
-    )
-    parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
-    parser.add_argument(
-        "--trial",
-        type=_options.whole,
-        metavar="N",
-        help="trial to draw (default: all as lines; the first as a map)",
-    )
-    parser.add_argument(
-        "--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw"
-    )
-    parser.add_argument(
-        "--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two"
-    )
-    parser.add_argument(
-        "--reduce", choices=("maximum", "integral"), help="how it is projected (default maximum)"
-    )
-    parser.add_argument(
-        "--place",
-        action="append",
-        metavar="X[,Y...]",
-        help="place of a field whose time course is drawn; may be given again",
-    )
-    parser.add_argument(
-        "--time-range",
-        nargs=2,
-        type=float,
-        metavar=("FROM", "TO"),
-        help="times to draw, in the record's unit",
-    )
-    parser.add_argument(
-        "--value-range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="ends of the scale of the values"
-    )
-
-
-class DrawnFigure(NamedTuple):
-    """What a call draws: the figure, its variables, its record, and that record's name."""
-
-    figure: FigureFile
-    names: list[str]
-    record: xarray.Dataset | Path | None
-    stem: str
-
-
 def run(args: argparse.Namespace) -> int:
     """Draw the record, write the file and print its path."""
     if args.follow:
@@ -151,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from deodar.figures import _files
 
-    drawn = _drawn(args)
+    drawn = _figure.drawn(args)
     out = _claimed(args, drawn.stem)
     video = None if args.gif is None else _video(args, drawn)
     made = drawn.figure.draw(drawn.record)
@@ -162,25 +84,6 @@ def run(args: argparse.Namespace) -> int:
     _files.save_figure(made, out, args.force)
     _say(args, drawn, out)
     return 0
-
-
-def _drawn(args: argparse.Namespace) -> DrawnFigure:
-    """Return what the arguments select."""
-    # start-up time: these bring JAX
-    from deodar.figures._file import FigureFile
-    from deodar.recording import files
-
-    if args.record.suffix.lower() == ".toml":
-        figure = _from_file(args)
-        record = Path(args.variables[0]) if args.variables else None
-        return DrawnFigure(figure, [panel.variable for panel in figure.panels], record, args.record.stem)
-    data = files.open_record(args.record)
-    names = variables(data, args.variables)
-    kind = "path" if args.gif is not None else args.kind
-    figure = FigureFile(panels(args, data, names, kind), letters="none")
-    place = files.locate(args.record)[0]
-    base = place.parent.resolve().name if place.stem == "record" else place.stem
-    return DrawnFigure(figure, names, data, f"{base}-plot")
 
 
 def _claimed(args: argparse.Namespace, stem: str) -> Path:
@@ -195,7 +98,7 @@ def _claimed(args: argparse.Namespace, stem: str) -> Path:
     return out
 
 
-def _say(args: argparse.Namespace, drawn: DrawnFigure, out: Path) -> None:
+def _say(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> None:
     """Print what was drawn into which files."""
     also = {"gif": args.gif, "figure": args.save_as}
     if args.json:
@@ -221,7 +124,7 @@ def _followed(args: argparse.Namespace) -> int:
         while not args.record.exists():
             time.sleep(args.interval)
         while True:
-            drawn = _drawn(args)
+            drawn = _figure.drawn(args)
             opened = drawn.figure.records(drawn.record)
             complete = all(about(data).get("complete", True) for data in opened)
             sizes = [dict(data.sizes) for data in opened]
@@ -243,46 +146,6 @@ def _followed(args: argparse.Namespace) -> int:
     return 0
 
 
-def panels(
-    args: argparse.Namespace, data: xarray.Dataset, names: Sequence[str], kind: str | None
-) -> list[FigurePanel]:
-    """Return one panel for each variable, with the part that the options select."""
-    # start-up time
-    from deodar.figures._file import FigurePanel
-
-    where = {path: _number(args, value) for path, value in args.where or ()}
-    spots = [[_number(args, n) for n in place.split(",")] for place in args.place or ()]
-    return [
-        FigurePanel(
-            name,
-            kind,
-            at=args.at,
-            trial=args.trial if "trial" in data[name].dims or len(names) == 1 else None,
-            where=where or None,
-            axes=args.axes,
-            places=spots or None,
-            reduce=args.reduce,
-            time_range=args.time_range,
-            value_range=args.value_range,
-        )
-        for name in names
-    ]
-
-
-def _from_file(args: argparse.Namespace) -> FigureFile:
-    """Read the file of a figure; options that it replaces are an error."""
-    # start-up time
-    from deodar.figures._file import FigureFile
-
-    for word in WORDS:
-        if getattr(args, word) is not None:
-            option = f"--{word.replace('_', '-')}"
-            args.wrong(f"{option} selects what is drawn of a record; write it into {args.record}")
-    if len(args.variables) > 1:
-        args.wrong(f"{args.record} names its variables; after it comes at most one record")
-    return FigureFile.read(args.record)
-
-
 def _save_as(args: argparse.Namespace, figure: FigureFile, inches: Sequence[float]) -> None:
     """Write the file of a figure, with the size that was drawn."""
     if args.save_as.suffix.lower() != ".toml":
@@ -293,7 +156,7 @@ def _save_as(args: argparse.Namespace, figure: FigureFile, inches: Sequence[floa
     dc.replace(figure, record=str(args.record), width=width, height=height).save(args.save_as, args.force)
 
 
-def _video(args: argparse.Namespace, drawn: DrawnFigure) -> Callable[[], object]:
+def _video(args: argparse.Namespace, drawn: _figure.DrawnFigure) -> Callable[[], object]:
     """Return the function that writes the video of a path in the arena of its record."""
     # start-up time: these bring JAX
     from deodar.figures import path
@@ -316,28 +179,3 @@ def _video(args: argparse.Namespace, drawn: DrawnFigure) -> Callable[[], object]
     view = drawn.figure.panels[0].view(data)
     stride = max(1, -(-len(view.times) // path.MOST_FRAMES))
     return lambda: path.animate_path(view, args.gif, world, stride=stride, force=args.force)
-
-
-def variables(data: xarray.Dataset, names: list[str]) -> list[str]:
-    """Return the named variables; a path of an element means all of its ports."""
-    known = list(map(str, data.data_vars))
-    if not known:
-        raise RecordError("the record holds no variable")
-    found: list[str] = []
-    for name in names:
-        if name not in known:
-            of = [n for n in known if n.startswith(f"{name}.")]
-            if not of:
-                raise RecordError(f"the record holds no variable {name!r}", fix=did_you_mean(name, known))
-            found += of
-        else:
-            found.append(name)
-    return list(dict.fromkeys(found)) if names else known
-
-
-def _number(args: argparse.Namespace, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        args.wrong(f"{text!r} is not a number")
-        raise

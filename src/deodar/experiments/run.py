@@ -23,13 +23,13 @@ from deodar.experiments.running import RunningTrial
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.model import Model
+from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, Axis
 from deodar.session.clock import Clock
 from deodar.session.failure import not_finite
 from deodar.session.port_reader import PortReader, port_reader
 from deodar.session.run import whole
 from deodar.session.session import Session, require_model
-from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -17,8 +18,11 @@ from deodar.figures import _style
 from deodar.figures._view import View
 
 NEARLY_FLAT = 1e-9
-GAP, WIDE = 0.05, 0.06
+GAP, WIDE = 0.04, 0.05
 """The distance of a colour bar from a map, and its width, as shares of the map's width."""
+
+LONGEST = 18
+"""Characters of a line of the label beside a map that may be low."""
 
 
 def of(arrays: Iterable[Any], view: View, threshold: float | None) -> ScalarMappable:
@@ -66,14 +70,12 @@ def bar(
     """Draw the colour bar beside axes, with a line at the threshold."""
     listed = [axes] if isinstance(axes, Axes) else list(axes)
     last = listed[-1].get_subplotspec()
-    if listed[-1].get_aspect() == "auto" or (
-        last is not None and last.get_gridspec().nrows > 1 < len(listed)
-    ):
-        aspect = 18 if isinstance(axes, Axes) else 22
-        made = place.colorbar(colors, ax=axes, label=label, pad=0.02, aspect=aspect)
+    if last is not None and last.get_gridspec().nrows > 1 and len(listed) > 1:
+        made = place.colorbar(colors, ax=axes, label=label, pad=0.02, aspect=22)
     else:  # as high as the map, which need not fill its place
+        low = listed[-1].get_aspect() != "auto"
         beside = listed[-1].inset_axes((1.0 + GAP, 0.0, WIDE, 1.0), label="<colorbar>")
-        made = place.colorbar(colors, cax=beside, label=label)
+        made = place.colorbar(colors, cax=beside, label=textwrap.fill(label, LONGEST) if low else label)
     made.outline.set_linewidth(0.6)  # pyright: ignore[reportCallIssue]
     low, high = colors.get_clim()
     if threshold is not None and low < threshold < high:

@@ -10,12 +10,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray
 from matplotlib.figure import Figure
 
 from deodar import codec
 from deodar.errors import DeodarError, FigureError, Problem, did_you_mean, show
-from deodar.figures import _journals, _panels, _style
+from deodar.figures import _encode, _journals, _panels, _style, _video
+from deodar.figures._moving import Changing
 from deodar.figures._view import REDUCTIONS, View
 from deodar.model import output
 from deodar.recording import files
@@ -33,6 +35,7 @@ LEGENDS = (
 
 MOST_PANELS = 26
 SMALLEST_TYPE, LARGEST_TYPE = 3.0, 40.0
+SMALLEST_VIDEO, LARGEST_VIDEO = 64, 8192
 SETTINGS = (
     "at",
     "trial",
@@ -136,7 +139,7 @@ class FigureFile:
     column_widths: Sequence[float] | None = None
     row_heights: Sequence[float] | None = None
     letters: str | None = None
-    folder: Path = Path()
+    folder: str | Path = ""
 
     def __post_init__(self) -> None:
         problems = list(_faults(self))
@@ -209,7 +212,7 @@ class FigureFile:
         path = output.claim(path, force)
 
         def moved(record: str | None) -> str | None:
-            return None if record is None else _relative(self.folder / record, path.parent)
+            return None if record is None else _relative(Path(self.folder) / record, path.parent)
 
         panels = [dc.replace(panel, record=moved(panel.record)) for panel in self.panels]
         written = dc.replace(self, panels=panels, record=moved(self.record), folder=path.parent)
@@ -230,6 +233,53 @@ class FigureFile:
         with _style.style(self.font_size, self.font):
             cells = self._cells(record)
             return _panels.draw(cells, self._sized(cells))
+
+    def animate(
+        self,
+        path: str | Path,
+        record: xarray.Dataset | str | Path | None = None,
+        every: float | None = None,
+        speed: float | None = None,
+        width: int = _video.WIDTH,
+        force: bool = False,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Path:
+        """Write a video of the figure.
+
+        Panels over time get a line that moves; snapshots, projections and paths show each time; a panel with
+        `at` does not change. Scales are those of all frames. Records are read frame by frame.
+
+        Args:
+            path: the video: .gif, .mp4 (extra `video`), or a folder of PNG files if the name has no ending.
+            record: the record in place of that of the file.
+            every: time between two frames, in the record's unit. None: each recorded time, or evenly spaced
+                ones if there are more than 600.
+            speed: time of the record by time of the video. None: 25 frames in a second.
+            width: width in pixels.
+            force: whether to replace an existing video.
+            progress: called with the number of frames that are done, and of all frames.
+
+        Raises:
+            FigureError: nothing changes over time, or the speed needs too many frames in a second.
+            MissingExtra: the extra `video` is not installed.
+            OutputExists: the video exists, and `force` is not given.
+        """
+        path = output.location(path)
+        format = _encode.format_of(path)
+        _encode.claim(path, format, force)
+        if not SMALLEST_VIDEO <= width <= LARGEST_VIDEO:
+            raise FigureError(f"the width is {width}; it has {SMALLEST_VIDEO} to {LARGEST_VIDEO} pixels")
+        with _style.style(self.font_size, self.font):
+            cells = self._cells(record)
+            views = [cell.view for cell in cells]
+            shown = _video.times(views, every).tolist()
+            rate = _video.rate(views, np.asarray(shown), speed, format)
+            changing: list[Changing] = []
+            figure = _panels.draw(cells, self._sized(cells), shown, changing)
+            if not changing:
+                raise FigureError("nothing in the figure changes over time")
+            _encode.write(_video.frames(figure, changing, shown, width, progress), path, format, rate, force)
+        return path
 
     def records(self, record: xarray.Dataset | str | Path | None = None) -> list[xarray.Dataset]:
         """Return the records of the panels, opened without reading their values."""
@@ -279,7 +329,7 @@ class FigureFile:
                 fix='Name one: record = "run.zarr" in the file, or deodar plot FILE RECORD',
             )
         if name not in opened:
-            opened[name] = files.open_record(self.folder / name)
+            opened[name] = files.open_record(Path(self.folder) / name)
         return opened[name]
 
     def _letter(self, k: int) -> str:

@@ -17,6 +17,8 @@ MOST_TRIALS = 50
 """Most trials drawn as single lines; the mean is that of all trials."""
 
 MOST_CURVES = 12
+LEVEL = "_threshold"
+"""Label of the line at the threshold, which no legend shows."""
 
 
 def curves(
@@ -71,11 +73,26 @@ def curves(
         ax.legend(loc="best", frameon=True, framealpha=0.8, edgecolor="none")
 
 
+def rows(v: xarray.DataArray, across: str) -> list[np.ndarray]:
+    """Return the values of the lines that `curves` draws, in their order."""
+    others = [str(d) for d in v.dims if d not in (TRIAL, across)]
+    ordered = values(v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across))
+    x = np.arange(v.sizes[across])
+    many = TRIAL in v.dims and v.sizes[TRIAL] > 1
+    _, flat, mean = _course.reduced(lambda part: ordered[..., part], x, v.nbytes / len(x), many)
+    out: list[np.ndarray] = []
+    for point in np.ndindex(*(v.sizes[d] for d in others)):
+        lines = flat[point].reshape(-1, flat.shape[-1])
+        out += list(lines[:MOST_TRIALS]) if mean is not None else [lines[0]]
+        out += [] if mean is None else [mean[point].reshape(-1)]
+    return out
+
+
 def level(ax: Axes, view: View, across: bool = True) -> None:
     """Draw a line at the threshold, if the variable has one and its values come near it."""
     if view.threshold is not None:
         draw = ax.axhline if across else ax.axvline
-        draw(view.threshold, **_style.THRESHOLD_LINE)
+        draw(view.threshold, label=LEVEL, **_style.THRESHOLD_LINE)
 
 
 def limits(ax: Axes, view: View) -> None:

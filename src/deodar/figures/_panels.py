@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import importlib
 import pkgutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
@@ -16,7 +16,8 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 
 from deodar.extensions import Extensions
-from deodar.figures import _style
+from deodar.figures import _moving, _style
+from deodar.figures._moving import Changing
 from deodar.figures._view import View
 from deodar.plugins import Plugin
 
@@ -133,10 +134,22 @@ def natural(cells: Sequence[Cell], width: float | None = None) -> Tracks:
     return Tracks([w or min(w for w in widths if w) for w in widths], [h or empty for h in heights])
 
 
-def draw(cells: Sequence[Cell], grid: Tracks) -> Figure:
+def draw(
+    cells: Sequence[Cell],
+    grid: Tracks,
+    times: Sequence[float] | None = None,
+    changing: list[Changing] | None = None,
+) -> Figure:
     """Draw the panels of a figure, with the present style of type.
 
     Panels one above the other share their time axis if it is horizontal and shows the same time.
+
+    Args:
+        cells: the panels.
+        grid: the sizes of rows and columns.
+        times: the times of a video, whose panels are drawn as at the first one. None: a figure.
+        changing: receives what changes over these times in each panel, and None for a panel that a package
+            draws again.
     """
     figure = _style.figure(sum(grid.widths), sum(grid.heights))
     spec = figure.add_gridspec(
@@ -145,7 +158,7 @@ def draw(cells: Sequence[Cell], grid: Tracks) -> Figure:
     drawn: dict[int, Axes] = {}
     for cell in cells:
         where = spec[slice(*cell.rows), slice(*cell.columns)]
-        if len(cells) == 1:
+        if len(cells) == 1 and times is None:
             place: FigureBase | Axes = figure
             cell.kind.fill(figure, cell.view)
         elif hasattr(cell.kind, "paint"):
@@ -153,7 +166,7 @@ def draw(cells: Sequence[Cell], grid: Tracks) -> Figure:
             upper = drawn.get(id(above))
             low, high = (cell.view.times[0], cell.view.times[-1]) if upper is None else _limits(upper)
             place = drawn[id(cell)] = figure.add_subplot(where, sharex=upper)
-            cell.kind.paint(place, cell.view)
+            _begin(place, cell, cell.kind.paint, times, changing)
             place.set_anchor("N")
             if upper is not None:
                 upper.set_xlabel("")
@@ -162,12 +175,38 @@ def draw(cells: Sequence[Cell], grid: Tracks) -> Figure:
         else:
             own = cell.kind.__name__.startswith(f"{__package__}.")
             place = cast(FigureBase, GridPart(where)) if own else figure.add_subfigure(where)
-            cell.kind.fill(place, cell.view)
+            _begin(place, cell, cell.kind.fill, times, changing)
         _finish(place, cell)
     for first in {cell.columns[0] for cell in cells}:
         figure.align_ylabels([drawn[id(c)] for c in cells if c.columns[0] == first and id(c) in drawn])
     _fix_type(figure)
     return figure
+
+
+def _begin(
+    place: FigureBase | Axes,
+    cell: Cell,
+    draw: Callable[[Any, View], None],
+    times: Sequence[float] | None,
+    changing: list[Changing] | None,
+) -> None:
+    """Draw one panel; of a video, as at the first of its times."""
+    view = cell.view
+    if times is None or changing is None or view.time not in view.variable.dims or view.at is not None:
+        draw(place, view)
+    elif cell.kind.ACROSS and isinstance(place, Axes):
+        draw(place, view)
+        changing.append(_moving.cursor(place, view))
+    elif hasattr(cell.kind, "moving"):
+        found = cell.kind.moving(place, view, times)
+        if found is None:
+            draw(place, view)
+        else:
+            changing.append(found)
+    elif cell.kind.__name__.startswith(f"{__package__}."):
+        draw(place, view)
+    else:
+        changing.append(_moving.redrawn(place, view, draw, times[0]))
 
 
 class GridPart:
@@ -286,7 +325,7 @@ def _finish(place: FigureBase | Axes, cell: Cell) -> None:
 def _fix_type(figure: Figure) -> None:
     """Keep the present size and font of ticks, which matplotlib makes when it writes the figure."""
     family = matplotlib.rcParams["font.family"]
-    for ax in figure.axes:
+    for ax in [part for outer in figure.axes for part in (outer, *outer.child_axes)]:
         ax.tick_params(labelsize=matplotlib.rcParams["xtick.labelsize"])
         if family != ["sans-serif"]:
             ax.tick_params(labelfontfamily=family)

@@ -212,6 +212,12 @@ class View:
             return [int(k) % len(self.times) for k in default]
         return [int(np.abs(self.times - t).argmin()) for t in self.at]
 
+    def nearest(self, time: float) -> int:
+        """Return the number of the record nearest to a time."""
+        times = self.times
+        k = int(np.clip(np.searchsorted(times, time), 1, max(1, len(times) - 1)))
+        return min(k, len(times) - 1) if len(times) < 2 or time - times[k - 1] > times[k] - time else k - 1
+
     def instant(self) -> int:
         """Return the index of the selected time, by default the last."""
         if self.at is not None and len(self.at) != 1:

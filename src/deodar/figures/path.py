@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,16 +10,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _draw, _style, maze
+from deodar.figures._moving import Changing, frames
 from deodar.figures._view import View, values
 from deodar.model import output
-from deodar.session.unit import unit_seconds
+from deodar.model.unit import unit_seconds
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.view import FLOOR
@@ -62,25 +66,64 @@ def fill(place: FigureBase, view: View) -> None:
 
 def paint(ax: Axes, view: View) -> None:
     """Draw into axes."""
-    arena = view.world
+    _paths(ax, view)
+
+
+def moving(ax: Axes, view: View, times: Sequence[float]) -> Changing:
+    """Draw into axes, and return what changes from one of the times to the next: the paths grow."""
+    drawn = _paths(ax, view)
+    title = ax.set_title(view.time_label(times[0]))
+
+    def show(time: float) -> None:
+        k = view.nearest(time)
+        for path in drawn:
+            path.show(k)
+        title.set_text(view.time_label(view.times[k]))
+
+    return Changing([*(artist for path in drawn for artist in path.artists()), *frames([ax]), title], show)
+
+
+@dc.dataclass(frozen=True)
+class DrawnPath:
+    """The lines of one path, and the vehicle at its end (none without an arena)."""
+
+    points: np.ndarray
+    line: Line2D
+    vehicle: Circle | None
+    heading: Line2D | None
+
+    def artists(self) -> list[Artist]:
+        """Return what moves."""
+        return [a for a in (self.line, self.vehicle, self.heading) if a is not None]
+
+    def show(self, k: int) -> None:
+        """Show the path up to a record."""
+        self.line.set_data(*self.points[: k + 1, :2].T)
+        x, y = self.points[k, :2]
+        if self.vehicle is not None:
+            self.vehicle.set_center((x, y))
+            if self.heading is not None:
+                angle, radius = self.points[k, 2], self.vehicle.get_radius()
+                self.heading.set_data([x, x + radius * math.cos(angle)], [y, y + radius * math.sin(angle)])
+
+
+def _paths(ax: Axes, view: View) -> list[DrawnPath]:
+    arena, drawn = view.world, list[DrawnPath]()
     if arena is not None:
         _ground(ax, _arena(arena))
-    for k, line in enumerate(_lines(view)):
+    for k, points in enumerate(_lines(view)):
         colour = _style.COLORS[k % len(_style.COLORS)]
-        ax.plot(line[:, 0], line[:, 1], color=colour, linewidth=_style.THICK)
-        ax.plot(*line[0, :2], "o", color=_style.COLOR.start, markersize=_style.DOT)
-        x, y = line[-1, :2]
+        (line,) = ax.plot(points[:, 0], points[:, 1], color=colour, linewidth=_style.THICK)
+        ax.plot(*points[0, :2], "o", color=_style.COLOR.start, markersize=_style.DOT)
+        vehicle = heading = None
         if arena is not None:
-            here = _arena(arena)
-            radius = here.vehicle.radius / here.scale
-            ax.add_patch(Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=_style.MEDIUM))
-            if line.shape[1] > 2:
-                ax.plot(
-                    [x, x + radius * math.cos(line[-1, 2])],
-                    [y, y + radius * math.sin(line[-1, 2])],
-                    color=colour,
-                    linewidth=_style.MEDIUM,
-                )
+            radius = _arena(arena).vehicle.radius / _arena(arena).scale
+            vehicle = Circle((0, 0), radius, fill=False, edgecolor=colour, linewidth=_style.MEDIUM)
+            ax.add_patch(vehicle)
+            if points.shape[1] > 2:
+                (heading,) = ax.plot([], [], color=colour, linewidth=_style.MEDIUM)
+        drawn.append(DrawnPath(points, line, vehicle, heading))
+        drawn[-1].show(len(points) - 1)
     ax.set_aspect("equal")
     unit = f" ({arena.unit})" if isinstance(arena, Arena) else ""
     labels = view.labels or {}
@@ -88,6 +131,7 @@ def paint(ax: Axes, view: View) -> None:
     ax.set_ylabel(labels.get("y", f"y{unit}"))
     if arena is None:
         ax.margins(0.05)
+    return drawn
 
 
 @renamed.arguments("dd.animate_path")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import itertools
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
 
 import matplotlib
 import numpy as np
@@ -14,6 +16,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
+from deodar.figures._moving import Changing, frames, limits, texts
 from deodar.figures._view import View, values
 
 ACROSS = False
@@ -54,19 +57,58 @@ def fill(place: FigureBase, view: View) -> None:
     planes = [_project(shown, onto, view) for onto in pairs]
     rows, columns = _grid(len(pairs))
     grid = list(place.subplots(rows, columns, squeeze=False).flat)
-    threshold = view.threshold if view.reduce == "maximum" else None
+    threshold = _threshold(view)
     colors = _color.of(planes, view, threshold)
     for ax, onto, plane in zip(grid, pairs, planes, strict=False):
         _panel(ax, view, onto, plane, colors, threshold)
-    shown = ", ".join(
-        t for t in (view.time_label(view.times[k]) if len(view.times) > 1 else "", view.note()) if t
-    )
+    title = _title(view, k)
     if len(pairs[0]) == 2:
         _color.bar(place, colors, grid if len(grid) > 1 else grid[0], _label(view, pairs), threshold)
-    if shown and len(grid) == 1:
-        grid[0].set_title(shown)
-    elif shown:
-        place.suptitle(shown, fontsize=matplotlib.rcParams["axes.titlesize"])
+    if title and len(grid) == 1:
+        grid[0].set_title(title)
+    elif title:
+        place.suptitle(title, fontsize=matplotlib.rcParams["axes.titlesize"])
+
+
+def moving(place: FigureBase, view: View, times: Sequence[float]) -> Changing | None:
+    """Draw into a figure, and return what changes from one of the times to the next."""
+    if view.time not in view.variable.dims:
+        return None
+
+    def planes(k: int) -> list[np.ndarray]:
+        shown = view.one()[k]
+        shown = shown.copy(data=values(shown))
+        return [_project(shown, onto, view) for onto in _onto(view)]
+
+    found = (plane for t in times for plane in planes(view.nearest(t)))
+    low, high = limits(found, view, _threshold(view), 0.05 * (len(_onto(view)[0]) == 1))
+    first = view.times[view.nearest(times[0])]
+    fill(place, dc.replace(view, at=[first], value_range=(low, high)))
+    axes = [ax for ax in cast(Any, place).axes if ax.get_label() != "<colorbar>"]
+    written = texts(axes, place, _title(view, view.nearest(times[0])))
+
+    def show(time: float) -> None:
+        k = view.nearest(time)
+        for ax, plane in zip(axes, planes(k), strict=False):
+            if plane.ndim == 2:
+                ax.get_images()[0].set_data(plane.T)
+            else:
+                ax.get_lines()[0].set_ydata(plane)
+        for text in written:
+            text.set_text(_title(view, k))
+
+    inside = [artist for ax in axes for artist in (*ax.get_images(), *ax.get_lines())]
+    return Changing([*inside, *frames(axes), *written], show)
+
+
+def _threshold(view: View) -> float | None:
+    return view.threshold if view.reduce == "maximum" else None
+
+
+def _title(view: View, k: int) -> str:
+    """Return the time and the note of a projection."""
+    time = view.time_label(view.times[k]) if len(view.times) > 1 else ""
+    return ", ".join(t for t in (time, view.note()) if t)
 
 
 def _panel(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +14,7 @@ from matplotlib.figure import Figure, FigureBase
 from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
+from deodar.figures._moving import Changing, frames, limits, texts
 from deodar.figures._view import TRIAL, View, values
 
 ACROSS = False
@@ -68,6 +71,35 @@ def paint(ax: Axes, view: View) -> None:
         _values(ax, view, k)
     if len(view.times) > 1:
         _title(ax, view.time_label(view.times[k]))
+
+
+def moving(ax: Axes, view: View, times: Sequence[float]) -> Changing | None:
+    """Draw into axes, and return what changes from one of the times to the next; None for values of nodes."""
+    if not view.space or view.time not in view.variable.dims:
+        return None
+    across = view.space[0]
+
+    def part(k: int) -> xarray.DataArray:
+        return view.one()[k] if len(view.space) == 2 else view.chosen().isel({view.time: k})
+
+    low, high = limits(
+        (values(part(view.nearest(t))) for t in times), view, view.threshold, 0.05 * (len(view.space) == 1)
+    )
+    paint(ax, dc.replace(view, at=[view.times[view.nearest(times[0])]], value_range=(low, high)))
+    titles, note = texts([ax], ax, ax.get_title()), view.note() if len(view.space) == 2 else ""
+
+    def show(time: float) -> None:
+        k = view.nearest(time)
+        if len(view.space) == 2:
+            ax.get_images()[0].set_data(values(part(k)).T)
+        else:
+            for line, row in zip(lines, _lines.rows(part(k), across), strict=True):
+                line.set_ydata(row)
+        for title in titles:
+            title.set_text(", ".join(t for t in (note, view.time_label(view.times[k])) if t))
+
+    lines = [line for line in ax.get_lines() if line.get_label() != _lines.LEVEL]
+    return Changing([*ax.get_images(), *lines, *frames([ax]), *titles], show)
 
 
 def _plane(ax: Axes, view: View, k: int) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import stat
 import warnings
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,15 +19,12 @@ import xarray
 from deodar import codec, renamed
 from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
 from deodar.model import output
-from deodar.recording import growing, places, portable, sound, table
+from deodar.recording import growing, netcdf, places, portable, sound, table
 from deodar.recording.provenance import KEY
 from deodar.recording.record import time_dimension
 
 SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
 """Formats and their file name endings."""
-
-LARGEST_NETCDF = 2**32 - 8
-"""Largest number of bytes of one array in NetCDF 3."""
 
 SHARE = 0.8
 """Share of the free memory that a record may fill when it is read."""
@@ -243,15 +240,21 @@ def _frame_chunks(stored: xarray.Dataset) -> dict[Any, tuple[int, ...]]:
 
 def _write_netcdf(data: xarray.Dataset, path: Path) -> None:
     for name, variable in data.variables.items():
-        if variable.nbytes > LARGEST_NETCDF:
+        if variable.nbytes > netcdf.LARGEST:
             raise RecordError(
                 f"needs {variable.nbytes / 2**30:.1f} GiB; NetCDF 3 holds 4",
                 where=str(name),
                 fix="Save it as .zarr",
             )
     stored = portable.pack(data, narrow=True)
-    encoding: dict[Any, Any] = {name: {"_FillValue": None} for name in stored.variables}
-    stored.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT", encoding=encoding)
+    names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
+
+    def reader(new: str) -> netcdf.ReadSlab:
+        old = data.variables[names.get(new, new)]
+        whole = old if portable.large(old) else stored.variables[new]
+        return lambda slab: whole[slab].values
+
+    netcdf.write(stored, {str(name): reader(str(name)) for name in stored.variables}, path)
 
 
 def _opened(path: Path, kind: str) -> xarray.Dataset:

@@ -18,6 +18,7 @@ import xarray
 
 from deodar import codec
 from deodar.errors import RecordError
+from deodar.recording.slabs import slabs
 
 KEY = "deodar_layout"
 """Name of the attribute that lists the changes."""
@@ -47,11 +48,18 @@ RESERVED = frozenset(
 
 EXACT_INTEGERS = 2**53
 
+LARGE = 2**24
+"""Number of bytes from which on an array is read in blocks."""
+
+BLOCK = 2**22
+"""Number of values of a block."""
+
 
 def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
     """Return a Dataset that a file can store.
 
-    With `narrow`, of 8, 16 and 32 bit integers and floats only, as in NetCDF 3.
+    With `narrow`, of 8, 16 and 32 bit integers and floats only, as in NetCDF 3; the values of large arrays of
+    floats are then left out (`large`): they are zeros, without memory.
     """
     names = _names([*data.variables, *data.dims])
     kept: dict[str, Any] = {
@@ -64,7 +72,11 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
         kept["empty"] = empty
     variables: dict[str, Any] = {}
     for name, variable in data.variables.items():
-        array, about = _stored(str(name), np.asarray(variable.values), narrow)
+        if narrow and not empty and large(variable):
+            zero = np.zeros((), variable.dtype)
+            array, about = np.broadcast_to(zero, variable.shape), _described(variable)
+        else:
+            array, about = _stored(str(name), np.asarray(variable.values), narrow)
         attributes = _plain(variable.attrs)
         kept["variables"][names[name]] = about | {"attributes": attributes}
         if empty:
@@ -79,6 +91,11 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
     kept["coords"] = [names[n] for n in data.coords]
     coords = {names[n]: variables.pop(names[n]) for n in data.coords}
     return xarray.Dataset(variables, coords, shown | {KEY: codec.line(kept, ascii=True)})
+
+
+def large(variable: xarray.Variable) -> bool:
+    """Return whether an array is read in blocks: a large one of floats, which files store as they are."""
+    return variable.dtype in (np.dtype("f4"), np.dtype("f8")) and variable.nbytes > LARGE
 
 
 def unpack(stored: xarray.Dataset) -> xarray.Dataset:
@@ -134,7 +151,7 @@ def unpack_lazily(stored: xarray.Dataset) -> xarray.Dataset:
         about = kept["variables"][name]
         values = _restored(names.get(name, name), np.asarray(stored[name].values), about)
         stored = stored.assign({name: (stored[name].dims, values)})
-    stored = stored.set_coords([c for c in stored.variables if names.get(str(c), str(c)) in kept["coords"]])
+    stored = stored.set_coords(kept["coords"])
     changed = {new: old for new, old in names.items() if new in stored.variables or new in stored.dims}
     data = stored.rename(changed)
     for name, about in kept["variables"].items():
@@ -229,6 +246,14 @@ def _restored(name: str, array: np.ndarray, about: Mapping[str, Any]) -> np.ndar
 def _digest(array: np.ndarray) -> str:
     little = np.ascontiguousarray(array.astype(array.dtype.newbyteorder("<"), copy=False))
     return hashlib.sha256(str(array.shape).encode() + little.tobytes()).hexdigest()
+
+
+def _described(variable: xarray.Variable) -> dict[str, Any]:
+    """Return type and hash of an array that is read in blocks; the hash is that of `_digest`."""
+    little, found = variable.dtype.newbyteorder("<"), hashlib.sha256(str(variable.shape).encode())
+    for slab in slabs(variable.shape, BLOCK):
+        found.update(np.ascontiguousarray(variable[slab].values).astype(little, copy=False).tobytes())
+    return {"type": str(variable.dtype), "sha256": found.hexdigest()}
 
 
 def _names(names: list[Hashable]) -> dict[Hashable, str]:

@@ -17,6 +17,7 @@ import numpy as np
 import xarray
 
 from deodar import codec
+from deodar.recording.slabs import slabs
 
 ROWS = 100_000
 """Number of rows that are made at a time, so that memory does not grow with the record."""
@@ -35,16 +36,15 @@ def write(data: xarray.Dataset, path: Path) -> None:
         writer.writerow(columns)
         for block, names in blocks.items():
             shape = tuple(data.sizes[d] for d in block)
-            arrays = {name: np.ascontiguousarray(data[name].values).reshape(-1) for name in names}
-            size = int(np.prod(shape, dtype=np.int64))
-            for start in range(0, size, ROWS):
-                rows = slice(start, min(start + ROWS, size))
-                index = np.unravel_index(np.arange(rows.start, rows.stop), shape) if shape else ()
-                cells: list[Any] = [[""] * (rows.stop - rows.start)] * len(columns)
-                for dim, i in zip(block, index, strict=True):
-                    cells[place[dim]] = _text(data[dim].values[i] if dim in data.coords else i)
-                for name, array in arrays.items():
-                    cells[place[name]] = _text(array[rows])
+            points = [data[d].values if d in data.coords else np.arange(data.sizes[d]) for d in block]
+            for slab in slabs(shape, ROWS):
+                index = np.indices([part.stop - part.start for part in slab]).reshape(len(shape), -1)
+                rows = index.shape[1] if shape else 1
+                cells: list[Any] = [[""] * rows] * len(columns)
+                for dim, values, i, part in zip(block, points, index, slab, strict=True):
+                    cells[place[dim]] = _text(values[part.start + i])
+                for name in names:
+                    cells[place[name]] = _text(np.ravel(data[name][slab].values))
                 writer.writerows(zip(*cells, strict=True))
 
 

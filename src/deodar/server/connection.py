@@ -20,6 +20,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from deodar import codec
 from deodar.errors import DeodarError
 from deodar.live.published import PublishedState
+from deodar.model.unit import unit_seconds
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
 from deodar.server.message import Message, union
@@ -41,7 +42,6 @@ from deodar.server.to_page import (
 )
 from deodar.server.to_server import MESSAGES, Drawn
 from deodar.session.port_reader import PortKey
-from deodar.session.unit import unit_seconds
 
 MOST_ANSWERS = 64
 """Largest number of queued answers; the connection reads no requests from a page that has more."""

@@ -14,10 +14,10 @@ from typing import Protocol
 from deodar.compiler.executable import Executable
 from deodar.errors import DeodarError, TimeError
 from deodar.model.document import Document
+from deodar.model.unit import unit_seconds
 from deodar.parameters import real, show
 from deodar.session.meter import Meter
 from deodar.session.run import require_step, whole
-from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
 EXCHANGE = 0.01

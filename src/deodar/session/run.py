@@ -23,12 +23,12 @@ from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
 from deodar.model.limits import too_long
 from deodar.model.resolve import Node
+from deodar.model.unit import unit_seconds
 from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
 from deodar.session.clock import Clock
 from deodar.session.exchange import Exchange, ExchangeInstant
 from deodar.session.failure import CopyIndex, RowSpans, first_steps, not_finite
-from deodar.session.unit import unit_seconds
 from deodar.worlds._base import World
 
 CHUNK_SECONDS = 0.2

@@ -1,0 +1,197 @@
+"""What `deodar plot` and `deodar export` draw: a record with options, or the file of a figure."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from deodar.cli import _options
+from deodar.errors import RecordError, did_you_mean
+
+if TYPE_CHECKING:
+    import xarray
+
+    from deodar.figures._file import FigureFile, FigurePanel
+
+WORDS = (
+    "kind",
+    "at",
+    "trial",
+    "where",
+    "axes",
+    "reduce",
+    "place",
+    "time_range",
+    "value_range",
+    "gif",
+    "save_as",
+)
+"""Options that the file of a figure replaces."""
+
+
+class DrawnFigure(NamedTuple):
+    """What a call draws: the figure, its variables, its record, and that record's name."""
+
+    figure: FigureFile
+    names: list[str]
+    record: xarray.Dataset | Path | None
+    stem: str
+
+
+def add_record(parser: argparse.ArgumentParser) -> None:
+    """Add the record and its variables."""
+    parser.add_argument(
+        "record",
+        type=Path,
+        metavar="RECORD",
+        help="a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml)",
+    )
+    parser.add_argument(
+        "variables",
+        nargs="*",
+        metavar="VARIABLE",
+        help="paths of variables, for example u.activation (default: all); after a .toml file: the record",
+    )
+
+
+def add_view(parser: argparse.ArgumentParser) -> None:
+    """Add the options that select a part of the variables."""
+    parser.add_argument(
+        "--kind",
+        metavar="K",
+        help="time_course, space_time, snapshot, snapshots, projection, path, or one of a package",
+    )
+    parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
+    parser.add_argument(
+        "--trial",
+        type=_options.whole,
+        metavar="N",
+        help="trial to draw (default: all as lines; the first as a map)",
+    )
+    parser.add_argument(
+        "--where", type=_options.pair, action="append", metavar="PATH=VALUE", help="point of a sweep to draw"
+    )
+    parser.add_argument(
+        "--axes", nargs="+", metavar="AXIS", help="axes onto which a field is projected, one or two"
+    )
+    parser.add_argument(
+        "--reduce", choices=("maximum", "integral"), help="how it is projected (default maximum)"
+    )
+    parser.add_argument(
+        "--place",
+        action="append",
+        metavar="X[,Y...]",
+        help="place of a field whose time course is drawn; may be given again",
+    )
+    parser.add_argument(
+        "--time-range",
+        nargs=2,
+        type=float,
+        metavar=("FROM", "TO"),
+        help="times to draw, in the record's unit",
+    )
+    parser.add_argument(
+        "--value-range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="ends of the scale of the values"
+    )
+
+
+def drawn(args: argparse.Namespace) -> DrawnFigure:
+    """Return what the arguments select."""
+    # start-up time: these bring JAX
+    from deodar.figures._file import FigureFile
+    from deodar.recording import files
+
+    if args.record.suffix.lower() == ".toml":
+        figure = _from_file(args)
+        record = Path(args.variables[0]) if args.variables else None
+        return DrawnFigure(figure, [panel.variable for panel in figure.panels], record, args.record.stem)
+    data = files.open_record(args.record)
+    names = variables(data, args.variables)
+    kind = "path" if getattr(args, "gif", None) is not None else args.kind
+    figure = FigureFile(panels(args, data, names, kind), letters="none")
+    return DrawnFigure(figure, names, data, f"{stem(args.record)}-plot")
+
+
+def stem(record: Path) -> str:
+    """Return the name of a record, or of the folder of its run."""
+    # start-up time: this brings JAX
+    from deodar.recording import files
+
+    place = files.locate(record)[0]
+    return place.parent.resolve().name if place.stem == "record" else place.stem
+
+
+def panels(
+    args: argparse.Namespace, data: xarray.Dataset, names: Sequence[str], kind: str | None
+) -> list[FigurePanel]:
+    """Return one panel for each variable, with the part that the options select."""
+    # start-up time
+    from deodar.figures._file import FigurePanel
+
+    where = {path: _number(args, value) for path, value in args.where or ()}
+    spots = [[_number(args, n) for n in place.split(",")] for place in args.place or ()]
+    return [
+        FigurePanel(
+            name,
+            kind,
+            at=args.at,
+            trial=args.trial if "trial" in data[name].dims or len(names) == 1 else None,
+            where=where or None,
+            axes=args.axes,
+            places=spots or None,
+            reduce=args.reduce,
+            time_range=args.time_range,
+            value_range=args.value_range,
+        )
+        for name in names
+    ]
+
+
+def _from_file(args: argparse.Namespace) -> FigureFile:
+    """Read the file of a figure; options that it replaces are an error."""
+    # start-up time
+    from deodar.figures._file import FigureFile
+
+    for word in WORDS:
+        if getattr(args, word, None) is not None:
+            option = f"--{word.replace('_', '-')}"
+            args.wrong(f"{option} selects what is drawn of a record; write it into {args.record}")
+    if len(args.variables) > 1:
+        args.wrong(f"{args.record} names its variables; after it comes at most one record")
+    return FigureFile.read(args.record)
+
+
+def selected(args: argparse.Namespace, data: xarray.Dataset, names: Sequence[str]) -> xarray.Dataset:
+    """Return the selected trial, point of a sweep and times of the named variables, without reading them."""
+    # start-up time
+    import xarray
+
+    views = [panel.view(data) for panel in panels(args, data, names, None)]
+    return xarray.Dataset({view.name: view.chosen() for view in views}, attrs=data.attrs)
+
+
+def variables(data: xarray.Dataset, names: list[str]) -> list[str]:
+    """Return the named variables; a path of an element means all of its ports."""
+    known = list(map(str, data.data_vars))
+    if not known:
+        raise RecordError("the record holds no variable")
+    found: list[str] = []
+    for name in names:
+        if name not in known:
+            of = [n for n in known if n.startswith(f"{name}.")]
+            if not of:
+                raise RecordError(f"the record holds no variable {name!r}", fix=did_you_mean(name, known))
+            found += of
+        else:
+            found.append(name)
+    return list(dict.fromkeys(found)) if names else known
+
+
+def _number(args: argparse.Namespace, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        args.wrong(f"{text!r} is not a number")
+        raise

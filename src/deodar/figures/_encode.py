@@ -1,0 +1,203 @@
+"""Frames as a video: GIF, MP4, or a folder of numbered PNG files; one frame is in memory at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import struct
+import subprocess
+import tempfile
+from collections.abc import Generator, Iterable
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from PIL import GifImagePlugin, Image
+
+from deodar.errors import MissingExtra, OutputError, RecordError
+from deodar.model import output
+from deodar.recording import places
+
+FORMATS = {"png": "", "gif": ".gif", "mp4": ".mp4"}
+"""Formats of videos and the endings of their names; PNG files are in a folder."""
+
+FASTEST = {"png": float("inf"), "gif": 50.0, "mp4": 60.0}
+"""Most frames in a second: a GIF counts hundredths of a second, of which programs want two."""
+
+CLEAR = 255
+"""The clear colour of a GIF, and the number of its other colours."""
+LOOP = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
+
+
+def claim(path: Path, format: str, force: bool = False) -> None:
+    """Refuse a path that may not be written, and a format whose program is missing.
+
+    Raises:
+        OutputExists: the path exists, and `force` is not given.
+        OutputError: it cannot be written.
+        MissingExtra: an MP4 needs ffmpeg, which is not installed.
+    """
+    if format == "png":
+        if force and path.is_dir() and any(p.suffix != ".png" for p in path.iterdir()):
+            raise OutputError(
+                "is a folder with other files than PNG", where=str(path), fix="Choose another name"
+            )
+        places.claim_folder(path, force)
+    else:
+        output.claim(path, force)
+    if format == "mp4":
+        ffmpeg()
+
+
+def write(frames: Iterable[np.ndarray], path: Path, format: str, rate: float, force: bool = False) -> None:
+    """Write a video.
+
+    Args:
+        frames: arrays (rows, columns, 3) of bytes, all of one size.
+        path: the file, or the folder; `claim` has checked it.
+        format: png, gif or mp4.
+        rate: frames in a second.
+        force: whether to replace an existing file or folder.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    if format == "png":
+        places.write_folder(path, lambda folder: _png(frames, folder), force)
+    elif format == "gif":
+        output.write(path, lambda beside: _gif(frames, beside, rate))
+    else:
+        output.write(path, lambda beside: _mp4(frames, beside, rate))
+
+
+def ffmpeg() -> str:
+    """Return the path of the program ffmpeg: that of imageio-ffmpeg, or an installed one.
+
+    Raises:
+        MissingExtra: neither is installed.
+    """
+    try:
+        # an extra
+        import imageio_ffmpeg
+
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except (ImportError, RuntimeError):
+        found = shutil.which("ffmpeg")
+        if found is None:
+            raise MissingExtra("imageio-ffmpeg", "video", "a video in MP4") from None
+        return found
+
+
+def _png(frames: Iterable[np.ndarray], folder: Path) -> None:
+    for n, frame in enumerate(frames, 1):
+        Image.fromarray(frame).save(folder / f"frame-{n:05}.png")
+
+
+def _gif(frames: Iterable[np.ndarray], path: Path, rate: float) -> None:
+    """Write a GIF frame by frame: each has the pixels that differ from the one before, and their colours.
+
+    Pillow would keep all frames in memory. A frame without a change lengthens the one before.
+    """
+    with path.open("wb") as file:
+        last: np.ndarray | None = None
+        waiting: tuple[Image.Image, tuple[int, int]] | None = None
+        shown, clock = 0, 0.0
+        for frame in frames:
+            if last is None:
+                rows, columns = frame.shape[:2]
+                file.write(b"GIF89a" + struct.pack("<HHBBB", columns, rows, 0x70, 0, 0) + LOOP)
+                changed = np.ones((rows, columns), bool)
+            else:
+                changed = (frame != last).any(2)
+            if changed.any():
+                if waiting is not None:
+                    shown += _gif_frame(file, *waiting, round(clock) - shown)
+                waiting, last = _indexed(frame, changed), frame
+            clock += 100.0 / rate
+        if waiting is not None:
+            _gif_frame(file, *waiting, round(clock) - shown)
+        file.write(b";")
+
+
+def _indexed(frame: np.ndarray, changed: np.ndarray) -> tuple[Image.Image, tuple[int, int]]:
+    """Return the rectangle of the changed pixels with a palette, other pixels being clear, and its corner."""
+    rows, columns = (np.flatnonzero(changed.any(axis)) for axis in (1, 0))
+    box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    pixels = Image.fromarray(frame[box][changed[box]].reshape(1, -1, 3))
+    few = pixels.quantize(CLEAR, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    numbers = np.full(changed[box].shape, CLEAR, np.uint8)
+    numbers[changed[box]] = np.asarray(few).reshape(-1)
+    image = Image.fromarray(numbers, "P")
+    image.putpalette(few.getpalette() or [])
+    return image, (int(columns[0]), int(rows[0]))
+
+
+def _gif_frame(file: IO[bytes], image: Image.Image, at: tuple[int, int], hundredths: int) -> int:
+    """Write one frame, which stays below the next one; return its duration in hundredths of a second."""
+    delay = max(1, min(hundredths, 65535))
+    file.write(b"\x21\xf9\x04" + struct.pack("<BHBB", 0x05, delay, CLEAR, 0))
+    for part in GifImagePlugin.getdata(image, at, include_color_table=True):
+        file.write(part)
+    return delay
+
+
+def _mp4(frames: Iterable[np.ndarray], path: Path, rate: float) -> None:
+    """Send the frames to ffmpeg; H.264 needs an even number of rows and of columns."""
+    found = iter(frames)
+    first = _even(next(found))
+    height, width = first.shape[:2]
+    command = [ffmpeg(), "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24"]
+    command += ["-s", f"{width}x{height}", "-r", f"{rate:.6f}", "-i", "-", "-an", "-c:v", "libx264"]
+    command += ["-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-fflags", "+bitexact"]
+    command += ["-flags:v", "+bitexact", "-f", "mp4", str(path)]
+    with _process(command, path) as pipe:
+        pipe.write(first.tobytes())
+        for frame in found:
+            pipe.write(_even(frame).tobytes())
+
+
+@contextlib.contextmanager
+def _process(command: list[str], path: Path) -> Generator[IO[bytes]]:
+    """Start a program that reads from a pipe; raise an error with its last words if it fails."""
+    with tempfile.TemporaryFile() as words:
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=words, stderr=words)
+        assert process.stdin is not None
+        try:
+            yield process.stdin
+            process.stdin.close()
+        except BrokenPipeError:
+            with contextlib.suppress(OSError):  # its words say why
+                process.stdin.close()
+        except BaseException:
+            process.kill()
+            process.wait()
+            raise
+        if process.wait() != 0:
+            words.seek(0)
+            said = words.read().decode(errors="replace").strip().splitlines()
+            raise OutputError(
+                f"ffmpeg failed: {said[-1] if said else f'status {process.returncode}'}", where=str(path)
+            )
+
+
+def _even(frame: np.ndarray) -> np.ndarray:
+    rows, columns = frame.shape[0] % 2, frame.shape[1] % 2
+    if rows or columns:
+        frame = np.pad(frame, ((0, rows), (0, columns), (0, 0)), constant_values=255)
+    return np.ascontiguousarray(frame)
+
+
+def format_of(path: Path) -> str:
+    """Return the format of a video from the ending of its name; a name without one is a folder of PNG files.
+
+    Raises:
+        RecordError: the ending names no format of videos.
+    """
+    found = [name for name, ending in FORMATS.items() if path.suffix.lower() == ending]
+    if not found:
+        raise RecordError(
+            f"the name ends in {path.suffix!r}, which names no format of videos",
+            where=str(path),
+            fix="End it in .gif or .mp4; a name without ending is a folder of PNG files",
+        )
+    return found[0]
