@@ -17,7 +17,7 @@ from deodar.experiments.rows import Rows
 from deodar.model import output
 from deodar.recording import files
 from deodar.server.open_folder import OpenFolder
-from tests.recording.models import record
+from tests.recording.models import model, record
 
 SMALL = """
 import resource, sys
@@ -27,7 +27,7 @@ import deodar as dd
 from deodar.errors import OutputError
 from deodar.recording import files
 from deodar.server.open_folder import OpenFolder
-from tests.recording.models import record
+from tests.recording.models import model, record
 data = record(trials=3)
 before = data.copy(deep=True)
 try:
@@ -53,6 +53,30 @@ def test_a_failed_write_keeps_the_data_and_leaves_no_file(suffix: str, tmp_path:
         and same == "True"
     )
     assert list(tmp_path.iterdir()) == []
+
+
+QUOTA = """
+import resource, sys
+sys.path[:0] = {path!r}
+import deodar as dd
+from tests.recording.models import model
+dd.simulate(model(), 1, record="u")
+resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
+dd.simulate(model(), 100_000, seed=3, record="u", every=1, out=sys.argv[1], snapshots=100)
+"""
+
+
+def test_a_run_that_fills_its_quota_ends_with_an_error_and_keeps_its_record(tmp_path: Path) -> None:
+    """The system lets no file grow beyond 60,000 bytes, which is less than a chunk."""
+    command = [sys.executable, "-B", "-c", QUOTA.format(path=sys.path), str(tmp_path / "run")]
+    environment = os.environ | {"DEODAR_CACHE": "off"}
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    assert done.returncode == 1
+    assert "File too large" in done.stderr and "is kept" in done.stderr and "--resume" in done.stderr
+    kept = files.load_record(tmp_path / "run")
+    n = kept.sizes["time"]
+    expected = dd.simulate(model(), n - 1, seed=3, record="u", every=1)
+    assert 100 < n < 100_001 and kept["u.activation"].equals(expected["u.activation"])
 
 
 def full(monkeypatch: pytest.MonkeyPatch, code: int = errno.ENOSPC) -> None:
