@@ -40,4 +40,5 @@ describe("a key press", () => {
 it("keys have the names that the operating system shows", () => {
   expect(keysText("Ctrl+Shift+Z", false)).toBe("Ctrl+Shift+Z");
   expect(keysText("Ctrl+Shift+Z", true)).toBe("⌘⇧Z");
+  expect(["ArrowLeft", "ArrowRight", "Home"].map((keys) => keysText(keys))).toEqual(["←", "→", "Home"]);
 });

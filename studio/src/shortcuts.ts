@@ -30,20 +30,20 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Shift+R"], does: "Reset", run: reset },
   {
     keys: ["ArrowLeft"],
-    does: "Previous frame of the past",
+    does: "Previous frame, of the past or of a record",
     run: () => seekFrames(-1),
     repeats: true,
     past: true,
   },
   {
     keys: ["ArrowRight"],
-    does: "Next frame of the past",
+    does: "Next frame",
     run: () => seekFrames(1),
     repeats: true,
     past: true,
   },
-  { keys: ["Home"], does: "First frame of the past", run: seekFirst, past: true },
-  { keys: ["End"], does: "Last frame of the past", run: seekLast, past: true },
+  { keys: ["Home"], does: "First frame", run: seekFirst, past: true },
+  { keys: ["End"], does: "Last frame", run: seekLast, past: true },
   { keys: ["Ctrl+Z"], does: "Undo", run: () => request({ type: "undo" }), repeats: true },
   { keys: ["Ctrl+Shift+Z", "Ctrl+Y"], does: "Redo", run: () => request({ type: "redo" }), repeats: true },
   { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
@@ -72,7 +72,8 @@ export function isPressed(keys: string, press: Press): boolean {
 
 // Keys as this computer calls them.
 export function keysText(keys: string, mac = isMac()): string {
-  return mac ? keys.replace("Ctrl+", "⌘").replace("Shift+", "⇧") : keys;
+  const named = keys.replace("ArrowLeft", "←").replace("ArrowRight", "→");
+  return mac ? named.replace("Ctrl+", "⌘").replace("Shift+", "⇧") : named;
 }
 
 function isMac(): boolean {

@@ -2,6 +2,7 @@
  * Write every picture of the manual's chapter on the studio, light and dark, 1280 x 800, into the folder that
  * DEODAR_SHOTS names.
  */
+import { execFileSync } from "node:child_process";
 import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -9,6 +10,7 @@ import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
 import { frameOf, toPixels } from "../../src/world/place";
+import { python } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
 
 const COLOURS = ["light", "dark"] as const;
@@ -66,6 +68,40 @@ for (const colours of COLOURS) {
         .click();
     await page.waitForTimeout(500);
     await shot(page, name("curves"));
+  });
+
+  test(`records, ${colours}`, async () => {
+    const { page, folder } = await open(colours, { copies: ["examples/selection.json"] });
+    const run = (out: string, amplitude: string) =>
+      execFileSync(
+        python(),
+        ["-m", "deodar", "run", "selection.json", "--no-progress", "--duration", "600", "--out", out]
+          .concat(["--record", "u.activation", "u.output", "left.output", "right.output"])
+          .concat(["--set", `right.amplitude=${amplitude}`]),
+        { cwd: folder, stdio: "pipe" },
+      );
+    run("equal-inputs", "6");
+    run("stronger-right", "6.5");
+    const choose = async (which: string) => {
+      const dialog = page.getByRole("dialog");
+      await dialog.getByRole("button", { name: which }).click();
+      await dialog.waitFor({ state: "detached" });
+    };
+    await page.keyboard.press("Control+o");
+    await choose("equal-inputs");
+    await page.getByRole("button", { name: "Compare", exact: true }).click();
+    await choose("stronger-right");
+    await page
+      .getByRole("button", { name: /first differs at/ })
+      .first()
+      .waitFor(PATIENCE);
+    const slider = page.getByRole("slider", { name: "Moment" });
+    await slider.press("End");
+    await page.getByRole("status", { name: "Moment shown" }).getByText("600 ms").waitFor(PATIENCE);
+    for (let n = 0; n < 18; n++) await slider.press("PageDown");
+    await page.mouse.move(3, 400);
+    await page.waitForTimeout(500); // until the last frames are drawn
+    await shot(page, name("records"));
   });
 
   test(`saliency, ${colours}`, async () => {
