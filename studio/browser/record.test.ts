@@ -93,7 +93,7 @@ test("a port that was not recorded says so, in its box and in its plot", async (
   const { page } = studio;
   await box(page, "left").dblclick();
   const lost = page.getByRole("region", { name: /of left$/ }).getByRole("status");
-  await expect.poll(() => lost.innerText()).toMatch(/was not recorded/);
+  await expect.poll(() => lost.innerText()).toMatch(/^left\.output was not recorded/);
   await shot(page, "record-lost");
 });
 

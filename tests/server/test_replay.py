@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.recording import folder
+from deodar.recording.growing import GrowingRecord
 from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio
 
@@ -281,9 +283,18 @@ def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Pat
 
 def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
     data = recorded(root)
-    text = data.attrs["deodar"].replace('"complete": true', '"complete": false')
+    made = json.loads(data.attrs["deodar"])
+    empty = data.isel(time=slice(0, 0)).assign_attrs(deodar=json.dumps({**made, "complete": False}))
     path = root / "growing.zarr"
-    dd.save_record(data.isel(time=slice(5)).assign_attrs(deodar=text), path)
+    growing = GrowingRecord(path, empty)
+
+    def add(first: int, last: int) -> None:
+        part = data.isel(time=slice(first, last))
+        arrays = {str(name): v.values for name, v in part.data_vars.items()}
+        growing.put("time", part["time"].values, arrays)
+        growing.commit()
+
+    add(0, 5)
 
     async def scene(p: Page) -> None:
         await shows(p)
@@ -292,9 +303,63 @@ def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
         await p.do("watch", stream=1, element=p.element("u"), port="activation")
         await p.do("seek", time=8)
         await p.until(lambda: shown(p) == 8)
-        dd.save_record(data, path, force=True)
-        await p.until(lambda: timeline(p)["last"] == 60 == shown(p))
+        add(5, 20)
+        await p.until(lambda: timeline(p)["last"] == 38 == shown(p))
+        np.testing.assert_array_equal(p.frames[1][1], data["u.activation"].values[19])
+        await p.do("seek", time=20)
+        await p.until(lambda: shown(p) == 20)
+        add(20, 31)
+        await p.until(lambda: timeline(p)["last"] == 60)
+        assert shown(p) == timeline(p)["time"] == 20, "a page that is not at the end stays where it is"
+        growing.close(True)
         await p.until(lambda: record_view(p)["complete"] and not record_view(p)["notes"])
+
+    with studio(root, path) as address:
+        play(address, scene)
+
+
+def test_a_record_with_a_damaged_part_opens_up_to_there_and_says_so(root: Path) -> None:
+    data = recorded(root)
+    path = root / "growing.zarr"
+    growing = GrowingRecord(path, data.isel(time=slice(0, 0)))
+    for first in (0, 10, 20):
+        part = data.isel(time=slice(first, first + 10))
+        arrays = {str(name): v.values for name, v in part.data_vars.items()}
+        growing.put("time", part["time"].values, arrays)
+        growing.commit()
+    growing.close(True)
+    for chunk in (path / "u.activation" / "c").rglob("*"):
+        if chunk.is_file():
+            chunk.write_bytes(b"damaged")
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.do("watch", stream=2, element=p.element("left"), port="output")
+        await p.until(lambda: 1 in p.lost and 2 in p.frames)
+        assert "cannot be read at this moment" in p.lost[1]["problem"]["what"]
+
+    with studio(root, path) as address:
+        play(address, scene)
+
+
+def test_a_record_without_the_chunks_of_its_samples_says_so(root: Path) -> None:
+    data = recorded(root)
+    path = root / "growing.zarr"
+    growing = GrowingRecord(path, data.isel(time=slice(0, 0)))
+    growing.put("time", data["time"].values, {str(name): v.values for name, v in data.data_vars.items()})
+    growing.close(True)
+    shutil.rmtree(path / "u.activation" / "c")
+
+    async def scene(p: Page) -> None:
+        await p.until(lambda: p.said.get("opened", {}).get("document"))
+        assert "31 of 31 samples of time are left out" in record_view(p)["notes"][0]
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.until(lambda: 1 in p.lost)
+        assert timeline(p) is None
+        await p.do("seek", time=5)
+        await p.do("seek_frames", frames=1)
+        await p.until(lambda: timeline(p) is None)
 
     with studio(root, path) as address:
         play(address, scene)

@@ -23,7 +23,7 @@ from deodar.numerics.axes import Axes
 from deodar.recording import diverged, files, provenance
 from deodar.recording.record import about, time_dimension
 
-MOST_CACHED = 128 * 2**20
+MOST_CACHED = 256 * 2**20
 """Largest sum of the sizes of the chunks that are kept, in bytes."""
 
 FEWEST = 64

@@ -36,7 +36,8 @@ export function FieldCurve(props: PlotProps) {
   const ports = inOrder(portsAlike(element, port));
   const level = ports.includes(main) ? main : port;
   const names = Object.keys(kind?.levels[level] ?? {});
-  const shown = settings.shown ?? firstShown(ports, level);
+  const recorded = useStudio((state) => state.document?.record?.ports[element.id]);
+  const shown = settings.shown ?? firstShown(ports, level, recorded);
   const curves = ports.filter((other) => shown.includes(other));
   const withLevels = names.length > 0 && shown.includes(LEVELS);
 
@@ -199,8 +200,11 @@ export function FieldCurve(props: PlotProps) {
   );
 }
 
-function firstShown(ports: string[], level: string): string[] {
-  return [...new Set([level, ...ports.filter((port) => port === "output"), LEVELS])];
+// Of a record, only what was recorded, unless nothing was.
+function firstShown(ports: string[], level: string, recorded?: string[]): string[] {
+  const first = [level, ...ports.filter((port) => port === "output")];
+  const there = first.filter((port) => recorded?.includes(port) ?? true);
+  return [...new Set([...(there.length > 0 ? there : first), LEVELS])];
 }
 
 function columns(lives: Live[]): uPlot.AlignedData {

@@ -4,7 +4,7 @@
 import { ActionIcon, Menu, NativeSelect, Popover, Tooltip } from "@mantine/core";
 import { IconAdjustmentsHorizontal, IconDots, IconPhotoDown } from "@tabler/icons-react";
 import type { ReactNode } from "react";
-import type { ElementView } from "../protocol";
+import type { ElementView, ListedProblem } from "../protocol";
 import { useStudio } from "../store";
 import { type PlotKind, titleOf } from "./kinds";
 import type { PlotParams, PlotSettings } from "./settings";
@@ -110,7 +110,7 @@ export function PlotFrame(props: PlotFrameProps) {
               </span>
             ) : (
               <>
-                <strong>{lost.what}</strong>
+                <strong>{record ? named(lost) : lost.what}</strong>
                 {lost.fix !== undefined && lost.fix !== "" && <span>{lost.fix}</span>}
               </>
             )}
@@ -118,10 +118,15 @@ export function PlotFrame(props: PlotFrameProps) {
         )}
         {seen && lost !== null && (
           <div className="plot-lost" role="status">
-            {lost.what}
+            {record ? named(lost) : lost.what}
           </div>
         )}
       </div>
     </section>
   );
+}
+
+// In a record, the port that has no frames, and why.
+function named({ where = "", what }: ListedProblem): string {
+  return `${where} ${what}`.trim();
 }

@@ -35,6 +35,8 @@ export function RecordBar({ record }: { record: RecordView }) {
           size="compact-sm"
           variant="default"
           leftSection={<IconArrowsDiff size={15} />}
+          className={classes.action}
+          aria-label="Compare"
           onClick={() => void compare()}
         >
           Compare
@@ -45,6 +47,8 @@ export function RecordBar({ record }: { record: RecordView }) {
           size="compact-sm"
           variant="default"
           leftSection={<IconPlayerPlay size={15} />}
+          className={classes.action}
+          aria-label="Run its model"
           onClick={() => void leave({ type: "open_record_model" })}
         >
           Run its model
