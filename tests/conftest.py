@@ -134,3 +134,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if hasattr(config, "workerinput"):
         files = durations.files(seconds)
         items.sort(key=lambda item: -files[item.nodeid.split("::")[0]])
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """After the fast tests, name the files whose slow tests have no row among the durations."""
+    if config.option.markexpr == "fast" and (
+        files := durations.unlisted(terminalreporter.stats.get("passed", ()))
+    ):
+        terminalreporter.write_line(
+            f"Slow tests count as fast. Type: pytest --write-durations {' '.join(files)}", yellow=True
+        )

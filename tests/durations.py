@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import os
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
@@ -18,6 +18,9 @@ import pytest
 FILE = Path(__file__).with_name("durations.csv")
 LIMIT = 0.2
 """CPU seconds of all cases of a function above which it is slow."""
+
+LONG = 2.0
+"""Seconds by the clock of all cases of a function above which it is slow, also on a busy machine."""
 
 
 def function(nodeid: str) -> str:
@@ -37,6 +40,14 @@ def files(rows: dict[str, float]) -> Counter[str]:
     for test, s in rows.items():
         out[test.split("::")[0]] += s
     return out
+
+
+def unlisted(reports: Iterable[pytest.TestReport]) -> list[str]:
+    """Return the files of test functions that counted as fast and took longer than `LONG`."""
+    taken: Counter[str] = Counter()
+    for report in reports:
+        taken[function(report.nodeid)] += report.duration
+    return sorted({test.split("::")[0] for test, s in taken.items() if s > LONG})
 
 
 def exists(test: str) -> bool:

@@ -40,6 +40,14 @@ def test_the_cases_of_a_function_count_together() -> None:
     assert durations.files({"a.py::x": 1.0, "a.py::y": 2.0, "b.py::x": 4.0}) == {"a.py": 3.0, "b.py": 4.0}
 
 
+def test_the_files_of_slow_tests_without_a_row_are_named() -> None:
+    def report(nodeid: str, seconds: float) -> pytest.TestReport:
+        return pytest.TestReport(nodeid, ("", 0, ""), {}, "passed", None, "call", duration=seconds)
+
+    cases = [report(f"b.py::x[{k}]", 1.2) for k in range(2)]
+    assert durations.unlisted([report("a.py::x", 1.2), *cases, report("a.py::y", 0.1)]) == ["b.py"]
+
+
 def test_a_test_without_a_row_is_fast(request: pytest.FixtureRequest) -> None:
     assert request.node.get_closest_marker("fast")
     assert not request.node.get_closest_marker("default_program")
