@@ -32,7 +32,7 @@ MOST_RECORDS = 64
 """Records of one chunk: a session advances by few steps at a time."""
 
 
-class Changed(Protocol):
+class JournalEntry(Protocol):
     """An entry of the journal of a session."""
 
     @property
@@ -146,11 +146,11 @@ class Recorder:
                 np.asarray([run.clock.time]), [values[None] for values in run.read(self._ports(run.program))]
             )
 
-    def pass_over(self, journal: Sequence[Changed]) -> None:
+    def pass_over(self, journal: Sequence[JournalEntry]) -> None:
         """Leave out the changes before the record began."""
         self._seen = len(journal)
 
-    def note(self, journal: Sequence[Changed]) -> None:
+    def note(self, journal: Sequence[JournalEntry]) -> None:
         """Store the changes of the session since the last call, with their ticks."""
         new, self._seen = journal[self._seen :], len(journal)
         self._changes += [
