@@ -587,6 +587,18 @@ export type RecordView = {
   ports: Record<string, string[]>;
 };
 
+// A port to record.
+export type RecordedPort = {
+  element: string;
+  port: string;
+};
+
+// The record of the run: its path below the root, and why it ended; empty while it is written.
+export type RecordingView = {
+  path: string;
+  ended: string;
+};
+
 // Open stored unsaved edits.
 export type Recover = {
   type: "recover";
@@ -648,6 +660,7 @@ export type ResetRun = {
 // may grow to keep up (None: the step is constant), and `lengthened` is the number of longer steps taken.
 // `busy` is a phrase for the compilation in progress; `failure` lists why the run stopped; `world` is a
 // phrase for the world that the sensors read. `timeline`: see there; None: no moment can be shown.
+// `recording`: None if nothing was recorded in this session.
 export type RunClock = {
   type: "clock";
   frame: number;
@@ -671,6 +684,7 @@ export type RunClock = {
   senses: boolean;
   pushing: string;
   timeline: TimelineView | null;
+  recording: RecordingView | null;
 };
 
 // Write the document to `path`, or to its own file if `path` is empty.
@@ -725,6 +739,23 @@ export type Speed = {
   type: "speed";
   request?: number;
   factor: number | null;
+};
+
+// Record ports of the running model into a new folder below the root; `clock` states its path.
+//
+// Without ports: the activation of every field. `every` is the document time between two samples, None every
+// step.
+export type StartRecord = {
+  type: "start_record";
+  request?: number;
+  ports?: RecordedPort[];
+  every?: number | null;
+};
+
+// Complete the record that is being written.
+export type StopRecord = {
+  type: "stop_record";
+  request?: number;
 };
 
 // The moments that the page can show, in document time, and the one that it shows.
@@ -793,6 +824,8 @@ export type ToServer =
   | Seek
   | ChooseCopy
   | SeekFrames
+  | StartRecord
+  | StopRecord
   | MeasureCosts
   | PushInput
   | Release

@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -115,12 +116,14 @@ class Engine:
         self._closed = True
         self._wake.set()
         self._thread.join()
+        self.stop_record()
         self._compiler.shutdown(cancel_futures=True)
 
     # ----------------------------------------------------------------- in the engine's thread, through `call`
 
     def load(self, session: Session | None) -> None:
         """Use another session. It is paused, unless `play` or `step` was called while there was none."""
+        self.stop_record()
         waited = self.session is None and session is not None
         self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.injection, self._target = session, None, None
@@ -130,6 +133,17 @@ class Engine:
         self.pace.speed = speed
         self.restart()
         self._make()
+
+    def record(self, path: Path, ports: Sequence[str], every: float | None = None) -> None:
+        """Record ports into a new folder from now on."""
+        self._require().record(path, ports, every)
+        self._stale = True
+
+    def stop_record(self) -> None:
+        """Complete the record that is being written, if any."""
+        if self.session is not None and self.session.recorder is not None:
+            self.session.recorder.close()
+        self._stale = True
 
     def play(self, running: bool) -> None:
         """Start or pause the run."""

@@ -18,9 +18,10 @@ from deodar.server.project import OpenProject
 from deodar.server.record_frames import RecordFrames
 from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
-from deodar.server.to_page import Costs, CostView, Gallery, RunClock, TimelineView, Welcome
+from deodar.server.to_page import Costs, CostView, Gallery, RecordingView, RunClock, TimelineView, Welcome
 from deodar.server.workspace import Workspace
 from deodar.session.meter import Meter
+from deodar.session.session import Session
 from deodar.worlds._base import World
 
 KEEP_SECONDS = 3.0
@@ -112,7 +113,14 @@ class Hub:
             senses=session is not None and bool(session.program.plan.sensors),
             pushing="" if injection is None else injection.element,
             timeline=timeline,
+            recording=self._recording(session),
         )
+
+    def _recording(self, session: Session | None) -> RecordingView | None:
+        recorder = None if session is None else session.recorder
+        if recorder is None:
+            return None
+        return RecordingView(path=self.workspace.shown(recorder.path), ended=recorder.ended)
 
     def source(self, page: Page) -> FrameSource:
         """Return what a page watches: the run, or the open record."""

@@ -17,7 +17,9 @@ from deodar.importers.report import Line
 from deodar.live.engine import Injection
 from deodar.live.trace import TraceRequest
 from deodar.model import edit, files, find
+from deodar.model.paths import quote
 from deodar.numerics.axes import Axes
+from deodar.recording import places
 from deodar.server import content, gallery, to_server
 from deodar.server.file_thread import in_file_thread
 from deodar.server.hub import Hub
@@ -25,6 +27,7 @@ from deodar.server.page import Page
 from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Folder
+from deodar.session.recorder import compile_records
 from deodar.session.session import Session
 from deodar.worlds._base import World
 
@@ -296,6 +299,31 @@ async def _choose_copy(hub: Hub, page: Page, m: to_server.ChooseCopy) -> None:
 @handles(to_server.SeekFrames)
 async def _seek_frames(hub: Hub, page: Page, m: to_server.SeekFrames) -> None:
     page.seek_further(m.frames)
+
+
+@handles(to_server.StartRecord)
+async def _start_record(hub: Hub, page: Page, m: to_server.StartRecord) -> None:
+    hub.project.require_run()
+    session = hub.engine.session
+    if session is None:
+        raise ModelError("no model runs yet", fix="Wait until it is compiled")
+    by = session.document.by_id()
+    ports = [(p.element, p.port) for p in m.ports if p.element in by]
+    if not ports:
+        ports = [(e.id, "activation") for e in by.values() if "activation" in find.outputs(e)]
+    if not ports:
+        raise DocumentError("the model has no field to record", fix="Open the plot of an element first")
+    ports = list(dict.fromkeys(ports))
+    out = places.free(hub.workspace.root, session.document.name)
+    # compiled here, so that the run does not wait for it
+    await asyncio.to_thread(compile_records, session.program, ports)
+    paths = [f"{by[ident].path}.{quote(port)}" for ident, port in ports]
+    await _engine(hub, page, lambda: hub.engine.record(out, paths, m.every))
+
+
+@handles(to_server.StopRecord)
+async def _stop_record(hub: Hub, page: Page, m: to_server.StopRecord) -> None:
+    await _engine(hub, page, hub.engine.stop_record)
 
 
 @handles(to_server.MeasureCosts)

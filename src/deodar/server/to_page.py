@@ -314,6 +314,13 @@ class TimelineView(Data, frozen=True):
     step: float
 
 
+class RecordingView(Data, frozen=True):
+    """The record of the run: its path below the root, and why it ended; empty while it is written."""
+
+    path: str
+    ended: str
+
+
 @MESSAGES.register
 class RunClock(Message, frozen=True, tag="clock"):
     """Time and status of the run. Sent after the frames of the same number, and whenever something changes.
@@ -325,6 +332,7 @@ class RunClock(Message, frozen=True, tag="clock"):
     the step may grow to keep up (None: the step is constant), and `lengthened` is the number of longer steps
     taken. `busy` is a phrase for the compilation in progress; `failure` lists why the run stopped; `world` is
     a phrase for the world that the sensors read. `timeline`: see there; None: no moment can be shown.
+    `recording`: None if nothing was recorded in this session.
     """
 
     frame: int
@@ -348,6 +356,7 @@ class RunClock(Message, frozen=True, tag="clock"):
     senses: bool
     pushing: Id
     timeline: TimelineView | None
+    recording: RecordingView | None
 
 
 class CostView(Data, frozen=True):

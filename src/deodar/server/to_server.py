@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 from deodar.family import Family
-from deodar.server.message import Id, Message
+from deodar.server.message import Data, Id, Message
 
 Text = Annotated[str, msgspec.Meta(max_length=4096)]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**31 - 1)]
@@ -284,6 +284,30 @@ class SeekFrames(Request, frozen=True, kw_only=True, tag="seek_frames"):
     """Show the frame that is `frames` later than the one shown; a negative number goes back."""
 
     frames: Annotated[int, msgspec.Meta(ge=-(2**31), le=2**31 - 1)]
+
+
+class RecordedPort(Data, frozen=True):
+    """A port to record."""
+
+    element: Id
+    port: Text
+
+
+@MESSAGES.register
+class StartRecord(Request, frozen=True, kw_only=True, tag="start_record"):
+    """Record ports of the running model into a new folder below the root; `clock` states its path.
+
+    Without ports: the activation of every field. `every` is the document time between two samples, None every
+    step.
+    """
+
+    ports: Annotated[list[RecordedPort], msgspec.Meta(max_length=500)] = []
+    every: Annotated[float, msgspec.Meta(gt=0)] | None = None
+
+
+@MESSAGES.register
+class StopRecord(Request, frozen=True, kw_only=True, tag="stop_record"):
+    """Complete the record that is being written."""
 
 
 @MESSAGES.register

@@ -119,8 +119,7 @@ class Recorder:
 
     def compile(self, program: Executable) -> None:
         """Compile what `advance` calls of a program, if that has all recorded ports."""
-        if all(ident in program.plan.row for ident, _ in self._places):
-            program.chunk(self._ports(program), MOST_RECORDS)
+        compile_records(program, self._places)
 
     def advance(self, run: Run, steps: int) -> None:
         """Advance a run by `steps` Euler steps, and record the samples that are due.
@@ -179,9 +178,11 @@ class Recorder:
     def end(self, reason: str) -> None:
         """End the record before its time."""
         if self._writer is not None:
-            self.ended = reason
             writer, self._writer = self._writer, None
-            writer.close(False, settings={"ended": reason})
+            try:
+                writer.close(False, settings={"ended": reason})
+            finally:
+                self.ended = reason
 
     # -------------------------------------------------------------------------------------- by the script
 
@@ -192,9 +193,11 @@ class Recorder:
             OutputError: samples cannot be written; those before are in the file.
         """
         if self._writer is not None:
-            self.ended = "closed"
             writer, self._writer = self._writer, None
-            writer.close(True)
+            try:
+                writer.close(True)
+            finally:
+                self.ended = "closed"
 
     @property
     def open(self) -> bool:
@@ -220,8 +223,8 @@ class Recorder:
                 self._writer.put(one.dimension, one.times, one.values)
         except DeodarError as error:
             writer, self._writer = self._writer, None
-            self.ended = error.problems[0].what
             writer.abandon()
+            self.ended = error.problems[0].what
             error.advise(f"The record until then is kept: {self.path}")
             raise
         self._taken += len(times)
@@ -251,6 +254,12 @@ class Recorder:
         if 0 in gaps:
             raise TimeError("every is 0; expected at least one step")
         return gaps
+
+
+def compile_records(program: Executable, places: Sequence[tuple[str, str]]) -> None:
+    """Compile what a recorder of ports (id and name) calls of a program, if that has all of them."""
+    if all(ident in program.plan.row for ident, _ in places):
+        program.chunk([program.port(ident, port) for ident, port in places], MOST_RECORDS)
 
 
 def _plain(value: Any) -> Json:

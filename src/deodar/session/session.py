@@ -433,6 +433,11 @@ class Session:
         return self._run.program
 
     @property
+    def recorder(self) -> Recorder | None:
+        """The recorder that `record` returned last."""
+        return self._recorder
+
+    @property
     def world(self) -> World | None:
         """The world that the sensors read; a new one is read from the next step on."""
         return self._run.world

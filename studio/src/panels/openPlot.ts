@@ -1,7 +1,7 @@
 // Adding panels to the dock from anywhere: the dock passes on its interface when it is ready.
 
 import type { DockviewApi, IDockviewPanel } from "dockview-react";
-import { mainPort, type PlotKind, plotKinds, portAxes } from "../plots/kinds";
+import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds";
 import { readParams } from "../plots/settings";
 import { useStudio } from "../store";
 import { placeFor } from "./placement";
@@ -34,6 +34,21 @@ export function openPlot(wish: PlotWish): void {
     params: { ...plot, settings: {} },
     ...(position === null ? {} : { position }),
   });
+}
+
+// The ports of all plots.
+export function plottedPorts(): { element: string; port: string }[] {
+  const { elements, kinds } = useStudio.getState();
+  const ports = new Map<string, { element: string; port: string }>();
+  for (const panel of dock?.panels ?? []) {
+    const { element, port } = readParams(panel.params ?? {});
+    const found = elements.get(element);
+    if (isPlot(panel) && found !== undefined) {
+      const shown = portsOf(found).includes(port) ? port : mainPort(found, kinds.get(found.kind));
+      ports.set(`${element} ${shown}`, { element, port: shown });
+    }
+  }
+  return [...ports.values()];
 }
 
 // Show one of the panels that exist once.

@@ -12,6 +12,7 @@ import { RecordBar } from "../replay/RecordBar";
 import { useStudio } from "../store";
 import { Busy } from "./Busy";
 import { Readout } from "./Readout";
+import { RecordButton } from "./RecordButton";
 import { RunMenu } from "./RunMenu";
 import { SpeedMenu } from "./SpeedMenu";
 import { WorldButton } from "./WorldButton";
@@ -58,6 +59,7 @@ function RunTransport() {
             <IconPlayerTrackNextFilled size={16} />
           </ActionIcon>
         </Tooltip>
+        <RecordButton />
       </div>
       <Readout />
       <div className={classes.buttons}>

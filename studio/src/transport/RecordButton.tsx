@@ -1,0 +1,50 @@
+// Records what is plotted, or all fields, into a new folder; a second press ends the record.
+
+import { ActionIcon, Tooltip } from "@mantine/core";
+import { IconPlayerRecordFilled, IconPlayerStopFilled } from "@tabler/icons-react";
+import { useEffect, useRef } from "react";
+
+import { leave } from "../pages/flows";
+import { plottedPorts } from "../panels/openPlot";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import classes from "./Transport.module.css";
+
+export function RecordButton() {
+  const recording = useStudio((state) => state.clock?.recording ?? null);
+  const open = recording !== null && recording.ended === "";
+  useEnding(recording?.path ?? "", recording?.ended ?? "");
+  const label = open
+    ? `Stop recording into ${recording.path}`
+    : "Record what is plotted, at every step, into a new folder";
+  const press = () =>
+    request(open ? { type: "stop_record" } : { type: "start_record", ports: plottedPorts() });
+  return (
+    <Tooltip label={label}>
+      <ActionIcon
+        aria-label={open ? "Stop recording" : "Record"}
+        aria-pressed={open}
+        size={28}
+        color="red"
+        variant={open ? "filled" : "subtle"}
+        className={classes.record}
+        onClick={() => void press()}
+      >
+        {open ? <IconPlayerStopFilled size={16} /> : <IconPlayerRecordFilled size={16} />}
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+// States where a record is, and why it ended, when it ends while the page is open.
+function useEnding(path: string, ended: string): void {
+  const before = useRef("");
+  useEffect(() => {
+    if (before.current === path && path !== "" && ended !== "") {
+      const reason = ended === "closed" ? "" : `, which ended early: ${ended}`;
+      const offer = { label: "Open the record", run: () => leave({ type: "open_file", path }) };
+      useStudio.getState().notify({ what: `Recorded into ${path}${reason}` }, "info", offer);
+    }
+    before.current = ended === "" ? path : "";
+  }, [path, ended]);
+}
