@@ -137,6 +137,33 @@ test("the trial and the point of a sweep are chosen", async () => {
   await shot(page, "record-trials");
 });
 
+test("a page shows its moment and its trial again after the connection was lost", async () => {
+  const file = join(studio.folder, "trials");
+  const second = await startStudio({
+    file,
+    expected: [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/],
+  });
+  try {
+    const { page } = second;
+    const shown = page.getByRole("status", { name: "Moment shown" });
+    const canvas = page.getByRole("region", { name: /of u$/ }).locator("canvas").first();
+    await page.getByRole("slider", { name: "Moment" }).press("End");
+    await expect.poll(() => shown.innerText()).toMatch(/^600 ms/);
+    const first = await drawn(canvas);
+    await page.getByRole("toolbar", { name: "Record" }).getByLabel("trial").selectOption("2");
+    await expect.poll(() => drawn(canvas)).not.toBe(first);
+    await page.waitForTimeout(300);
+    const before = await drawn(canvas);
+    await second.restart();
+    await page.getByText("Connection lost").waitFor({ state: "detached" });
+    await expect.poll(() => shown.innerText()).toMatch(/^600 ms/);
+    await expect.poll(() => drawn(canvas)).toBe(before);
+    expect(await page.getByRole("toolbar", { name: "Record" }).getByLabel("trial").inputValue()).toBe("2");
+  } finally {
+    await second.stop();
+  }
+});
+
 test("the model of a record runs as a copy of its document", async () => {
   const { page } = studio;
   await button(page, "Run its model").click();
