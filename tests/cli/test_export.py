@@ -60,6 +60,11 @@ def test_values_are_written_in_each_format(
         ]
 
 
+def test_values_are_thinned(here: Path) -> None:
+    assert main(["export", "run.zarr", "n.activation", "--every", "10", "--out", "a.nc"]) == 0
+    assert files.load_record("a.nc").equals(record(trials=2)[["n.activation"]].sel(time=[0, 10, 20]))
+
+
 def test_videos_are_written_in_each_format(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     plot = ["export", "run.zarr", "u.activation", "--trial", "0", "--width", "200"]
     assert main([*plot, "--kind", "snapshot", "--out", "u.gif", "--every", "10", "--json"]) == 0
@@ -101,7 +106,7 @@ def test_the_world_is_shown_with_the_path(here: Path) -> None:
         (["run.zarr", "--to", "gif", "-o", "a.mp4"], 2, "--to gif needs a name that ends in .gif"),
         (["run.zarr", "--to", "png", "-o", "a.gif"], 2, "--to png needs the name of a folder"),
         (["run.zarr", "-o", "a.nc", "--kind", "snapshot"], 2, "--kind selects what is drawn"),
-        (["run.zarr", "-o", "a.nc", "--every", "5"], 2, "--every selects what is drawn"),
+        (["run.zarr", "-o", "a.nc", "--speed", "5"], 2, "--speed selects what is drawn"),
         (["figure.toml", "-o", "a.nc"], 2, "writes the values of a record"),
         (["run.zarr", "-o", "a.gif", "--speed", "0"], 2, "--speed"),
         (["run.zarr", "n.activation", "-o", "a.gif", "--width", "5"], 1, "the width is 5"),

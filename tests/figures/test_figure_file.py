@@ -386,3 +386,27 @@ def test_a_figure_reads_only_what_it_shows(tmp_path: Path, monkeypatch: pytest.M
     assert np.array_equal(lines[0], values[12:19, 1]) and np.array_equal(lines[1], values[12:19, 3])
     with pytest.raises(RecordError, match=r"u\.activation: cannot be read, its file may be damaged"):
         FigureFile([FigurePanel("u.activation")]).draw(data)
+
+
+def test_every_selects_evenly_spaced_samples_and_reads_no_others(tmp_path: Path) -> None:
+    values = np.arange(80, dtype=np.float32).reshape(40, 2)
+    stored = xarray.Dataset(
+        {"u.activation": (("time", "x"), values)},
+        {"time": np.arange(40) * 0.5, "x": ("x", [0.0, 1.0], {"lower": 0.0})},
+        {"deodar": "{}"},
+    )
+    stored.to_zarr(
+        tmp_path / "run.zarr",
+        zarr_format=3,
+        consolidated=False,
+        encoding={"u.activation": {"chunks": (5, 2)}},
+    )
+    for chunk in (1, 3, 5, 7):
+        (tmp_path / "run.zarr" / "u.activation" / "c" / str(chunk) / "0").write_bytes(b"damaged")
+    variable = dd.open_record(tmp_path / "run.zarr")["u.activation"]
+    (line, *_) = dd.time_course(variable, places=[1], every=5).axes[0].get_lines()
+    assert list(line.get_xdata()) == [0, 5, 10, 15] and list(line.get_ydata()) == [1, 21, 41, 61]
+    (line, *_) = dd.time_course(variable, places=[0], every=5, time_range=[5, 10]).axes[0].get_lines()
+    assert list(line.get_ydata()) == [20, 40]
+    with pytest.raises(RecordError, match="above 0"):
+        dd.time_course(variable, every=0)

@@ -24,6 +24,7 @@ WORDS = (
     "reduce",
     "place",
     "time_range",
+    "every",
     "value_range",
     "gif",
     "save_as",
@@ -93,6 +94,12 @@ def add_view(parser: argparse.ArgumentParser) -> None:
         help="times to draw, in the record's unit",
     )
     parser.add_argument(
+        "--every",
+        type=_options.positive,
+        metavar="T",
+        help="time between two samples, or two frames of a video (default: all; of a video at most 600)",
+    )
+    parser.add_argument(
         "--value-range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="ends of the scale of the values"
     )
 
@@ -143,6 +150,7 @@ def panels(
             places=spots or None,
             reduce=args.reduce,
             time_range=args.time_range,
+            every=args.every,
             value_range=args.value_range,
         )
         for name in names

@@ -38,12 +38,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     )
     _figure.add_view(parser)
     parser.add_argument(
-        "--every",
-        type=_options.positive,
-        metavar="T",
-        help="of a video: time from one frame to the next (default: each recorded time, at most 600 frames)",
-    )
-    parser.add_argument(
         "--speed",
         type=_options.positive,
         metavar="S",
@@ -66,11 +60,12 @@ def run(args: argparse.Namespace) -> int:
     """Write the file and print its path."""
     format, out = _target(args)
     if format in VIDEOS:
+        every, args.every = args.every, None  # of the frames, not of the samples in a panel
         drawn = _figure.drawn(args)
         names = drawn.names
         with Bar(args.no_progress or not sys.stderr.isatty(), "frames") as bar:
             drawn.figure.animate(
-                out, drawn.record, args.every, args.speed, args.width, args.force, progress=_shown(bar)
+                out, drawn.record, every, args.speed, args.width, args.force, progress=_shown(bar)
             )
     else:
         names = _convert(args, format, out)
@@ -125,7 +120,7 @@ def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
 
     if args.record.suffix.lower() == ".toml":
         args.wrong(f"{args.record} describes a figure, and --to {format} writes the values of a record")
-    for option in ("kind", "at", "axes", "reduce", "place", "value_range", "every", "speed"):
+    for option in ("kind", "at", "axes", "reduce", "place", "value_range", "speed"):
         if getattr(args, option) is not None:
             args.wrong(f"--{option.replace('_', '-')} selects what is drawn, and --to {format} writes values")
     data = files.open_record(args.record)

@@ -44,6 +44,7 @@ SETTINGS = (
     "places",
     "reduce",
     "time_range",
+    "every",
     "value_range",
     "colors",
     "labels",
@@ -63,7 +64,7 @@ class FigurePanel:
         title: title of the panel. None: that of the kind; "" for no title.
         legend: place of the legend, as "upper right", or "none". None: where it hides least.
         at, trial, where, axes, places, reduce: the selected part, as in `View`.
-        time_range, value_range, colors, labels: ranges, colour map and labels, as in `View`.
+        time_range, every, value_range, colors, labels: times, ranges, colour map and labels, as in `View`.
     """
 
     variable: str
@@ -78,6 +79,7 @@ class FigurePanel:
     places: Sequence[Sequence[float] | float] | None = None
     reduce: str | None = None
     time_range: Sequence[float] | None = None
+    every: float | None = None
     value_range: Sequence[float] | None = None
     colors: str | None = None
     labels: Mapping[str, str] | None = None
@@ -489,6 +491,7 @@ PANEL_KEYS: dict[str, Check] = {
     "axes": _list(_text, '["x", "y"]'),
     "reduce": _choice(REDUCTIONS),
     "time_range": _range,
+    "every": _number,
     "value_range": _range,
     "colors": _text,
     "labels": _table(_text, '{ time = "time (ms)", value = "activation" }'),

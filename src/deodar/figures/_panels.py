@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import importlib
 import pkgutil
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -23,12 +23,15 @@ from deodar.plugins import Plugin
 
 
 def kinds() -> dict[str, ModuleType]:
-    """Return every kind of figure of a variable by name: the modules with a function `suits`."""
+    """Return every kind of figure of a variable by name: the modules with a function `suits`.
+
+    The package imports them. Other modules, which draw runs of papers, are not imported here.
+    """
     names = sorted(
         m.name for m in pkgutil.iter_modules([str(Path(__file__).parent)]) if not m.name.startswith("_")
     )
-    found = {name: importlib.import_module(f"{__package__}.{name}") for name in names}
-    return {name: module for name, module in found.items() if hasattr(module, "suits")}
+    found = {name: sys.modules.get(f"{__package__}.{name}") for name in names}
+    return {name: module for name, module in found.items() if module and hasattr(module, "suits")}
 
 
 REQUIRED = ("ACROSS", "size", "fill")

@@ -35,6 +35,8 @@ class View:
             largest value.
         reduce: contraction over the other axes in a projection: maximum or integral.
         time_range: first and last time to show, in the record's unit. None: all of them.
+        every: time between two shown samples, in the record's unit; of a long record only these are read, so
+            that events between them are not seen. None: all samples.
         value_range: smallest and largest value of the scale. None: those of the shown values.
         colors: name of a colour map of matplotlib, for maps. None: the map that suits the values.
         labels: labels in place of the default ones, with their units: by name of an axis, `time` for time,
@@ -53,6 +55,7 @@ class View:
     places: Sequence[Sequence[float] | float] | None = None
     reduce: str = "maximum"
     time_range: Sequence[float] | None = None
+    every: float | None = None
     value_range: Sequence[float] | None = None
     colors: str | None = None
     labels: Mapping[str, str] | None = None
@@ -104,11 +107,18 @@ class View:
                 )
 
     def _cut(self) -> None:
-        """Leave out the times outside `time_range`."""
-        if self.time_range is None:
-            return
-        low, high = self.time_range
+        """Leave out the times outside `time_range`, and those between the shown samples."""
+        if self.every is not None and not self.every > 0:
+            raise RecordError(
+                f"the time between two samples is {self.every:g}; it is above 0", where=self.name
+            )
         times = self.times
+        step = 1
+        if self.every is not None and len(times) > 1:
+            step = max(1, round(self.every * (len(times) - 1) / float(times[-1] - times[0])))
+        if self.time_range is None and step == 1:
+            return
+        low, high = self.time_range or (times[0], times[-1])
         first, last = np.searchsorted(times, low - NEAR), np.searchsorted(times, high + NEAR, side="right")
         if first == last:
             raise RecordError(
@@ -117,7 +127,7 @@ class View:
                 fix=f"Recorded are times from {times[0]:g} to {times[-1]:g}",
             )
         if self.time in self.variable.dims:
-            part = self.variable.isel({self.time: slice(int(first), int(last))})
+            part = self.variable.isel({self.time: slice(int(first), int(last), step)})
             object.__setattr__(self, "variable", part)
 
     # ------------------------------------------------------------------------------------------- the variable
