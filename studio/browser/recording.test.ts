@@ -40,4 +40,13 @@ test("what is plotted is recorded while the model runs, and the record opens", a
   await page.getByRole("region", { name: "Messages" }).getByText(`Recorded into ${path}`).waitFor();
   await button(page, "Open the record").click();
   await page.getByRole("slider", { name: "Moment" }).waitFor();
+  await button(page, "Menu of this plot").click();
+  await page.getByRole("menuitem", { name: "Save as a figure file" }).click();
+  await page
+    .getByRole("region", { name: "Messages" })
+    .getByText("Saved as selection-figure-001.toml")
+    .waitFor();
+  const figure = readFileSync(join(studio.folder, "selection-figure-001.toml"), "utf8");
+  expect(figure).toContain(`record = "${path}"`);
+  expect(figure).toContain('variable = "u.activation"');
 });

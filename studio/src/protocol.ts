@@ -698,6 +698,18 @@ export type Save = {
   replace?: boolean;
 };
 
+// Save a plot as the file of a figure, which `deodar plot` draws; the answer states its path.
+//
+// `kind` is that of the plot, `range` the range of its values; None: it follows the data.
+export type SaveFigure = {
+  type: "save_figure";
+  request?: number;
+  element: string;
+  port: string;
+  kind: string;
+  range?: unknown[] | null;
+};
+
 // Boxes and marks of the world, in its unit of length; `border` is lower x, lower y, upper x, upper y.
 export type SceneView = {
   unit: string;
@@ -826,6 +838,7 @@ export type ToServer =
   | SeekFrames
   | StartRecord
   | StopRecord
+  | SaveFigure
   | MeasureCosts
   | PushInput
   | Release

@@ -20,7 +20,7 @@ from deodar.model import edit, files, find
 from deodar.model.paths import quote
 from deodar.numerics.axes import Axes
 from deodar.recording import places
-from deodar.server import content, gallery, to_server
+from deodar.server import content, figure_file, gallery, to_server
 from deodar.server.file_thread import in_file_thread
 from deodar.server.hub import Hub
 from deodar.server.page import Page
@@ -324,6 +324,23 @@ async def _start_record(hub: Hub, page: Page, m: to_server.StartRecord) -> None:
 @handles(to_server.StopRecord)
 async def _stop_record(hub: Hub, page: Page, m: to_server.StopRecord) -> None:
     await _engine(hub, page, hub.engine.stop_record)
+
+
+@handles(to_server.SaveFigure)
+async def _save_figure(hub: Hub, page: Page, m: to_server.SaveFigure) -> Answer:
+    engine, opened = hub.engine, hub.project.record
+    session = engine.session
+    if opened is not None:
+        record, document = opened.path, opened.document
+    elif session is not None:
+        recorder = session.recorder
+        record, document = None if recorder is None else recorder.path, session.document
+    else:
+        raise ModelError("no model runs yet", fix="Wait until it is compiled")
+    time = engine.published.time if page.moment is None else page.moment.time
+    root = hub.workspace.root
+    path = await in_file_thread(lambda: figure_file.save(m, document, record, time, root), str(root))
+    return Answer(request=m.request, file=hub.workspace.shown(path))
 
 
 @handles(to_server.MeasureCosts)

@@ -311,6 +311,19 @@ class StopRecord(Request, frozen=True, kw_only=True, tag="stop_record"):
 
 
 @MESSAGES.register
+class SaveFigure(Request, frozen=True, kw_only=True, tag="save_figure"):
+    """Save a plot as the file of a figure, which `deodar plot` draws; the answer states its path.
+
+    `kind` is that of the plot, `range` the range of its values; None: it follows the data.
+    """
+
+    element: Id
+    port: Text
+    kind: Text
+    range: tuple[float, float] | None = None
+
+
+@MESSAGES.register
 class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
     """Measure the cost of each element during the run; a `costs` message follows at start and end."""
 

@@ -2,9 +2,10 @@
 // or a word why there is none.
 
 import { ActionIcon, Menu, NativeSelect, Popover, Tooltip } from "@mantine/core";
-import { IconAdjustmentsHorizontal, IconDots, IconPhotoDown } from "@tabler/icons-react";
+import { IconAdjustmentsHorizontal, IconDots, IconFileDescription, IconPhotoDown } from "@tabler/icons-react";
 import type { ReactNode } from "react";
-import type { ElementView, ListedProblem } from "../protocol";
+import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
+import { request } from "../socket";
 import { useStudio } from "../store";
 import { type PlotKind, titleOf } from "./kinds";
 import type { PlotParams, PlotSettings } from "./settings";
@@ -38,6 +39,7 @@ type PlotFrameProps = PlotProps & {
 export function PlotFrame(props: PlotFrameProps) {
   const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } =
     props;
+  const range = props.settings.range === null ? null : [...props.settings.range];
   const running = useStudio((state) => state.clock?.running ?? false);
   const record = useStudio((state) => state.document?.record != null);
   const packaged = useStudio((state) => state.welcome?.plots) ?? [];
@@ -93,6 +95,12 @@ export function PlotFrame(props: PlotFrameProps) {
             <Menu.Item leftSection={<IconPhotoDown size={15} />} disabled={!seen} onClick={exportAs}>
               Export PNG
             </Menu.Item>
+            <Menu.Item
+              leftSection={<IconFileDescription size={15} />}
+              onClick={() => void saveFigure({ element: element.id, port, kind, range })}
+            >
+              Save as a figure file
+            </Menu.Item>
           </Menu.Dropdown>
         </Menu>
       </header>
@@ -124,6 +132,15 @@ export function PlotFrame(props: PlotFrameProps) {
       </div>
     </section>
   );
+}
+
+// Writes the plot as a file that `deodar plot` draws.
+async function saveFigure(plot: Omit<SaveFigure, "type">): Promise<void> {
+  const answer = await request({ type: "save_figure", ...plot });
+  if ((answer.problems ?? []).length === 0) {
+    const what = `Saved as ${answer.file}. Type: deodar plot ${answer.file} --out figure.pdf`;
+    useStudio.getState().notify({ what }, "info");
+  }
 }
 
 // In a record, the port that has no frames, and why.
