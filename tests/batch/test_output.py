@@ -138,6 +138,18 @@ def test_copies_that_diverge_are_nan_in_the_file(tmp_path: Path) -> None:
     assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
 
 
+def test_copies_that_diverged_before_a_stop_are_nan_after_it(tmp_path: Path) -> None:
+    amplitudes = {"sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0, 1.5]}, "batch": 2}
+    given: dict[str, Any] = {"record": ["u"], "every": 5, **amplitudes}
+    with pytest.warns(dd.errors.RunWarning):
+        here = dd.simulate(model(), 40, **given)
+    with pytest.raises(Interrupted):
+        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(60), **given)
+    with pytest.warns(dd.errors.RunWarning):
+        there = dd.resume(tmp_path / "run")
+    assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
+
+
 def test_a_run_that_diverges_keeps_its_record_until_then(tmp_path: Path) -> None:
     made = model()
     made.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})  # grows without bound

@@ -6,6 +6,7 @@ import errno
 import json
 import os
 import shutil
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -189,6 +190,27 @@ def test_the_provenance_of_a_killed_record_is_readable_without_its_arrays(
     shutil.rmtree(tmp_path / "r.zarr" / "u.activation")
     text = json.loads((tmp_path / "r.zarr" / "zarr.json").read_text())
     assert json.loads(text["attributes"]["deodar"])["complete"] is False
+
+
+def test_a_commit_waits_for_samples_that_came_during_an_earlier_one(
+    whole: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, free, write = threading.Event(), threading.Event(), GrowingRecord._write
+
+    def slow(self: GrowingRecord, *given: Any) -> None:
+        begun.set()
+        free.wait(10)
+        write(self, *given)
+
+    monkeypatch.setattr(GrowingRecord, "_write", slow)
+    writer = begin(whole, tmp_path / "r.zarr")
+    writer.annotate("changes", "[]")
+    assert begun.wait(10)
+    put(writer, whole, 0, 6)
+    threading.Timer(0.2, free.set).start()
+    writer.commit()
+    assert dd.open_record(tmp_path / "r.zarr").sizes["time"] == 6
+    writer.close(True)
 
 
 def test_a_run_waits_for_a_slow_disk(

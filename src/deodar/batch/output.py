@@ -85,7 +85,10 @@ class RunOutput:
             folder.claim(path, "zarr", force)
         self.writer: GrowingRecord | None = None
         self.reasons: dict[tuple[int, ...], str] = {}
-        self.done: list[int] = list(self.state[0]["done"]) if self.state is not None else []
+        self.done: list[int] = []
+        if self.state is not None:
+            self.done = list(self.state[0]["done"])
+            self.reasons = {tuple(copy): reason for copy, reason in self.state[0]["reasons"]}
 
     def lengthen(self, duration: float) -> None:
         """Let a resumed run last longer than it did.
@@ -115,6 +118,10 @@ class RunOutput:
         self.doc, self.cut, self.settings = doc, cut, {**settings, "batch": cut.batch}
         self.grid: dict[str, list[float]] = settings["sweep"]
         self.labels: list[int] | None = settings["trials"]
+
+    def told(self) -> list[Any]:
+        """Return which copies of complete pieces diverged, and why, as plain data."""
+        return [[list(copy), reason] for copy, reason in self.reasons.items()]
 
     def part(self, number: int) -> OutputPart:
         """Return the part of the record that a piece of the run writes."""
@@ -230,6 +237,7 @@ class OutputPart:
             return
         self.end(reasons)
         about = {"piece": -1, "lengths": writer.lengths, "done": self.out.done}
+        about["reasons"] = self.out.told()
         stored.write(
             self.out.record / CHECKPOINT, about | {"pieces": self.out.cut.count}, [], checkpoint.KIND
         )
@@ -333,6 +341,7 @@ class OutputPart:
             "above": self.selector.above,
             "taken": self._taken,
             "done": self.out.done,
+            "reasons": self.out.told(),
             "pieces": self.out.cut.count,
             "made_by": provenance.made_by(run.program.device, run.program.precision),
         }

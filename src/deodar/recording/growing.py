@@ -169,7 +169,9 @@ class GrowingRecord:
         self._waiting: list[_Samples] = []
         self._bytes = 0
         self._changed = threading.Condition()
-        self._closing = self._flushing = False
+        self._closing = False
+        # commits that were asked for, and those that are in the file
+        self._asked = self._committed = 0
         self._error: BaseException | None = None
         self._inode = (path / "zarr.json").stat().st_ino
         self._thread = threading.Thread(target=self._loop, name="deodar-record", daemon=True)
@@ -214,9 +216,9 @@ class GrowingRecord:
             OutputError: a sample could not be written.
         """
         with self._changed:
-            self._flushing = True
+            self._asked = mine = self._asked + 1
             self._changed.notify_all()
-            self._changed.wait_for(lambda: not self._flushing or self._error is not None)
+            self._changed.wait_for(lambda: self._committed >= mine or self._error is not None)
             self._require()
 
     def close(
@@ -265,7 +267,7 @@ class GrowingRecord:
             layout["attributes"][name] = None
             attributes = {**self._group["attributes"], name: text, portable.KEY: codec.line(layout)}
             self._group = {**self._group, "attributes": attributes}
-            self._flushing = True
+            self._asked += 1
             self._changed.notify_all()
 
     def abandon(self) -> None:
@@ -311,22 +313,25 @@ class GrowingRecord:
         while not closing:
             with self._changed:
                 self._changed.wait_for(
-                    lambda: self._closing or self._flushing or self._bytes > PENDING_BYTES // 2, FLUSH_SECONDS
+                    lambda: (
+                        self._closing or self._asked > self._committed or self._bytes > PENDING_BYTES // 2
+                    ),
+                    FLUSH_SECONDS,
                 )
                 waiting, self._waiting = self._waiting, []
-                closing, flushing, lengths = self._closing, self._flushing, dict(self.lengths)
+                closing, asked, lengths = self._closing, self._asked, dict(self.lengths)
             try:
-                if waiting or flushing:
+                if waiting or asked > self._committed:
                     with _writing(self.path):
                         self._write(waiting, lengths)
             except BaseException as error:
                 with self._changed:
-                    self._error, self._flushing = error, False
+                    self._error = error
                     self._changed.notify_all()
                 return
             with self._changed:
                 self._bytes -= sum(a.nbytes for samples in waiting for a in samples.arrays.values())
-                self._flushing = self._flushing and not flushing
+                self._committed = asked
                 self._changed.notify_all()
 
     def _write(self, waiting: Sequence[_Samples], lengths: Mapping[str, int]) -> None:

@@ -112,8 +112,12 @@ class Recorder:
         self._writer: GrowingRecord | None = GrowingRecord(
             target, record.with_times(empty, dimensions), [one.dimension for one in series]
         )
-        self.compile(run.program)
-        self.sample(run)
+        try:
+            self.compile(run.program)
+            self.sample(run)
+        except BaseException:
+            self._writer.abandon()
+            raise
 
     # ------------------------------------------------------------------------------------- by the session
 
