@@ -3,7 +3,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { button } from "./hands";
+import { button, choose } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -39,9 +39,9 @@ test("what is plotted is recorded while the model runs, and the record opens", a
   expect(JSON.parse(group.attributes.deodar).complete).toBe(true);
   await page.getByRole("region", { name: "Messages" }).getByText(`Recorded into ${path}`).waitFor();
   await button(page, "Open the record").click();
-  await page.getByRole("slider", { name: "Moment" }).waitFor();
-  await button(page, "Menu of this plot").click();
-  await page.getByRole("menuitem", { name: "Save as a figure file" }).click();
+  await button(page, "Run its model").waitFor();
+  await page.getByRole("region", { name: /of u$/ }).locator("canvas").first().waitFor();
+  await choose(page, "Menu of this plot", "Save as a figure file");
   await page
     .getByRole("region", { name: "Messages" })
     .getByText("Saved as selection-figure-001.toml")

@@ -146,12 +146,12 @@ def resume(folder: Path, case: str, outcome: Outcome) -> None:
             outcome.errors.append(f"{case}: {name} differs after the run was resumed")
 
 
-def attack(folder: Path, kills: int, seed: int) -> Outcome:
-    """Kill runs at moments that are drawn, and resume some."""
+def attack(folder: Path, kills: int, seed: int, longest: float = 3.0) -> Outcome:
+    """Kill runs up to `longest` seconds after their first samples, and stop and resume some."""
     draw, outcome = random.Random(seed), Outcome()
     for k in range(kills):
         case = list(CASES)[k % len(CASES)]
-        shutil.rmtree(kill(folder, case, draw.uniform(0, 3), outcome), ignore_errors=True)
+        shutil.rmtree(kill(folder, case, draw.uniform(0, longest), outcome), ignore_errors=True)
     for case in CASES:
         resume(folder, case, outcome)
     return outcome

@@ -99,6 +99,67 @@ def test_a_complete_run_becomes_longer(tmp_path: Path) -> None:
     assert longer.load().identical(dd.simulate(model(), 40, **given))
 
 
+def test_a_run_that_is_made_longer_remembers_it_when_it_is_stopped(tmp_path: Path) -> None:
+    given = {"record": ["u"], "every": 5, "seed": 3}
+    dd.simulate(model(), 20, out=tmp_path / "run", **given)
+    with pytest.raises(Interrupted):
+        dd.resume(tmp_path / "run", duration=60, progress=stopping(30))
+    stated = about(dd.open_record(tmp_path / "run"))
+    assert stated["complete"] is False and stated["duration"] == 60
+    assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 60, **given))
+
+
+def test_a_resumed_run_that_is_stopped_keeps_the_samples_that_were_there(tmp_path: Path) -> None:
+    given = {"record": ["u"], "every": 1, "seed": 3}
+    with pytest.raises(Interrupted):
+        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(30), **given)
+    before = dd.open_record(tmp_path / "run").sizes["time"]
+    (tmp_path / "run" / "record.zarr" / output.CHECKPOINT).unlink()
+    with pytest.raises(Interrupted):
+        dd.resume(tmp_path / "run", progress=stopping(5))
+    found = files.load_record(tmp_path / "run")
+    assert found.sizes["time"] == before
+    assert found.drop_attrs().identical(dd.simulate(model(), before - 1, **given).drop_attrs())
+
+
+def test_a_record_that_was_saved_is_not_resumed(tmp_path: Path) -> None:
+    data = dd.simulate(model(), 20, record="u", every=5)
+    for name in ("run.zarr", "run.nc"):
+        dd.save_record(data, tmp_path / name)
+        with pytest.raises(RecordError, match="cannot be resumed"):
+            dd.resume(tmp_path / name, duration=40)
+
+
+def test_a_state_of_another_run_is_refused(tmp_path: Path) -> None:
+    for name, seed in (("run", 3), ("other", 4)):
+        with pytest.raises(Interrupted):
+            dd.simulate(
+                model(), 40, record="u", every=5, seed=seed, out=tmp_path / name, progress=stopping(10)
+            )
+    state = Path("record.zarr") / output.CHECKPOINT
+    (tmp_path / "run" / state).write_bytes((tmp_path / "other" / state).read_bytes())
+    with pytest.raises(RecordError, match="of another run"):
+        dd.resume(tmp_path / "run")
+
+
+def test_a_run_with_conditions_alone_states_where_it_ended(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made = model()
+    made.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})
+    with pytest.raises(NotFinite, match="is kept") as caught:
+        dd.simulate(made, 40, record="u,when=crossing", every=1, out=tmp_path / "run")
+    assert "--resume" not in str(caught.value)
+
+
+def test_a_stop_before_the_first_step_samples_once(tmp_path: Path) -> None:
+    given = {"record": ["n", "u.output,when=peak"], "every": 10, "seed": 3}
+    with pytest.raises(Interrupted):
+        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(0), **given)
+    found, whole = dd.resume(tmp_path / "run"), dd.simulate(model(), 40, out=tmp_path / "whole", **given)
+    assert found["u.output.time"].values.tolist() == whole["u.output.time"].values.tolist()
+
+
 def test_a_run_in_pieces_does_not_become_longer(tmp_path: Path) -> None:
     dd.simulate(model(), 20, record="u", every=5, trials=4, batch=2, out=tmp_path / "run")
     with pytest.raises(RecordError, match="several pieces"):
@@ -173,6 +234,20 @@ def test_a_bare_record_has_no_model_file(tmp_path: Path) -> None:
     dd.simulate(model(), 20, record="u", every=5, out=tmp_path / "run.zarr")
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
     assert files.load_record(tmp_path / "run.zarr").sizes["time"] == 5
+
+
+def test_a_bare_record_of_the_command_has_no_model(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    dd.save(model(), "m.json")
+    command = ["run", "m.json", "--duration", "20", "--record", "u", "--out", "x.zarr", "--json"]
+    assert main(command) == 0
+    assert "model" not in json.loads(capsys.readouterr().out)
+    assert main([*command, "--force"]) == 0
+    with pytest.raises(SystemExit):
+        main([*command, "--force", "--format", "netcdf"])
+    assert "--format netcdf cannot be given" in capsys.readouterr().err
 
 
 def test_the_command_resumes_and_answers_in_json(

@@ -17,7 +17,7 @@ import xarray
 import deodar as dd
 from deodar.errors import OutputError, RecordError
 from deodar.model import output
-from deodar.recording import files, growing, sound
+from deodar.recording import diverged, files, growing, sound
 from deodar.recording.growing import GrowingRecord
 from deodar.recording.record import about
 from tests.recording.models import record
@@ -265,3 +265,93 @@ def test_a_record_of_a_newer_version_is_named(
     for read in (dd.open_record, dd.load_record):
         with pytest.raises(RecordError, match="of version 9"):
             read(tmp_path / "r.zarr")
+
+
+def test_a_chunk_that_is_nan_is_not_missing(tmp_path: Path) -> None:
+    data = record(trials=3)
+    data["u.activation"].values[:] = np.nan
+    writer = begin(data, tmp_path / "r.zarr")
+    values = {str(n): v.values for n, v in data.data_vars.items()}
+    writer.put("time", data["time"].values, values, 0, (slice(0, 3),))
+    writer.close(True)
+    found = files.load_record(tmp_path / "r.zarr")
+    assert sound.DAMAGED not in found.attrs and found.sizes["time"] == 5
+
+
+@pytest.mark.parametrize("complete", [False, True])
+def test_samples_of_an_earlier_run_stay_until_they_are_written_again(
+    whole: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, complete: bool
+) -> None:
+    monkeypatch.setattr(growing, "LONGEST_CHUNK", 4)
+    writer = begin(whole, tmp_path / "r.zarr")
+    put(writer, whole, 0, 15)
+    writer.close(False)
+    writer = GrowingRecord.resumed(tmp_path / "r.zarr", {"time": 6})
+    put(writer, whole, 6, 9)
+    writer.close(complete)
+    n = 9 if complete else 15
+    found = files.load_record(tmp_path / "r.zarr")
+    assert found.drop_attrs().identical(whole.isel(time=slice(n)).drop_attrs())
+
+
+def test_the_second_piece_of_copies_leaves_the_times_of_the_first(tmp_path: Path) -> None:
+    data = record(trials=4)
+    writer = begin(data, tmp_path / "r.zarr", piece={"trial": 2})
+    values = {str(n): v.values for n, v in data.data_vars.items()}
+    first, second = slice(0, 2), slice(2, 4)
+    writer.put("time", data["time"].values, {n: v[first] for n, v in values.items()}, 0, (first,))
+    writer.put(
+        "time", data["time"].values[:2], {n: v[second][:, :2] for n, v in values.items()}, 0, (second,)
+    )
+    writer.close(False)
+    found = files.load_record(tmp_path / "r.zarr")
+    assert found["time"].values.tolist() == data["time"].values.tolist()
+    assert found.isel(trial=first).drop_attrs().identical(data.isel(trial=first).drop_attrs())
+    assert np.isnan(found["u.activation"].values[2:, 2:]).all()
+
+
+def test_a_missing_chunk_of_copies_ends_an_incomplete_record(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(growing, "LONGEST_CHUNK", 2)
+    data = record(trials=4)
+    writer = begin(data, tmp_path / "r.zarr", piece={"trial": 2})
+    part = slice(0, 2)
+    values = {str(n): v.values[part] for n, v in data.data_vars.items()}
+    writer.put("time", data["time"].values, values, 0, (part,))
+    writer.close(False)
+    assert files.load_record(tmp_path / "r.zarr").sizes["time"] == 5
+    (tmp_path / "r.zarr" / "u.activation" / "c" / "0" / "1" / "0").unlink()
+    found = files.load_record(tmp_path / "r.zarr")
+    assert found.sizes["time"] == 2 and "u.activation" in found.attrs[sound.DAMAGED]
+
+
+def test_a_record_that_was_removed_is_not_completed(whole: xarray.Dataset, tmp_path: Path) -> None:
+    writer = begin(whole, tmp_path / "r.zarr")
+    put(writer, whole, 0, 6)
+    writer.commit()
+    shutil.rmtree(tmp_path / "r.zarr")
+    with pytest.raises(OutputError, match="removed or replaced"):
+        writer.close(True)
+    assert not (tmp_path / "r.zarr").exists()
+
+
+def test_coordinates_are_added_again(whole: xarray.Dataset, tmp_path: Path) -> None:
+    """A run that is made longer may lose further copies."""
+    data = record(trials=3)
+    begin(data, tmp_path / "r.zarr").close(True, diverged.coordinate({"trial": 3}, {(1,): "first"}))
+    more = diverged.coordinate({"trial": 3}, {(1,): "first", (2,): "second"})
+    GrowingRecord.resumed(tmp_path / "r.zarr", {}).close(True, more)
+    found = files.load_record(tmp_path / "r.zarr")
+    assert found["diverged"].values.tolist() == ["", "first", "second"]
+    assert found.attrs["diverged"].startswith("2 of 3")
+
+
+def test_a_resumed_record_states_its_new_settings_at_once(whole: xarray.Dataset, tmp_path: Path) -> None:
+    writer = begin(whole, tmp_path / "r.zarr")
+    put(writer, whole, 0, 6)
+    writer.close(True)
+    writer = GrowingRecord.resumed(tmp_path / "r.zarr", {"time": 6}, {"duration": 99.0})
+    stated = about(dd.open_record(tmp_path / "r.zarr"))
+    assert stated["complete"] is False and stated["duration"] == 99
+    writer.close(True)

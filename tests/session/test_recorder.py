@@ -14,7 +14,7 @@ import pytest
 import xarray
 
 import deodar as dd
-from deodar.errors import OutputError, OutputExists, ParameterError, RecordError
+from deodar.errors import NotFinite, OutputError, OutputExists, ParameterError, RecordError
 from deodar.recording import files, repeat
 from deodar.recording.growing import GrowingRecord
 from deodar.recording.record import about, time_dimension
@@ -205,6 +205,41 @@ def test_a_full_disk_is_raised_once_and_the_session_runs_on(
     session.step(5)
     assert not recorder.open and "No space left" in recorder.ended
     assert dd.open_record(tmp_path / "r.zarr").sizes["time"] == 6
+
+
+def test_a_session_that_diverges_ends_its_record_and_runs_on(tmp_path: Path) -> None:
+    session = dd.Session(model())
+    recorder = session.record(tmp_path / "r.zarr", "u")
+    session.step(5)
+    session.set({"u.sigmoid": dd.Linear(), "u.kernel.0.amplitude": 100.0})
+    with pytest.raises(NotFinite):
+        session.run(1000)
+    assert "infinite or undefined" in recorder.ended
+    session.set("u.kernel.0.amplitude", 0.0)
+    session.run(5)
+    assert dd.open_record(tmp_path / "r.zarr").sizes["time"] >= 6
+
+
+def test_a_change_after_the_last_step_is_stored(tmp_path: Path) -> None:
+    session = dd.Session(model())
+    with session.record(tmp_path / "r.zarr", "u"):
+        session.step()
+        session.set("u.tau", 70.0)
+    changes = json.loads(dd.open_record(tmp_path / "r.zarr").attrs["changes"])
+    assert changes == [{"tick": 1, "what": "u.tau", "value": 70.0}]
+
+
+def test_of_several_moves_between_two_steps_the_last_one_is_stored(tmp_path: Path) -> None:
+    session = dd.Session(model())
+    with session.record(tmp_path / "r.zarr", "u"):
+        session._note("move block", [1.0, 2.0])
+        session.step()
+        session._note("move block", [3.0, 4.0])
+        assert session.recorder is not None
+        session.recorder.note()
+        session._note("move block", [5.0, 6.0])
+    changes = json.loads(dd.open_record(tmp_path / "r.zarr").attrs["changes"])
+    assert [change["value"] for change in changes] == [[1.0, 2.0], [5.0, 6.0]]
 
 
 def test_a_session_has_one_recorder_at_a_time(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -14,7 +15,7 @@ from deodar import codec
 from deodar.batch.pieces import Pieces
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
-from deodar.errors import DeodarError, RecordError
+from deodar.errors import DeodarError, NotFinite, RecordError
 from deodar.model.document import Document
 from deodar.numerics.axes import shape
 from deodar.recording import probe, provenance, stored
@@ -88,7 +89,7 @@ class RunOutput:
         self.done: list[int] = []
         if self.state is not None:
             self.done = list(self.state[0]["done"])
-            self.reasons = {tuple(copy): reason for copy, reason in self.state[0]["reasons"]}
+            self.reasons = {tuple(copy): reason for copy, reason in self.state[0].get("reasons", [])}
 
     def lengthen(self, duration: float) -> None:
         """Let a resumed run last longer than it did.
@@ -96,9 +97,7 @@ class RunOutput:
         Raises:
             RecordError: it was cut into pieces, of which only the last state of one is stored.
         """
-        if self.state is None:
-            return
-        if self.state[0]["pieces"] > 1:
+        if self.state is not None and self.state[0]["pieces"] > 1:
             raise RecordError(
                 "is a run in several pieces, which cannot be made longer",
                 where=str(self.path),
@@ -107,11 +106,12 @@ class RunOutput:
         self.longer = {"duration": duration}
         self.done.clear()
 
-    def kept(self, data: xarray.Dataset) -> str:
+    def kept(self, data: xarray.Dataset, error: DeodarError) -> str:
         """Return what to say of the record of a run that ended with an error."""
-        times = data["time"].values
-        end = f"up to time {times[-1]:g} is" if times.size else "has no samples, but is"
-        return f"The record {end} kept: {self.path}. deodar run FOLDER --resume continues it"
+        ends = [v.values[-1] for d, v in data.coords.items() if probe.is_time(str(d)) and v.size]
+        end = f"up to time {max(ends):g} is" if ends else "has no samples, but is"
+        again = "" if isinstance(error, NotFinite) else f". deodar run {self.path} --resume continues it"
+        return f"The record {end} kept: {self.path}{again}"
 
     def plan(self, doc: Document, cut: Pieces, settings: Mapping[str, Any]) -> None:
         """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
@@ -151,11 +151,7 @@ class RunOutput:
                 else:
                     folder.begin(self.doc, self.path, self.force)
                 piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
-                times = [
-                    d
-                    for d in map(str, empty.dims)
-                    if d.rpartition(".")[2] == probe.TIME and not empty.sizes[d]
-                ]
+                times = [d for d in map(str, empty.dims) if probe.is_time(d) and not empty.sizes[d]]
                 self.writer = GrowingRecord(self.record, empty, times, piece)
         return self.writer
 
@@ -165,7 +161,7 @@ class RunOutput:
         from deodar.recording.growing import GrowingRecord
 
         lengths = self.state[0]["lengths"] if self.state is not None else {}
-        return GrowingRecord.resumed(self.record, lengths)
+        return GrowingRecord.resumed(self.record, lengths, self.longer)
 
     def close(self) -> xarray.Dataset:
         """Complete the record and return it, opened."""
@@ -179,7 +175,7 @@ class RunOutput:
             for copy in self.reasons:
                 writer.blank(copy)
             lost = diverged.coordinate(self.sizes(), self.reasons)
-        writer.close(True, lost, self.longer)
+        writer.close(True, lost)
         return files.open_record(self.record)
 
     def abandon(self) -> xarray.Dataset | None:
@@ -190,9 +186,10 @@ class RunOutput:
         # start-up time: this imports xarray
         from deodar.recording import files
 
-        if self.writer is None:
+        if self.writer is None and not self.resumes:
             return None
-        self.writer.abandon()
+        if self.writer is not None:
+            self.writer.abandon()
         with contextlib.suppress(DeodarError):
             return files.open_record(self.record)
         return None
@@ -314,7 +311,7 @@ class OutputPart:
                 self._save(run, begun + done)
                 raise
 
-        if start >= begun:  # a run that is made longer records its end again
+        if start and start >= begun:  # a run that is made longer records its end again
             taken = self._taken = 0
         due = start + taken * gap - begun if taken < most else steps - begun + 1
         run.record(steps - begun, ports, due, gap, collect, between)
@@ -342,6 +339,7 @@ class OutputPart:
             "taken": self._taken,
             "done": self.out.done,
             "reasons": self.out.told(),
+            "of": self._digest(),
             "pieces": self.out.cut.count,
             "made_by": provenance.made_by(run.program.device, run.program.precision),
         }
@@ -352,10 +350,21 @@ class OutputPart:
         if self.out.state is None or self.out.state[0]["piece"] != self.number:
             return 0
         about, arrays = self.out.state
+        if about.get("of") != self._digest():
+            raise RecordError(
+                "the stored state is of another run",
+                where=str(self.out.record / CHECKPOINT),
+                fix="Remove it; the run then begins again",
+            )
         checkpoint.put(run, about, arrays)
         self._taken, self._saved_at = int(about["taken"]), int(about["steps"])
         self.selector.above = dict(about["above"])
         return int(about["steps"])
+
+    def _digest(self) -> str:
+        """Return the identity of the run of this piece, apart from its duration and its machine."""
+        same = {k: v for k, v in self.about.items() if k not in ("duration", "made_by")}
+        return hashlib.sha256(codec.line(same, sort=True).encode()).hexdigest()
 
     def end(self, reasons: Mapping[tuple[int, ...], str]) -> None:
         """Note that the piece is complete, and which of its copies diverged, with their reasons."""

@@ -57,6 +57,12 @@ def resume(
 
     path = Path(path)
     data = files.open_record(path)
+    if not files.grows(path):
+        raise RecordError(
+            "was written as a whole, without the states of its run, so it cannot be resumed",
+            where=str(path),
+            fix="Run its model again, with `out`",
+        )
     made = about(data)
     model, settings = request(data, trust)
     whole = settings["duration"] if duration is None else float(duration)

@@ -171,7 +171,7 @@ def _computed(
         if isinstance(error, Interrupted):
             error.data = data if data is not None else error.data
         elif isinstance(error, DeodarError) and data is not None:
-            error.advise(out.kept(data))
+            error.advise(out.kept(data, error))
         raise
     return out.close(), lost
 

@@ -326,13 +326,19 @@ class _Place:
 
     def __init__(self, args: argparse.Namespace, name: str) -> None:
         # start-up time: these bring JAX
-        from deodar.recording import folder, places
+        from deodar.recording import files, folder, places
 
         self.given: Path | None = args.out
         self.name = name
         self.format: str = args.format
         self.force: bool = args.force
-        folder.claim(self.given or places.free(Path(), name), self.format, self.force)
+        self.bare = self.given is not None and self.given.suffix.lower() == files.SUFFIXES["zarr"]
+        if self.bare:
+            if self.format != "zarr":
+                args.wrong(f"--out names a .zarr, so --format {self.format} cannot be given")
+            files.claim(args.out, "zarr", self.force)
+        else:
+            folder.claim(self.given or places.free(Path(), name), self.format, self.force)
 
     def folder(self) -> Path:
         """Return the folder of the run."""
@@ -399,7 +405,7 @@ def _finish(
     # start-up time: these bring JAX
     from deodar.recording.files import SUFFIXES
 
-    if stopped and (data is None or not data.sizes.get("time", 0)):
+    if stopped and (data is None or not _samples(data)):
         print(
             "deodar run:"
             f" {_options.paragraph([stopped, 'Nothing had been recorded, so nothing was written'])}",
@@ -447,10 +453,18 @@ def _finish(
     return 0 if good else 1
 
 
+def _samples(data: xarray.Dataset) -> int:
+    """Return the number of times of the variable with most of them."""
+    # start-up time: this brings xarray
+    from deodar.recording import probe
+
+    return max((n for d, n in data.sizes.items() if probe.is_time(str(d))), default=0)
+
+
 def _contents(data: xarray.Dataset) -> str:
     names = list(map(str, data.data_vars))
     shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
-    times = data.sizes.get("time", 0)
+    times = _samples(data)
     lead = [
         f"{data.sizes['trial']} trials" if "trial" in data.sizes else "",
         f"{times} times" if times != 1 else "one time",
@@ -464,12 +478,13 @@ def _answer(
     answer: dict[str, Json] = {
         "out": str(out),
         "record": str(record),
-        "model": str(out / "model.json"),
         "variables": {
             str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in data.data_vars.items()
         },
         "complete": not stopped,
     }
+    if (out / "model.json").is_file():
+        answer["model"] = str(out / "model.json")
     if done is not None:
         answer["repetition"] = {
             "same_bits": done.same_bits,

@@ -110,6 +110,8 @@ def load_record(path: str | Path) -> xarray.Dataset:
         _require_record(data)
         try:
             whole = data.load()
+        except (MemoryError, OSError):
+            raise
         except Exception:  # libraries that read untrusted bytes may raise any exception
             whole = sound.readable(data).load()
         return portable.unpack(whole)
@@ -203,10 +205,16 @@ def is_record(path: Path) -> bool:
         return "table for other programs" in str(error)
 
 
+def grows(path: Path) -> bool:
+    """Return whether a record was written during its run, so that it can be resumed."""
+    place, kind = locate(path)
+    return kind == "zarr" and '\\"grows\\"' in (place / "zarr.json").read_text(encoding="utf-8")
+
+
 def is_zarr(path: Path) -> bool:
     """Return whether a folder is a Zarr record of deodar."""
     try:
-        text = (path / "zarr.json").read_text()
+        text = (path / "zarr.json").read_text(encoding="utf-8")
         return f'"{portable.KEY}"' in text or f'"{KEY}"' in text
     except (OSError, ValueError):
         return False
@@ -261,7 +269,7 @@ def _opened(path: Path, kind: str) -> xarray.Dataset:
     if kind == "netcdf":
         return xarray.open_dataset(path, engine="scipy", decode_cf=False)
     # the metadata of the group commit a record that grows; records of earlier versions may lack them
-    whole = "consolidated_metadata" in (path / "zarr.json").read_text()
+    whole = "consolidated_metadata" in (path / "zarr.json").read_text(encoding="utf-8")
     data = xarray.open_zarr(path, zarr_format=3, consolidated=whole, decode_cf=False, chunks=None)
     return sound.present(data, path)
 

@@ -17,7 +17,7 @@ import math
 import os
 import threading
 import warnings
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -29,7 +29,7 @@ import zarr.codecs
 from deodar import codec
 from deodar.errors import DeodarError, OutputError, Problem, RecordError
 from deodar.model import output
-from deodar.recording import portable
+from deodar.recording import places, portable
 from deodar.recording.provenance import KEY
 
 FLUSH_SECONDS = 0.4
@@ -38,7 +38,7 @@ FLUSH_SECONDS = 0.4
 CHUNK_BYTES = 2**20
 """Bytes of a chunk before compression.
 
-A guess: small enough to read one frame, large enough for few files).
+A guess: small enough to read one frame, large enough for few files.
 """
 
 LONGEST_CHUNK = 8192
@@ -64,8 +64,8 @@ class _Samples(NamedTuple):
 class _Tail:
     """The last chunk of an array in one region, as far as it is known."""
 
-    def __init__(self, array: Any, axis: int, region: Region) -> None:
-        self.array, self.axis, self.region = array, axis, region
+    def __init__(self, array: Any, axis: int, region: Region, known: Callable[[], int]) -> None:
+        self.array, self.axis, self.region, self.known = array, axis, region, known
         self.frames = int(array.chunks[axis])
         self.start = -1
         lead = [len(range(*part.indices(n))) for part, n in zip(region, array.shape, strict=False)]
@@ -80,7 +80,7 @@ class _Tail:
             chunk = (first + taken) // self.frames * self.frames
             if chunk != self.start:
                 self.write()
-                self._begin(chunk, first + taken)
+                self._begin(chunk)
             inside = first + taken - chunk
             n = min(self.frames - inside, count - taken)
             lead = (slice(None),) * self.axis
@@ -94,17 +94,25 @@ class _Tail:
             self.array[*self.region, place] = self.values
             self.dirty = False
 
-    def _begin(self, chunk: int, first: int) -> None:
-        """Begin a chunk; what it holds before `first` is read from the file."""
+    def _begin(self, chunk: int) -> None:
+        """Begin a chunk; the samples that the file has of it are read."""
         self.start = chunk
         self.values = np.full(self.shape, np.nan if self.array.dtype.kind == "f" else 0, self.array.dtype)
         if self.array.shape[self.axis] < chunk + self.frames:
             shape = list(self.array.shape)
             shape[self.axis] = chunk + self.frames
             self.array.resize(tuple(shape))
-        if first > chunk:
+        there = min(self.known(), chunk + self.frames) - chunk
+        if there > 0:
             lead = (slice(None),) * self.axis
-            self.values[*lead, : first - chunk] = self.array[*self.region, chunk:first]
+            try:
+                self.values[*lead, :there] = self.array[*self.region, chunk : chunk + there]
+            except (ValueError, RuntimeError) as error:
+                raise RecordError(
+                    f"is damaged: samples {chunk} to {chunk + there} of {self.array.name} cannot be read"
+                    f" ({error})",
+                    fix="Run it again",
+                ) from None
 
 
 class GrowingRecord:
@@ -128,43 +136,43 @@ class GrowingRecord:
         piece: Mapping[str, int] | None = None,
     ) -> None:
         self.path = path
-        with _writing(path):
-            _create(path, empty, growing, piece or {})
+        with _writing(path):  # a reader finds the whole record, or none
+            places.write_folder(path, lambda beside: _create(beside, empty, growing, piece or {}))
         self._open(dict.fromkeys(growing, 0))
 
     @classmethod
-    def resumed(cls, path: Path, lengths: Mapping[str, int]) -> GrowingRecord:
+    def resumed(
+        cls, path: Path, lengths: Mapping[str, int], settings: Mapping[str, Any] | None = None
+    ) -> GrowingRecord:
         """Return a writer that continues an incomplete record, after `lengths` samples of each dimension.
 
+        Later samples of the record stay until they are written again or the record is complete.
+
+        Args:
+            path: the record.
+            lengths: number of samples of each growing dimension; 0 where a dimension is left out.
+            settings: entries of the provenance that change from now on.
+
         Raises:
-            RecordError: the record is shorter, or another process writes it.
+            RecordError: another process writes the record.
         """
         self = cls.__new__(cls)
         self.path = path
-        self._open(lengths)
+        self._open(lengths, {**(settings or {}), "complete": False})
         return self
 
-    def _open(self, lengths: Mapping[str, int]) -> None:
+    def _open(self, lengths: Mapping[str, int], settings: Mapping[str, Any] | None = None) -> None:
         path = self.path
         self._lock = _locked(path)
-        with _writing(path):
-            self._group: Any = codec.parse((path / "zarr.json").read_text())
-            layout = codec.parse(self._group["attributes"][portable.KEY])
-            stored = {old: new for new, old in layout["names"].items()}
-            self._names = stored
-            self._arrays: dict[str, Any] = {}
-            self._axis: dict[str, int] = {}
-            self._dimension: dict[str, str] = {}
-            members = self._group["consolidated_metadata"]["metadata"]
-            for name, about in layout["variables"].items():
-                if dimension := about.get("grows"):
-                    self._arrays[name] = zarr.open_array(
-                        path / name, mode="r+", config={"write_empty_chunks": True}
-                    )
-                    self._dimension[name] = dimension
-                    dims = [layout["names"].get(d, d) for d in members[name]["dimension_names"]]
-                    self._axis[name] = dims.index(dimension)
-        self.lengths = {dimension: int(lengths.get(dimension, 0)) for dimension in self._dimension.values()}
+        try:
+            with _writing(path):
+                self._read(path, lengths)
+                if settings is not None:
+                    self._settle(settings)
+                    self._commit(self.lengths)
+        except BaseException:
+            self._unlock()
+            raise
         self._tails: dict[tuple[str, Region], _Tail] = {}
         self._waiting: list[_Samples] = []
         self._bytes = 0
@@ -173,9 +181,43 @@ class GrowingRecord:
         # commits that were asked for, and those that are in the file
         self._asked = self._committed = 0
         self._error: BaseException | None = None
-        self._inode = (path / "zarr.json").stat().st_ino
         self._thread = threading.Thread(target=self._loop, name="deodar-record", daemon=True)
         self._thread.start()
+
+    def _read(self, path: Path, lengths: Mapping[str, int]) -> None:
+        """Read the layout of the record, and open its arrays."""
+        self._group: Any = codec.parse((path / "zarr.json").read_text(encoding="utf-8"))
+        layout = codec.parse(self._group["attributes"][portable.KEY])
+        stored = {old: new for new, old in layout["names"].items()}
+        self._names = stored
+        self._arrays: dict[str, Any] = {}
+        self._axis: dict[str, int] = {}
+        self._dimension: dict[str, str] = {}
+        members = self._group["consolidated_metadata"]["metadata"]
+        for name, about in layout["variables"].items():
+            if dimension := about.get("grows"):
+                # a chunk that is NaN is a chunk, not a missing one; `open_array` ignores such settings
+                array = zarr.open_array(path / name, mode="r+")
+                self._arrays[name] = array.with_config({"write_empty_chunks": True})
+                self._dimension[name] = dimension
+                dims = [layout["names"].get(d, d) for d in members[name]["dimension_names"]]
+                self._axis[name] = dims.index(dimension)
+        self.lengths = {dimension: int(lengths.get(dimension, 0)) for dimension in self._dimension.values()}
+        self.known = {
+            dimension: int(members[name]["shape"][self._axis[name]])
+            for name, dimension in self._dimension.items()
+        }
+        self._inode = (path / "zarr.json").stat().st_ino
+
+    def _unlock(self) -> None:
+        if self._lock is not None:
+            os.close(self._lock)
+            self._lock = None
+
+    def _settle(self, settings: Mapping[str, Any]) -> None:
+        """Set entries of the provenance."""
+        about = {**codec.parse(self._group["attributes"][KEY]), **settings}
+        self._group["attributes"][KEY] = codec.line(about)
 
     # ---------------------------------------------------------------------------------- in the run's thread
 
@@ -243,29 +285,32 @@ class GrowingRecord:
         self._thread.join()
         try:
             self._require()
+            self._require_present()
             with _writing(self.path):
-                about = codec.parse(self._group["attributes"][KEY])
-                self._group["attributes"][KEY] = codec.line(
-                    {**about, **(settings or {}), "complete": complete}
-                )
+                self._settle({**(settings or {}), "complete": complete})
+                if complete:  # what an earlier run had written beyond is dropped
+                    self.known = dict(self.lengths)
                 for name, array in self._arrays.items():
-                    shape = list(array.shape)
-                    shape[self._axis[name]] = self.lengths[self._dimension[name]]
+                    shape, dimension = list(array.shape), self._dimension[name]
+                    shape[self._axis[name]] = max(self.lengths[dimension], self.known[dimension])
                     array.resize(tuple(shape))
                 if more is not None:
                     self._add(more)
                 self._commit(self.lengths)
                 output.sync_tree(self.path)
         finally:
-            if self._lock is not None:
-                os.close(self._lock)
+            self._unlock()
 
     def annotate(self, name: str, text: str) -> None:
         """Set an attribute of the record; it is in the file after the next commit."""
         with self._changed:
             layout = codec.parse(self._group["attributes"][portable.KEY])
             layout["attributes"][name] = None
-            attributes = {**self._group["attributes"], name: text, portable.KEY: codec.line(layout)}
+            attributes = {
+                **self._group["attributes"],
+                name: text,
+                portable.KEY: codec.line(layout, ascii=True),
+            }
             self._group = {**self._group, "attributes": attributes}
             self._asked += 1
             self._changed.notify_all()
@@ -287,17 +332,18 @@ class GrowingRecord:
         stored = portable.pack(more, narrow=False)
         layout = codec.parse(self._group["attributes"][portable.KEY])
         new = codec.parse(stored.attrs.pop(portable.KEY))
-        for name in (str(n) for n in stored.coords if str(n) not in layout["variables"]):
+        for name in (str(n) for n in stored.coords if n not in stored.sizes):
             zarr.create_array(
                 self.path / name,
+                overwrite=True,
                 data=stored[name].values,
                 dimension_names=[str(d) for d in stored[name].dims],
                 attributes=dict(stored[name].attrs),
             )
-            member = codec.parse((self.path / name / "zarr.json").read_text())
+            member = codec.parse((self.path / name / "zarr.json").read_text(encoding="utf-8"))
             self._group["consolidated_metadata"]["metadata"][name] = member
             layout["variables"][name] = new["variables"][name]
-            layout["coords"].append(name)
+            layout["coords"] = [*(c for c in layout["coords"] if c != name), name]
             layout["names"] |= {k: v for k, v in new["names"].items() if k == name}
         layout["attributes"] |= new["attributes"]
         self._group["attributes"] |= {**stored.attrs, portable.KEY: codec.line(layout, ascii=True)}
@@ -351,14 +397,18 @@ class GrowingRecord:
         if key not in self._tails:
             for other in [k for k in self._tails if k[0] == name]:
                 self._tails.pop(other).write()
-            self._tails[key] = _Tail(self._arrays[name], self._axis[name], region)  # type: ignore[index]
+            dimension = self._dimension[name]
+            self._tails[key] = _Tail(  # type: ignore[index]
+                self._arrays[name], self._axis[name], region, lambda: self.known[dimension]
+            )
         return self._tails[key]  # type: ignore[index]
 
     def _commit(self, lengths: Mapping[str, int]) -> None:
         """Replace the metadata of the group, which state the lengths of all arrays."""
         members = self._group["consolidated_metadata"]["metadata"]
+        self.known = {d: max(n, lengths[d]) for d, n in self.known.items()}
         for name, dimension in self._dimension.items():
-            members[name]["shape"][self._axis[name]] = lengths[dimension]
+            members[name]["shape"][self._axis[name]] = self.known[dimension]
         place = self.path / "zarr.json"
         output.write(place, codec.line(self._group).encode(), durable=False)
         self._inode = place.stat().st_ino
@@ -398,7 +448,7 @@ def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Ma
     with warnings.catch_warnings():
         # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
-        stored.to_zarr(path, mode="w-", zarr_format=3, consolidated=True, encoding=encoding)
+        stored.to_zarr(path, mode="a", zarr_format=3, consolidated=True, encoding=encoding)
 
 
 def frame_chunks(

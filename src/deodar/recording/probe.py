@@ -83,6 +83,11 @@ def parsed(text: str) -> Probe:
             ) from None
 
 
+def is_time(dimension: str) -> bool:
+    """Return whether a dimension is one of times: `time`, or that of a variable with times of its own."""
+    return dimension.rpartition(".")[2] == TIME
+
+
 def probes(record: Probe | Handle | str | Iterable[Probe | Handle | str]) -> list[Probe]:
     """Return what a script asks to record as probes: one or several of paths, handles and probes.
 

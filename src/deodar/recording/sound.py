@@ -35,16 +35,27 @@ def present(data: xarray.Dataset, path: Path) -> xarray.Dataset:
         variable = data.variables[name]
         dims = [layout["names"].get(str(d), str(d)) for d in variable.dims]
         axis, chunks = dims.index(stored["grows"]), variable.encoding["chunks"]
-        if axis and not _complete(data):
-            continue  # a piece of the copies that has not begun has no chunks
         count = [math.ceil(n / c) for n, c in zip(variable.shape, chunks, strict=True)]
-        folder = path / name / "c"
-        for k in range(count[axis]):
-            others = (range(n) if i != axis else [k] for i, n in enumerate(count))
-            if any(not folder.joinpath(*map(str, place)).is_file() for place in itertools.product(*others)):
-                _shorten(ends, str(variable.dims[axis]), k * chunks[axis], layout["names"].get(name, name))
-                break
+        whole = axis == 0 or _complete(data)
+        rows = itertools.product(*(range(n) if i != axis else [0] for i, n in enumerate(count)))
+        missing = [
+            k for row in rows if (k := _missing(path / name / "c", row, axis, count[axis], whole)) >= 0
+        ]
+        if missing:
+            first = min(missing) * chunks[axis]
+            _shorten(ends, str(variable.dims[axis]), first, layout["names"].get(name, name))
     return _cut(data, ends, "missing")
+
+
+def _missing(folder: Path, row: tuple[int, ...], axis: int, count: int, whole: bool) -> int:
+    """Return the number of the first missing chunk in a row along the growing axis, or -1.
+
+    A row of copies need not be `whole` in an incomplete record: what follows its last chunk is not written
+    yet.
+    """
+    there = [folder.joinpath(*map(str, (*row[:axis], k, *row[axis + 1 :]))).is_file() for k in range(count)]
+    end = count if whole else max((k for k in range(count) if there[k]), default=-1)
+    return next((k for k in range(end) if not there[k]), -1)
 
 
 def readable(data: xarray.Dataset) -> xarray.Dataset:

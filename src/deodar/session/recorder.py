@@ -14,7 +14,7 @@ from deodar import codec
 from deodar.codec import Json
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
-from deodar.errors import DeodarError, ParameterError, TimeError
+from deodar.errors import DeodarError, NotFinite, ParameterError, TimeError
 from deodar.model import files as documents
 from deodar.model import find
 from deodar.model.document import Document
@@ -88,7 +88,7 @@ class Recorder:
         self._selector = Selector(series, dict(zip(self.names, limits, strict=True)))
         self._taken, self._next = 0, run.clock.tick
         self._changes: list[dict[str, Json]] = []
-        self._seen = 0
+        self.follow([])
         bare = path.suffix.lower() == files.SUFFIXES["zarr"]
         target = path if bare else path / folder.record_name("zarr")
         variables: list[Any] = [
@@ -140,7 +140,11 @@ class Recorder:
             ticks = clock.tick + due + (k + np.arange(len(seen[0]))) * self._gap
             self._put(clock.t0 + (ticks - clock.tick0) * clock.dt, [np.array(values) for values in seen])
 
-        run.record(steps, self._ports(run.program), due, self._gap, collect, most=MOST_RECORDS)
+        try:
+            run.record(steps, self._ports(run.program), due, self._gap, collect, most=MOST_RECORDS)
+        except NotFinite as error:
+            self.end(error.problems[0].what)
+            raise
 
     def sample(self, run: Run) -> None:
         """Record the present state, if a sample is due at this tick."""
@@ -149,13 +153,19 @@ class Recorder:
                 np.asarray([run.clock.time]), [values[None] for values in run.read(self._ports(run.program))]
             )
 
-    def pass_over(self, journal: Sequence[JournalEntry]) -> None:
-        """Leave out the changes before the record began."""
-        self._seen = len(journal)
+    def follow(self, journal: Sequence[JournalEntry]) -> None:
+        """Store the changes of a session from now on."""
+        self._journal, self._seen = journal, len(journal)
+        self._last = journal[-1] if journal else None
 
-    def note(self, journal: Sequence[JournalEntry]) -> None:
+    def note(self) -> None:
         """Store the changes of the session since the last call, with their ticks."""
+        journal = self._journal
+        if self._seen and journal[self._seen - 1] is not self._last:  # of several moves the last one counts
+            self._seen -= 1
+            self._changes = self._changes[:-1]
         new, self._seen = journal[self._seen :], len(journal)
+        self._last = journal[-1] if journal else None
         self._changes += [
             {"tick": change.tick, "what": change.what, "value": _plain(change.value)} for change in new
         ]
@@ -182,6 +192,7 @@ class Recorder:
     def end(self, reason: str) -> None:
         """End the record before its time."""
         if self._writer is not None:
+            self.note()
             writer, self._writer = self._writer, None
             try:
                 writer.close(False, settings={"ended": reason})
@@ -197,6 +208,7 @@ class Recorder:
             OutputError: samples cannot be written; those before are in the file.
         """
         if self._writer is not None:
+            self.note()
             writer, self._writer = self._writer, None
             try:
                 writer.close(True)

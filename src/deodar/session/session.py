@@ -175,7 +175,7 @@ class Session:
                 self._recorder = recorder
             self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), amount, dt) or state)
             if recorder is not None:  # a sample at this tick contains the injected input
-                recorder.note(self.journal)
+                recorder.note()
                 recorder.sample(self._run)
 
     def _to_new_dt(self, most: int) -> int:
@@ -370,7 +370,7 @@ class Session:
                 fix="Close that recorder first",
             )
         self._recorder = Recorder(self._run, Path(path), probes(record), every, force)
-        self._recorder.pass_over(self.journal)
+        self._recorder.follow(self.journal)
         return self._recorder
 
     def keep(self) -> list[str]:
@@ -507,7 +507,7 @@ class Session:
         if recorder is None or not recorder.open:
             self._run.advance(steps)
             return
-        recorder.note(self.journal)
+        recorder.note()
         recorder.advance(self._run, steps)
 
     def _end_record(self, reason: str) -> None:
