@@ -67,7 +67,7 @@ def child(case: str, out: str, notes: str) -> None:
         def note(done: int) -> None:
             file.write(f"{time.time()!r} {done}\n".encode())
 
-        dd.simulate(model(kind), STEPS, seed=3, out=out, snapshots=500, progress=note, **settings)
+        dd.simulate(model(kind), STEPS, seed=3, out=out, progress=note, **settings)
 
 
 def kill(folder: Path, case: str, seconds: float, outcome: Outcome) -> Path:
