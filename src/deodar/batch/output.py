@@ -72,18 +72,15 @@ class RunOutput:
         from deodar.recording import files, folder
 
         self.force, self.snapshots = force, snapshots
-        self.bare = path.suffix.lower() == files.SUFFIXES["zarr"]
         self.path = path
-        self.record = files.locate(path)[0] if resume else path if self.bare else path / "record.zarr"
+        self.record = files.locate(path)[0] if resume else folder.growing(path)
         self.state: tuple[dict[str, Any], list[np.ndarray]] | None = None
         self.resumes, self.longer = resume, dict[str, Any]()
         if resume:
             if (self.record / CHECKPOINT).exists():  # else the run begins again
                 self.state = checkpoint.read(self.record / CHECKPOINT)
-        elif self.bare:
-            files.claim(path, "zarr", force)
         else:
-            folder.claim(path, "zarr", force)
+            folder.claim_growing(path, force)
         self.writer: GrowingRecord | None = None
         self.reasons: dict[tuple[int, ...], str] = {}
         self.done: list[int] = []
@@ -135,24 +132,23 @@ class RunOutput:
         trials = {} if self.labels is None else {"trial": len(self.labels)}
         return {path: len(values) for path, values in self.grid.items()} | trials
 
-    def begin(self, empty: xarray.Dataset) -> GrowingRecord:
-        """Create the record; `empty` has no samples. A resumed record is opened instead."""
+    def begin(self, empty: Callable[[], xarray.Dataset]) -> GrowingRecord:
+        """Return the writer of the record. The first call creates it from what `empty` returns, a record
+        without samples, or opens the record that is resumed.
+        """
         # start-up time: these import xarray
-        from deodar.recording import files, folder, places
+        from deodar.recording import folder
         from deodar.recording.growing import GrowingRecord
 
         if self.writer is None:
             if self.resumes:
                 self.writer = self._opened()
             else:
-                if self.bare:
-                    files.claim(self.record, "zarr", self.force)
-                    places.clear(self.record)
-                else:
-                    folder.begin(self.doc, self.path, self.force)
+                folder.begin(self.doc, self.path, self.force)
                 piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
-                times = [d for d in map(str, empty.dims) if probe.is_time(d) and not empty.sizes[d]]
-                self.writer = GrowingRecord(self.record, empty, times, piece)
+                made = empty()
+                times = [d for d in map(str, made.dims) if probe.is_time(d) and not made.sizes[d]]
+                self.writer = GrowingRecord(self.record, made, times, piece)
         return self.writer
 
     def _opened(self) -> GrowingRecord:
@@ -212,6 +208,9 @@ class OutputPart:
     ) -> None:
         """Set what is written: id, port and program's port of every variable."""
         self.program, self.variables, self.sampling, self.about = program, variables, sampling, about
+        # the identity of the run of this piece, apart from its duration and its machine
+        same = {k: v for k, v in about.items() if k not in ("duration", "made_by")}
+        self.digest = hashlib.sha256(codec.line(same, sort=True).encode()).hexdigest()
         doc = self.out.doc
         self.names = [f"{doc.by_id()[ident].path}.{port}" for ident, port, _ in variables]
         strides, conditions = zip(*sampling.probes, strict=True)
@@ -226,7 +225,7 @@ class OutputPart:
         from deodar.recording import diverged
 
         data, reasons = diverged.taken_apart(data, list(self.out.sizes()))
-        writer = self.out.begin(self._like(data)) if self.out.writer is None else self.out.writer
+        writer = self.out.begin(lambda: self._like(data))
         values = {str(name): variable.values for name, variable in data.data_vars.items()}
         writer.put("time", data["time"].values, values, first=0, region=self.region)
         writer.commit()
@@ -267,7 +266,7 @@ class OutputPart:
             name: np.array(a[tuple(map(slice, copies))]).reshape(*sizes, *a.shape[lead:])
             for name, a in zip(self.names, seen, strict=True)
         }
-        writer = self.out.begin(self._empty()) if self.out.writer is None else self.out.writer
+        writer = self.out.begin(self._empty)
         times = self.sampling.times(self.out.doc, k, n)
         for one in self.selector.choose(k, times, values, len(sizes)):
             writer.put(one.dimension, one.times, one.values, one.first, self.region)
@@ -339,9 +338,8 @@ class OutputPart:
             "taken": self._taken,
             "done": self.out.done,
             "reasons": self.out.told(),
-            "of": self._digest(),
+            "of": self.digest,
             "pieces": self.out.cut.count,
-            "made_by": provenance.made_by(run.program.device, run.program.precision),
         }
         checkpoint.save(run, self.out.record / CHECKPOINT, about)
 
@@ -350,7 +348,7 @@ class OutputPart:
         if self.out.state is None or self.out.state[0]["piece"] != self.number:
             return 0
         about, arrays = self.out.state
-        if about.get("of") != self._digest():
+        if about.get("of") != self.digest:
             raise RecordError(
                 "the stored state is of another run",
                 where=str(self.out.record / CHECKPOINT),
@@ -360,11 +358,6 @@ class OutputPart:
         self._taken, self._saved_at = int(about["taken"]), int(about["steps"])
         self.selector.above = dict(about["above"])
         return int(about["steps"])
-
-    def _digest(self) -> str:
-        """Return the identity of the run of this piece, apart from its duration and its machine."""
-        same = {k: v for k, v in self.about.items() if k not in ("duration", "made_by")}
-        return hashlib.sha256(codec.line(same, sort=True).encode()).hexdigest()
 
     def end(self, reasons: Mapping[tuple[int, ...], str]) -> None:
         """Note that the piece is complete, and which of its copies diverged, with their reasons."""

@@ -326,17 +326,16 @@ class _Place:
 
     def __init__(self, args: argparse.Namespace, name: str) -> None:
         # start-up time: these bring JAX
-        from deodar.recording import files, folder, places
+        from deodar.recording import folder, places
 
         self.given: Path | None = args.out
         self.name = name
         self.format: str = args.format
         self.force: bool = args.force
-        self.bare = self.given is not None and self.given.suffix.lower() == files.SUFFIXES["zarr"]
-        if self.bare:
+        if self.given is not None and folder.growing(self.given) == self.given:
             if self.format != "zarr":
                 args.wrong(f"--out names a .zarr, so --format {self.format} cannot be given")
-            files.claim(args.out, "zarr", self.force)
+            folder.claim_growing(self.given, self.force)
         else:
             folder.claim(self.given or places.free(Path(), name), self.format, self.force)
 

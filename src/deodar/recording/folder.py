@@ -38,14 +38,35 @@ def claim(path: Path, format: str, force: bool = False) -> None:
         raise OutputExists("exists and is not a regular file", where=str(model), fix="Choose another name")
 
 
-def begin(doc: Document, path: Path, force: bool = False) -> None:
-    """Create the folder of a run whose record will grow, with its model; a replaced record is removed.
+def growing(path: Path) -> Path:
+    """Return the record that a run writes at a path: the path itself if it ends in .zarr, else one in this
+    folder.
+    """
+    return path if path.suffix.lower() == files.SUFFIXES["zarr"] else path / record_name("zarr")
+
+
+def claim_growing(path: Path, force: bool = False) -> None:
+    """Refuse a path at which a growing record cannot begin."""
+    if growing(path) == path:
+        files.claim(path, "zarr", force)
+    else:
+        claim(path, "zarr", force)
+
+
+def begin(doc: Document, path: Path, force: bool = False) -> Path:
+    """Prepare the path of a record that will grow, and return that of the record; a replaced one is removed.
+
+    A folder is created, with the model.
 
     Raises:
-        OutputExists: the folder exists; with `force`: it cannot be that of a run.
+        OutputExists: the path exists; with `force`: it cannot be that of a run.
         OutputError: it cannot be written.
     """
-    claim(path, "zarr", force)
+    claim_growing(path, force)
+    record = growing(path)
+    if record == path:
+        places.clear(path)
+        return path
     new = not path.exists()
     try:
         path.mkdir(exist_ok=True)
@@ -56,8 +77,9 @@ def begin(doc: Document, path: Path, force: bool = False) -> None:
         if new:
             places.clear(path)
         raise
-    places.clear(path / record_name("zarr"))
+    places.clear(record)
     _drop_others(path, "zarr")
+    return record
 
 
 def write(data: xarray.Dataset, doc: Document, path: Path, format: str, force: bool = False) -> Path:

@@ -12,7 +12,7 @@ from deodar import codec
 from deodar.codec import JsonObject
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, Axis
-from deodar.recording.probe import TIME
+from deodar.recording.probe import TIME, is_time
 from deodar.recording.provenance import KEY
 
 Variable = tuple[Entry, str, Axes, np.ndarray]
@@ -92,7 +92,7 @@ def time_dimension(variable: xarray.DataArray) -> str | None:
     It is `time`, or `PATH.PORT.time` for a port with a sampling interval or a condition of its own.
     """
     # the times of the samples stand before the axes, of which one may have this name, too
-    return next((str(d) for d in variable.dims if str(d).rpartition(".")[2] == TIME), None)
+    return next((str(d) for d in variable.dims if is_time(str(d))), None)
 
 
 def _axis_attributes(axis: Axis) -> dict[str, Any]:

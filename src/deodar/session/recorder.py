@@ -68,7 +68,7 @@ class Recorder:
         self, run: Run, path: Path, probes: Sequence[Probe], every: float | None, force: bool = False
     ) -> None:
         # start-up time: these import xarray
-        from deodar.recording import files, folder, places, record
+        from deodar.recording import folder, record
         from deodar.recording.growing import GrowingRecord
 
         self.path, self.ended = path, ""
@@ -89,8 +89,6 @@ class Recorder:
         self._taken, self._next = 0, run.clock.tick
         self._changes: list[dict[str, Json]] = []
         self.follow([])
-        bare = path.suffix.lower() == files.SUFFIXES["zarr"]
-        target = path if bare else path / folder.record_name("zarr")
         variables: list[Any] = [
             (entry, port, axes, np.empty((0, *shape(axes)), run.program.program.dtype))
             for (entry, port), axes in zip(found, self._axes, strict=True)
@@ -103,14 +101,11 @@ class Recorder:
         }
         about = provenance.provenance(doc, run, **settings)
         empty = record.dataset(doc, variables, np.empty(0), None, {}, about)
-        if bare:
-            files.claim(path, "zarr", force)
-            places.clear(path)
-        else:
-            folder.begin(doc, path, force)
         dimensions = {name: one.dimension for one in series for name in one.names}
         self._writer: GrowingRecord | None = GrowingRecord(
-            target, record.with_times(empty, dimensions), [one.dimension for one in series]
+            folder.begin(doc, path, force),
+            record.with_times(empty, dimensions),
+            [one.dimension for one in series],
         )
         try:
             self.compile(run.program)
