@@ -1,4 +1,6 @@
 /** Actions of a user on the page, by the names of its controls. */
+import { crc32, deflateSync } from "node:zlib";
+
 import type { Locator, Page } from "playwright-core";
 
 import type { Observer } from "./observer";
@@ -136,4 +138,30 @@ export async function drop(page: Page, name: string, type: string, content: Uint
 
 function escaped(text: string): string {
   return text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+}
+
+/** A PNG file of one colour (red, green and blue, 0 to 255). */
+export function png(width: number, height: number, colour: readonly number[]): Uint8Array {
+  const rows = Buffer.alloc(height * (1 + 3 * width));
+  for (let y = 0; y < height; y++)
+    for (let x = 0; x < width; x++) rows.set(colour, y * (1 + 3 * width) + 1 + 3 * x);
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 2], 8); // 8 bits each of red, green and blue
+  const piece = (name: string, data: Uint8Array) => {
+    const named = Buffer.concat([Buffer.from(name), data]);
+    const out = Buffer.alloc(named.length + 8);
+    out.writeUInt32BE(data.length, 0);
+    out.set(named, 4);
+    out.writeUInt32BE(crc32(named), named.length + 4);
+    return out;
+  };
+  const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+  return Buffer.concat([
+    signature,
+    piece("IHDR", head),
+    piece("IDAT", deflateSync(rows)),
+    piece("IEND", new Uint8Array()),
+  ]);
 }

@@ -108,7 +108,7 @@ test("an invalid document is refused with a reason", async () => {
   await drop(page, "notes.txt", "text/plain", new TextEncoder().encode("hello"));
   const message = page
     .getByRole("region", { name: "Messages" })
-    .getByText("notes.txt is neither a document (.json, .deodar) nor a picture.");
+    .getByText("notes.txt is neither a document (.json, .deodar) nor a file that a world opens.");
   await message.waitFor();
   await button(page, "Dismiss").click();
   await message.waitFor({ state: "detached" });

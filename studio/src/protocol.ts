@@ -353,7 +353,7 @@ export type Gallery = {
 //
 // `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
 // parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
-// parameter whose value is a part of this kind.
+// parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens.
 export type Kind = {
   name: string;
   room: string;
@@ -364,6 +364,7 @@ export type Kind = {
   ports: Record<string, string>;
   levels: Record<string, Record<string, string>>;
   example: unknown;
+  opens: string[];
 };
 
 // Let the step grow up to `longest` (document time) if the machine is too slow.

@@ -37,6 +37,7 @@ class Description:
         levels: for a port, the parameters that are levels on its scale (threshold, resting level).
         reference: where the equation comes from; "" where the docstring says: no reference.
         example: a value to start from, where the kind stands inside an element; None otherwise.
+        opens: endings of the files that a world opens.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Description:
     levels: Mapping[str, Mapping[str, str]]
     reference: str
     example: Json
+    opens: tuple[str, ...] = ()
 
     @property
     def public_name(self) -> str:
@@ -96,6 +98,7 @@ def describe(cls: type, known: Mapping[str, type] | None = None) -> Description:
         levels=dict(cls.levels) if issubclass(cls, Element) else {},
         reference="" if reference == "no reference" else reference,
         example=plain(example) if example is not None and not isinstance(example, Element) else None,
+        opens=cls.opens if issubclass(cls, World) else (),
     )
 
 

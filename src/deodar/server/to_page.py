@@ -52,7 +52,7 @@ class Kind(Data, frozen=True):
 
     `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
     parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
-    parameter whose value is a part of this kind.
+    parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens.
     """
 
     name: str
@@ -64,6 +64,7 @@ class Kind(Data, frozen=True):
     ports: dict[str, str]
     levels: dict[str, dict[str, str]]
     example: Any
+    opens: list[str]
 
 
 class AxisView(Data, frozen=True):

@@ -22,9 +22,10 @@ from deodar.model.document import Document
 from deodar.model.files import MOST_BYTES
 from deodar.server.open_folder import OpenFolder
 from deodar.server.to_page import Folder
+from deodar.worlds.picture import Picture
 
 DOCUMENTS = (".json", ".deodar")
-PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
+PICTURES = Picture.opens
 MOST_NAMES = 2000
 """Largest number of names of one folder that are listed."""
 

@@ -60,6 +60,8 @@ class World:
         motors: signals of the motors by name.
         stands_in: whether the example of this class may be used when the user chose no world; False if the
             class needs an extra or a device.
+        opens: endings of the files that `open` reads, in lower case with the dot, such as .png; empty if its
+            argument does not name a file.
 
     Attributes:
         period: ms between two exchanges; None: the world never changes, and a run reads each sensor once.
@@ -69,6 +71,7 @@ class World:
     motors: Mapping[str, Signal] = {}
     period: float | None = None
     stands_in: ClassVar[bool] = True
+    opens: ClassVar[tuple[str, ...]] = ()
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         """Return the world to its initial state.

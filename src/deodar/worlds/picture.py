@@ -44,6 +44,7 @@ class Picture(World):
     """
 
     sensors: Mapping[str, Signal] = {"picture": PICTURE}
+    opens = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".tif", ".tiff")
 
     def __init__(self, file: str | Path | np.ndarray) -> None:
         if not isinstance(file, (str, Path, np.ndarray)):

@@ -45,6 +45,8 @@ class Recording(World):
         of sensors).
     """
 
+    opens = (".zarr", ".nc")
+
     def __init__(self, record: xarray.Dataset, file: str = "") -> None:
         if not isinstance(record, xarray.Dataset) or "time" not in record.dims:
             raise WorldError(

@@ -46,6 +46,7 @@ class Video(World):
 
     sensors: Mapping[str, Signal] = {"picture": PICTURE}
     stands_in = False
+    opens = (".mp4", ".avi", ".mov", ".mkv", ".webm", ".m4v", ".mpg", ".mpeg")
 
     def __init__(self, file: str | Path, period: float = 40.0, loop: bool = False) -> None:
         value = real(period)

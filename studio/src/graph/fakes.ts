@@ -64,6 +64,7 @@ export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): 
     ports: {},
     levels: {},
     example: null,
+    opens: [],
     ...more,
   };
 }

@@ -35,6 +35,7 @@ const kind = (name: string, parameters: ParameterForm[]): [string, Kind] => [
     ports: {},
     levels: {},
     example: null,
+    opens: [],
   },
 ];
 

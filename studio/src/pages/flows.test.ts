@@ -32,7 +32,10 @@ const picture: Kind = {
   ports: {},
   levels: {},
   example: null,
+  opens: [".png"],
 };
+const arena: Kind = { ...picture, name: "Arena", title: "Arena", opens: [".json"] };
+const worlds = new Map([arena, picture].map((kind) => [kind.name, kind]));
 
 function given(state: Partial<DocumentView>): void {
   useStudio.setState({ document: { ...document, ...state } });
@@ -182,7 +185,7 @@ describe("a dropped file", () => {
   const senses = { type: "clock", senses: true } as never;
 
   it("is used as a picture if the model has a sensor", async () => {
-    useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
+    useStudio.setState({ clock: senses, kinds: worlds });
     server({});
     expect(await takeFile(new File([new Uint8Array([0, 255, 7])], "a.png", { type: "image/png" }))).toBe(
       true,
@@ -191,6 +194,7 @@ describe("a dropped file", () => {
   });
 
   it("is refused without a sensor, or if its type is unknown", async () => {
+    useStudio.setState({ kinds: worlds });
     server();
     expect(await takeFile(new File([], "a.png", { type: "image/png" }))).toBe(false);
     expect(await takeFile(new File([], "a.txt", { type: "text/plain" }))).toBe(false);
@@ -202,7 +206,7 @@ describe("a dropped file", () => {
   });
 
   it("can be chosen below the root instead", async () => {
-    useStudio.setState({ clock: senses, kinds: new Map([["Picture", picture]]) });
+    useStudio.setState({ clock: senses, kinds: worlds });
     server({});
     person("pictures/a.png");
     expect(await choosePicture()).toBe(true);

@@ -15,7 +15,7 @@ import type {
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { ask } from "./dialogs";
-import { sortOf } from "./paths";
+import { opening, sortOf } from "./paths";
 
 // The largest message that the server accepts, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;
@@ -88,7 +88,7 @@ export async function saveAs(): Promise<boolean> {
   return path === null ? false : save(path);
 }
 
-// Opens a dropped or chosen file: a document, or a picture for the sensors.
+// Opens a dropped or chosen file: a document, or a file for the sensors, such as a picture.
 export async function takeFile(file: File): Promise<boolean> {
   if (isTooLarge(file)) {
     return false;
@@ -98,10 +98,8 @@ export async function takeFile(file: File): Promise<boolean> {
       return leave({ type: "open_text", name: file.name, text: await file.text() });
     case "package":
       return leave({ type: "open_package", name: file.name, content: await base64(file) });
-    case "picture":
-      return showPicture(file);
     case "other":
-      return refuse({ what: `${file.name} is neither a document (.json, .deodar) nor a picture.` });
+      return showToSensors(file, file.name);
   }
 }
 
@@ -118,28 +116,27 @@ export function isTooLarge(file: File): boolean {
 
 export async function choosePicture(): Promise<boolean> {
   const chosen = await ask("choose", { wants: "pictures" });
-  return chosen !== null && showPicture(chosen);
+  return chosen !== null && showToSensors(chosen, typeof chosen === "string" ? chosen : chosen.name);
 }
 
-// Let the sensors read a picture: below the root by its path, otherwise its content.
-async function showPicture(picture: string | File): Promise<boolean> {
+// Let the sensors read a file by the kind of world that opens it: below the root by its path, otherwise its
+// content.
+async function showToSensors(file: string | File, name: string): Promise<boolean> {
   const { kinds, clock } = useStudio.getState();
-  const world = [...kinds.values()].find((kind) => kind.room === "worlds");
-  if (clock?.senses !== true || world === undefined) {
+  const world = opening(kinds.values(), name);
+  if (world === undefined) {
+    return refuse({ what: `${name} is neither a document (.json, .deodar) nor a file that a world opens.` });
+  }
+  if (clock?.senses !== true) {
     return refuse({
-      what: "This document has no sensor for a picture.",
+      what: `This document has no sensor for ${name}.`,
       fix: "Open a document with a sensor first, for example one from the gallery.",
     });
   }
   const answer =
-    typeof picture === "string"
-      ? await request({ type: "use_world", kind: world.name, path: picture })
-      : await request({
-          type: "use_world_content",
-          kind: world.name,
-          name: picture.name,
-          content: await base64(picture),
-        });
+    typeof file === "string"
+      ? await request({ type: "use_world", kind: world.name, path: file })
+      : await request({ type: "use_world_content", kind: world.name, name, content: await base64(file) });
   return (answer.problems ?? []).length === 0;
 }
 

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 
+import type { Kind } from "../protocol";
 import {
   belowRoot,
   isWhole,
@@ -8,6 +9,7 @@ import {
   nameProblem,
   parent,
   rootName,
+  opening,
   sortOf,
   steps,
   withEnding,
@@ -69,6 +71,14 @@ it("files are sorted by type and name", () => {
   expect(sortOf({ name: "a.json", type: "" })).toBe("document");
   expect(sortOf({ name: "a", type: "application/json" })).toBe("document");
   expect(sortOf({ name: "a.deodar", type: "" })).toBe("package");
-  expect(sortOf({ name: "a.png", type: "image/png" })).toBe("picture");
   expect(sortOf({ name: "a.txt", type: "text/plain" })).toBe("other");
+});
+
+it("finds the kind of world that opens a file, by the ending of its name", () => {
+  const kinds = [
+    { name: "Arena", opens: [".json"] },
+    { name: "Picture", opens: [".png", ".jpg"] },
+  ] as Kind[];
+  expect(opening(kinds, "a.JPG")?.name).toBe("Picture");
+  expect(opening(kinds, "a.txt")).toBeUndefined();
 });

@@ -1,5 +1,7 @@
 // Paths below the root, as the server writes them: parts joined by "/", the root itself is empty.
 
+import type { Kind } from "../protocol";
+
 export function parent(path: string): string {
   return path.split("/").slice(0, -1).join("/");
 }
@@ -55,7 +57,7 @@ export function nameProblem(name: string): string {
   return trimmed.startsWith(".") ? "A name that does not begin with a dot." : "";
 }
 
-export type FileSort = "document" | "package" | "picture" | "other";
+export type FileSort = "document" | "package" | "other";
 
 // What a file of the person's own is, from its type and its name.
 export function sortOf(file: { name: string; type: string }): FileSort {
@@ -65,5 +67,11 @@ export function sortOf(file: { name: string; type: string }): FileSort {
   if (/\.deodar$/i.test(file.name)) {
     return "package";
   }
-  return file.type.startsWith("image/") ? "picture" : "other";
+  return "other";
+}
+
+// The first of some kinds of worlds that opens files with the ending of a name.
+export function opening(kinds: Iterable<Kind>, name: string): Kind | undefined {
+  const lower = name.toLowerCase();
+  return [...kinds].find((kind) => kind.opens.some((ending) => lower.endsWith(ending)));
 }

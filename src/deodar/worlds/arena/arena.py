@@ -128,6 +128,7 @@ class Arena(PureWorld):
         "left": Signal("speed of the left wheel", (), "step/s", each=True),
         "right": Signal("speed of the right wheel", (), "step/s", each=True),
     }
+    opens = (".json",)
     noises = ("infrared", "place", "slip", "encoders")
 
     def __init__(
