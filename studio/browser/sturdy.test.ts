@@ -97,6 +97,8 @@ test("unsaved edits are offered after a crash", async () => {
     .toBe(true);
   await restart("SIGKILL");
   await page.getByText("Connection lost, trying again").waitFor({ state: "detached" });
+  const bar = page.getByRole("region", { name: "Unsaved edits", exact: true });
+  await bar.getByText(/^Unsaved edits of selection, stored today at \d+:\d\d, were found\.$/).waitFor();
   await choose(page, "File menu", "Examples");
   const offer = page.getByRole("region", { name: "Unsaved edits of selection" });
   await offer.getByText("selection.json").waitFor();
@@ -112,6 +114,37 @@ test("unsaved edits are offered after a crash", async () => {
   await choose(page, "File menu", /^Save Ctrl/);
   await page.getByText("Saved as selection.json").waitFor();
   await expect.poll(() => readdirSync(kept)).toEqual([]);
+});
+
+test("the page of a file offers its unsaved edits after a crash, and opens or discards them", async () => {
+  const { page, state, restart, observe } = await start({ expected: GONE });
+  const kept = join(state, "unsaved");
+  const notes = () => (existsSync(kept) ? readdirSync(kept).filter((name) => name.endsWith(".note")) : []);
+  const bar = page.getByRole("region", { name: "Unsaved edits", exact: true });
+  const crash = async (tau: string) => {
+    await select(page, "u");
+    await type(page, "tau", tau);
+    await expect.poll(notes).toHaveLength(1);
+    await restart("SIGKILL");
+    await bar.waitFor();
+  };
+  await crash("44");
+  await select(page, "u");
+  expect(await number(page, "tau").inputValue(), "the version on disk").toBe("20");
+  await shot(page, "recovery-bar");
+  await bar.getByRole("button", { name: "Open them" }).click();
+  await bar.waitFor({ state: "detached" });
+  const observer = await observe();
+  await observer.until(() => observer.document !== null && observer.value("u", "tau") === 44);
+  await page.getByRole("img", { name: "Unsaved edits" }).waitFor();
+  observer.close();
+
+  await crash("55");
+  await bar.getByRole("button", { name: "Discard" }).click();
+  await bar.waitFor({ state: "detached" });
+  expect(notes()).toEqual([]);
+  await select(page, "u");
+  expect(await number(page, "tau").inputValue()).toBe("20");
 });
 
 test("an element that fails stops the run, is named, and does not affect the rest", async () => {

@@ -10,6 +10,7 @@ import { Header } from "./pages/Header";
 import { LostBanner } from "./pages/LostBanner";
 import { Notices } from "./pages/Notices";
 import { ProblemsPage } from "./pages/ProblemsPage";
+import { RecoveryBar } from "./pages/RecoveryBar";
 import { Splash } from "./pages/Splash";
 import { useView } from "./pages/view";
 import { ComparisonBar } from "./replay/ComparisonBar";
@@ -54,6 +55,7 @@ function Page() {
   return (
     <div className={classes.studio}>
       <Header />
+      <RecoveryBar />
       <Timeline />
       <RecordNotes />
       <ComparisonBar />

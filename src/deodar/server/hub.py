@@ -82,7 +82,8 @@ class Hub:
 
         def read() -> None:
             recent = [self.workspace.shown(p) for p in self.store.recent() if self.workspace.holds(p)]
-            self._gallery = Gallery(recent=recent, recoveries=self.store.kept())
+            kept = [r for r in self.store.kept() if r.name != self.project.edits]
+            self._gallery = Gallery(recent=recent, recoveries=kept)
 
         await try_in_file_thread(read)
         return self._gallery

@@ -134,6 +134,11 @@ class OpenProject:
             and view.plain(self.model.document) != self._saved
         )
 
+    @property
+    def edits(self) -> str:
+        """Name under which the unsaved edits of the open document are stored; empty if none is open."""
+        return self._name
+
     def failures(self) -> list[ListedProblem]:
         """Return why the document does not run; an empty list if it does."""
         doc = None if self.model is None else self.model.document
