@@ -2,7 +2,7 @@
 
 python studio/build.py build      the page into src/deodar/server/static, unless it is there already
 python studio/build.py check      the types
-python studio/build.py lint       whether the files are formatted
+python studio/build.py lint       the formatting of the files (prettier), and the linter (biome)
 python studio/build.py format     format the files, lines of at most 110 columns (prettier)
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
@@ -39,14 +39,19 @@ WITHOUT_PAGE = (
     "To install deodar without the page of the studio, set the environment variable DEODAR_NO_PAGE=1."
 )
 
-TOOLS = {
-    "check": ("node_modules/typescript/bin/tsc", "--noEmit"),
-    "lint": ("node_modules/prettier/bin/prettier.cjs", "--check", "."),
-    "format": ("node_modules/prettier/bin/prettier.cjs", "--write", "."),
-    "test": ("node_modules/vitest/vitest.mjs", "run"),
-    "browser": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.browser.ts"),
-    "bench": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.bench.ts"),
-    "pictures": ("node_modules/vitest/vitest.mjs", "run", "--config", "vitest.pictures.ts"),
+PRETTIER = "node_modules/prettier/bin/prettier.cjs"
+BIOME = "node_modules/@biomejs/biome/bin/biome"
+VITEST = "node_modules/vitest/vitest.mjs"
+
+# The commands of each word: a script for node, and its arguments.
+TOOLS: dict[str, list[list[str]]] = {
+    "check": [["node_modules/typescript/bin/tsc", "--noEmit"]],
+    "lint": [[PRETTIER, "--check", "."], [BIOME, "lint", "--error-on-warnings", "."]],
+    "format": [[PRETTIER, "--write", "."]],
+    "test": [[VITEST, "run"]],
+    "browser": [[VITEST, "run", "--config", "vitest.browser.ts"]],
+    "bench": [[VITEST, "run", "--config", "vitest.bench.ts"]],
+    "pictures": [[VITEST, "run", "--config", "vitest.pictures.ts"]],
 }
 
 
@@ -100,7 +105,7 @@ def sources(studio: Path = STUDIO) -> list[Path]:
         found += [
             Path(folder, name)
             for name in names
-            if not name.startswith((".", "vitest.")) and ".test." not in name
+            if not name.startswith((".", "vitest.", "biome.")) and ".test." not in name
         ]
     return sorted([*found, studio / ".npmrc"])
 
@@ -232,18 +237,19 @@ def build() -> bool:
 
 
 def run(word: str) -> int:
-    """The status of one of the tools."""
+    """The status of the tools of one word: of the first that fails."""
     found = node()
     with alone():
         install(found, tests=True)
-    script, *options = TOOLS[word]
     # the browser tests start the deodar of the Python that runs this
     environment = {"DEODAR_PYTHON": sys.executable, **found.environment()}
     if word == "pictures":
         environment.setdefault("DEODAR_SHOTS", str(STUDIO.parent / "docs" / "pictures"))
-    return subprocess.run(
-        (found.program, script, *options), cwd=STUDIO, env=environment, check=False
-    ).returncode
+    for command in TOOLS[word]:
+        done = subprocess.run((found.program, *command), cwd=STUDIO, env=environment, check=False)
+        if done.returncode:
+            return done.returncode
+    return 0
 
 
 def main(words: list[str]) -> int:

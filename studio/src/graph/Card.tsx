@@ -13,10 +13,10 @@ export function Card() {
   const target = useHover((state) => state.target);
   const { stay, leave, close } = useHover.getState();
   useEffect(() => {
-    const escape = (event: KeyboardEvent) => event.key === "Escape" && close();
-    window.addEventListener("keydown", escape);
+    const closeByKey = (event: KeyboardEvent) => event.key === "Escape" && close();
+    window.addEventListener("keydown", closeByKey);
     return () => {
-      window.removeEventListener("keydown", escape);
+      window.removeEventListener("keydown", closeByKey);
       close();
     };
   }, [close]);

@@ -38,5 +38,6 @@ export function Tex({ source, block = false }: { source: string; block?: boolean
   if (html === null) {
     return <span className="tex-source">{source}</span>;
   }
+  // biome-ignore lint/security/noDangerouslySetInnerHtml: KaTeX made it from TeX that it does not trust
   return <span className="tex" dangerouslySetInnerHTML={{ __html: html }} />;
 }

@@ -37,7 +37,15 @@ function NoticeCard({ notice: { id, level, problem, offer } }: { notice: Notice 
       <div className={classes.text}>
         <ProblemText problem={problem} />
         {offer !== undefined && (
-          <Button size="compact-xs" variant="light" mt={6} onClick={() => (dismiss(id), offer.run())}>
+          <Button
+            size="compact-xs"
+            variant="light"
+            mt={6}
+            onClick={() => {
+              dismiss(id);
+              offer.run();
+            }}
+          >
             {offer.label}
           </Button>
         )}

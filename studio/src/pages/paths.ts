@@ -51,6 +51,7 @@ export function nameProblem(name: string): string {
   if (/[\\/]/.test(trimmed)) {
     return "A name without / and \\; choose the folder in the list.";
   }
+  // biome-ignore lint/suspicious/noControlCharactersInRegex: a name must not have any
   if (/[<>:"|?*\u0000-\u001f]/.test(trimmed)) {
     return 'A name without any of < > : " | ? *';
   }

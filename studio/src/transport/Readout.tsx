@@ -49,7 +49,12 @@ export function Readout() {
         </div>
       </Tooltip>
       <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>
-        <div className={classes.factor} data-still={!running || undefined} aria-label="Speed measured">
+        <div
+          className={classes.factor}
+          data-still={!running || undefined}
+          role="group"
+          aria-label="Speed measured"
+        >
           <div className={classes.number}>{factor}</div>
           <div className={classes.under} data-late={late !== "" || undefined}>
             {late || "real time"}
