@@ -355,6 +355,16 @@ class Element(Part):
         return {}
 
     @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        """Return the values, other than the defaults, with which an editor makes a new element.
+
+        Args:
+            axes: the axes of the new element.
+            arriving: the axes of its input; None: unknown.
+        """
+        return {}
+
+    @classmethod
     def example(cls) -> Self:
         """Return an instance that works without other elements."""
         if "axes" in (f.name for f in dc.fields(cls)):

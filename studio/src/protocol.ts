@@ -10,6 +10,26 @@ export type AddDocumentParameter = {
   parameter: string;
 };
 
+// Add an element of a kind; the answer has its id in `made`.
+//
+// `values` has the format of documents. Parameters without a value get one that works at once: axes are those
+// of the ports that the element is connected with, else those of the first field, else a new axis x.
+// `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into. An
+// empty name means a free one after its kind; a taken one gets a number. `at` is the position of its box.
+export type AddElement = {
+  type: "add_element";
+  request?: number;
+  session?: number;
+  kind: string;
+  values?: Record<string, unknown>;
+  name?: string;
+  group?: string[];
+  at?: unknown[] | null;
+  source?: PortEnd | null;
+  target?: PortEnd | null;
+  wire?: Ends | null;
+};
+
 // Advance by `n` Euler steps, then pause.
 export type Advance = {
   type: "step";
@@ -36,7 +56,8 @@ export type Announced = {
 // `replace` (repeat it with replace). `cost` is the cost of a change. For a preset, `carried` is the number
 // of values that changed and `unmatched` lists the values that could not be applied. `imported` is a sentence
 // on the import of a file of another tool. `version` is the first version of the document with the change, if
-// the request made one.
+// the request made one. `made` lists the ids of new elements, `group` the names of a new group; `text` is
+// what the request asked for: a document for the clipboard.
 export type Answer = {
   type: "answer";
   request: number;
@@ -48,6 +69,9 @@ export type Answer = {
   unmatched?: string[];
   imported?: string;
   version?: number;
+  made?: string[];
+  group?: string[];
+  text?: string;
 };
 
 // Apply the values of another file below the root, by names and kinds, as one step of undo.
@@ -183,6 +207,18 @@ export type Comparison = {
   problems: ListedProblem[];
 };
 
+// Connect an output port to an input port; `reads` is previous, current, delayed, or empty.
+export type Connect = {
+  type: "connect";
+  request?: number;
+  session?: number;
+  source: string;
+  source_port?: string;
+  target: string;
+  target_port?: string;
+  reads?: string;
+};
+
 // A connection from an output port to an input port.
 export type ConnectionView = {
   source: string;
@@ -196,6 +232,14 @@ export type ConnectionView = {
 export type CopyDimension = {
   name: string;
   values: string[];
+};
+
+// Return elements and groups as a document of their own, the JSON text `text` of the answer.
+export type CopyElements = {
+  type: "copy";
+  request?: number;
+  elements?: string[];
+  groups?: string[][];
 };
 
 // Cost of an element: microseconds per step.
@@ -245,6 +289,17 @@ export type DifferenceView = {
   at: string;
   value: number | null;
   other: number | null;
+};
+
+// Remove a connection.
+export type Disconnect = {
+  type: "disconnect";
+  request?: number;
+  session?: number;
+  source: string;
+  source_port?: string;
+  target: string;
+  target_port?: string;
 };
 
 // A document parameter and the parameters that it sets.
@@ -307,6 +362,14 @@ export type EndComparison = {
   type: "end_comparison";
   request?: number;
   session?: number;
+};
+
+// The ends of a connection; an empty port means the default one.
+export type Ends = {
+  source: string;
+  source_port?: string;
+  target: string;
+  target_port?: string;
 };
 
 // An entry of the gallery; `picture` is an address on the server, or empty.
@@ -417,6 +480,19 @@ export type Lost = {
   problem: ListedProblem;
 };
 
+// Put elements and groups into a new group, whose names are `group` of the answer.
+//
+// An empty name means a free one. `at`: the boxes are moved together, their corner to there.
+export type MakeGroup = {
+  type: "group";
+  request?: number;
+  session?: number;
+  elements?: string[];
+  groups?: string[][];
+  name?: string;
+  at?: unknown[] | null;
+};
+
 // A named position in the world, such as a goal; `fixed`: the mark cannot be moved.
 export type MarkView = {
   name: string;
@@ -431,6 +507,16 @@ export type MeasureCosts = {
   request?: number;
 };
 
+// Move elements and groups into a group; an empty `group` is the top level.
+export type MoveInto = {
+  type: "move_into";
+  request?: number;
+  session?: number;
+  elements?: string[];
+  groups?: string[][];
+  group?: string[];
+};
+
 // Move an object or a mark of the world; `x` and `y` are its new middle.
 export type MoveObject = {
   type: "move_object";
@@ -438,6 +524,14 @@ export type MoveObject = {
   name: string;
   x: number;
   y: number;
+};
+
+// Open an empty document without a file.
+export type NewDocument = {
+  type: "new";
+  request?: number;
+  session?: number;
+  discard?: boolean;
 };
 
 // Open an example, as a document without a file.
@@ -528,10 +622,30 @@ export type ParameterForm = {
   of: string[];
 };
 
+// Add the content of a document, given as text, to a group; the answer has the new ids in `made`.
+//
+// `at` is the position of its upper left corner. Other text is refused, and nothing changes.
+export type Paste = {
+  type: "paste";
+  request?: number;
+  session?: number;
+  text: string;
+  group?: string[];
+  at?: unknown[] | null;
+};
+
 // Pause the run.
 export type Pause = {
   type: "pause";
   request?: number;
+};
+
+// Move boxes to positions, by the ids of their elements.
+export type PlaceBoxes = {
+  type: "place";
+  request?: number;
+  session?: number;
+  positions: Record<string, unknown[]>;
 };
 
 // Add an object to the world, with its middle and its size.
@@ -564,6 +678,12 @@ export type PlotView = {
   module: string;
 };
 
+// A port of an element; an empty `port` means the default one: the output, the first input.
+export type PortEnd = {
+  element: string;
+  port?: string;
+};
+
 // Add an input to an element until `release`.
 //
 // The input is a Gaussian around `center` (axis units), or constant over the axes if that is None.
@@ -574,6 +694,15 @@ export type PushInput = {
   amplitude: number;
   center?: number[] | null;
   sigma?: number[] | null;
+};
+
+// Move the ends of a connection.
+export type Reconnect = {
+  type: "reconnect";
+  request?: number;
+  session?: number;
+  old: Ends;
+  new: Ends;
 };
 
 // An open record.
@@ -638,11 +767,31 @@ export type RemoveDocumentParameter = {
   name: string;
 };
 
+// Remove elements, groups with their content, and connections.
+export type RemoveElements = {
+  type: "remove";
+  request?: number;
+  session?: number;
+  elements?: string[];
+  groups?: string[][];
+  connections?: Ends[];
+};
+
 // Remove an object from the world.
 export type RemoveObject = {
   type: "remove_object";
   request?: number;
   name: string;
+};
+
+// Rename an element, or with an empty `element` a group. A name that is taken is refused.
+export type Rename = {
+  type: "rename";
+  request?: number;
+  session?: number;
+  name: string;
+  element?: string;
+  group?: string[];
 };
 
 // Reset state, time and noise to the start, with another seed if one is given. Parameters stay.
@@ -824,6 +973,19 @@ export type ToServer =
   | Unlink
   | RemoveDocumentParameter
   | Arrange
+  | NewDocument
+  | AddElement
+  | Connect
+  | Disconnect
+  | Reconnect
+  | RemoveElements
+  | Rename
+  | MoveInto
+  | MakeGroup
+  | Ungroup
+  | CopyElements
+  | Paste
+  | PlaceBoxes
   | ApplyPreset
   | ApplyPresetText
   | Undo
@@ -859,6 +1021,14 @@ export type Undo = {
   type: "undo";
   request?: number;
   session?: number;
+};
+
+// Move the content of a group to its parent.
+export type Ungroup = {
+  type: "ungroup";
+  request?: number;
+  session?: number;
+  group: string[];
 };
 
 // Unlink a parameter of an element from its document parameter.

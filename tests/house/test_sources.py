@@ -19,7 +19,7 @@ FORBIDDEN = {
 # (family.py) is another, filled by the decorators of its own module.
 STATE = {
     ("registry", "_kinds"): "the registry itself",
-    ("server.requests", "HANDLERS"): "the handlers of messages, filled by `handles` in the same file",
+    ("server.handlers", "HANDLERS"): "the handlers of messages, filled by `handles` in the same file",
 }
 MUTABLE_CALLS = {
     "dict",

@@ -14,7 +14,8 @@ from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.errors import ParameterError
 from deodar.leaves import per_axis
-from deodar.numerics.axes import Axes, Axis, shape
+from deodar.numerics import starting
+from deodar.numerics.axes import Axes, Axis, cell, shape
 from deodar.numerics.signs import Sign, product, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Live, PerAxis, Rebuild, Recompile
 from deodar.registry import register
@@ -62,6 +63,12 @@ class PopulationActivity(Coupling):
     ] = False
 
     linear: ClassVar[bool] = True
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        neurons = arriving if arriving is not None and len(arriving) == 1 else axes[:1]
+        tuning = starting.map_of_places(neurons, axes) if neurons else None
+        return {} if tuning is None else {"tuning": FrozenArray(tuning * cell(axes))}
 
     def polarity(self) -> Sign:
         return product(sign_of(self.tuning), sign_of(self.amplitude))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -45,6 +45,10 @@ class Weighting(Coupling):
     axes: Annotated[tuple[Axis, ...], Recompile(meaning="axes of the weights")] = needed("[x]")
 
     linear: ClassVar[bool] = True
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        return {"weights": FrozenArray(np.ones(shape(axes)))}
 
     def polarity(self) -> Sign:
         return sign_of(self.weights)

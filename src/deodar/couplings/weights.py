@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
@@ -13,6 +13,7 @@ from jax import Array
 
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
+from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.intervals import Interval, times, total
 from deodar.numerics.signs import Sign, sign_of
@@ -49,6 +50,11 @@ class Weights(Coupling):
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
 
     linear: ClassVar[bool] = True
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        weights = starting.map_of_places(axes, axes if arriving is None else arriving)
+        return {} if weights is None else {"weights": FrozenArray(weights)}
 
     def polarity(self) -> Sign:
         return sign_of(self.weights)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import jax.numpy as jnp
 from jax import Array
@@ -12,6 +12,7 @@ from jax import Array
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
+from deodar.numerics import starting
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import Interval, signed
@@ -48,6 +49,13 @@ class BoxStimulus(Stimulus):
     center: Annotated[PerAxis, Live("axis", meaning="middle of the region")] = 0.0
     width: Annotated[PerAxis, Live("axis", lower=1e-6, meaning="full width")] = 10.0
     amplitude: Annotated[float, Live("activation", meaning="value inside")] = 1.0
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        if not axes:
+            return {"amplitude": starting.STRENGTH}
+        width = starting.one_or_each(tuple(2 * sigma for sigma in starting.widths(axes)))
+        return {"center": starting.middle(axes), "width": width, "amplitude": starting.STRENGTH}
 
     def warnings(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         yield from super().warnings(ins)

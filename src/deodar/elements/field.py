@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import jax.numpy as jnp
 import numpy as np
@@ -14,11 +14,12 @@ from jax import Array
 from deodar.element import Arrays, Convolution, Element, Setting, Time
 from deodar.leaves import is_neutral, per_axis
 from deodar.numerics import noise as noises
-from deodar.numerics import quadrature
+from deodar.numerics import quadrature, starting
 from deodar.numerics.axes import Axes, Axis, cell
 from deodar.numerics.integrators import euler
 from deodar.numerics.intervals import Interval, hull, signed, times, total
 from deodar.numerics.kernels._base import Kernel, validate_kernels
+from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.signs import Sign, sign_of, together
@@ -192,6 +193,19 @@ class Field(Element):
         u, h, s = state["activation"], self.resting_level, inputs["input"]
         change = -u + h + s + self._interaction(at, self._output(u))
         return {"activation": euler(u, change, self.tau, time.dt, self._noise(noise, constants))}
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        """Return a kernel and a global inhibition with which localised inputs of 6 compete for one peak.
+
+        The peak decays without its input, at the other default values.
+        """
+        if not axes:
+            return {}
+        sigmas = starting.widths(axes)
+        kernel = Gaussian(amplitude=15.0, sigma=starting.one_or_each(sigmas), normalized=True)
+        inhibition = 4.0 / math.prod(2 * sigma for sigma in sigmas)
+        return {"kernel": (kernel,), "global_inhibition": float(f"{inhibition:.3g}")}
 
     def inject(
         self, state: Mapping[str, np.ndarray], amount: np.ndarray | float, dt: float

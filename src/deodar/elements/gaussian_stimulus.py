@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import jax.numpy as jnp
 from jax import Array
@@ -13,6 +13,7 @@ from jax import Array
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
+from deodar.numerics import starting
 from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import ANY, Interval, signed
@@ -67,6 +68,18 @@ class GaussianStimulus(Stimulus):
             ),
         ),
     ] = dc.field(default=None, kw_only=True)
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        return (
+            {
+                "center": starting.middle(axes),
+                "sigma": starting.one_or_each(starting.widths(axes)),
+                "amplitude": starting.STRENGTH,
+            }
+            if axes
+            else {"amplitude": starting.STRENGTH}
+        )
 
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)

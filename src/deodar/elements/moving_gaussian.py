@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import jax.numpy as jnp
 import numpy as np
@@ -13,6 +13,8 @@ from jax import Array
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus
 from deodar.leaves import per_axis
+from deodar.numerics import starting
+from deodar.numerics.axes import Axes
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import Interval, signed
 from deodar.numerics.signs import Sign, sign_of
@@ -70,6 +72,18 @@ class MovingGaussian(Stimulus):
 
     def polarity(self) -> Sign:
         return sign_of(self.amplitude)
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        return (
+            {
+                "center": starting.middle(axes),
+                "sigma": starting.one_or_each(starting.widths(axes)),
+                "amplitude": starting.STRENGTH,
+            }
+            if axes
+            else {"amplitude": starting.STRENGTH}
+        )
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if isinstance(self.waypoints, FrozenArray):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import jax.numpy as jnp
 from jax import Array
@@ -12,6 +12,7 @@ from jax import Array
 from deodar.declarations import needed
 from deodar.element import Setting
 from deodar.elements._stimulus import Stimulus, array_strength
+from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.intervals import Interval
 from deodar.numerics.signs import Sign, product, sign_of
@@ -48,6 +49,10 @@ class Pattern(Stimulus):
         [float(k % 7 == 3) for k in range(21)]
     )
     amplitude: Annotated[float, Live(meaning="factor")] = 1.0
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        return {"values": FrozenArray(starting.hill(axes)), "amplitude": starting.STRENGTH}
 
     def polarity(self) -> Sign:
         return product(sign_of(self.values), sign_of(self.amplitude))

@@ -15,6 +15,7 @@ from deodar.declarations import needed
 from deodar.element import Arrays, Setting, Time
 from deodar.elements._stimulus import Stimulus, array_strength
 from deodar.leaves import is_neutral
+from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.exact import Exact, exact, wide
 from deodar.numerics.intervals import Interval
@@ -89,6 +90,11 @@ class TimeSeries(Stimulus):
             meaning="period of repetition; 0: none",
         ),
     ] = 0.0
+
+    @classmethod
+    def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:
+        two = np.stack([starting.hill(axes, 0.3), starting.hill(axes, 0.7)])
+        return {"values": FrozenArray(two), "amplitude": starting.STRENGTH}
 
     def polarity(self) -> Sign:
         return product(sign_of(self.values), sign_of(self.amplitude))

@@ -21,7 +21,7 @@ from deodar import codec, registry
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
-from deodar.model.parts import kinds_in, to_json
+from deodar.model.parts import axes_in, kinds_in, to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data
 from deodar.numerics.axes import Axis
@@ -41,11 +41,8 @@ ARRAY_SHARE = 0.5
 
 def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     """Return the document as plain data with keys in a stable order, and its arrays by key."""
-    axes: dict[str, Axis] = {}
+    table: dict[str, Axis] = {}
     arrays: dict[str, FrozenArray] = {}
-
-    def axis_key(axis: Axis) -> str:
-        return _key(axes, axis.name, axis)
 
     def array_key(array: FrozenArray) -> str:
         return _key(arrays, "array", array)
@@ -53,7 +50,7 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     by = doc.by_id()
     elements: dict[str, Any] = {}
     for e in doc.entries:
-        body = to_json(e.element, axis_key, array_key)
+        body = to_json(e.element, lambda axis: axis_key(table, axis), array_key)
         elements[e.path] = {
             "kind": body.pop("kind"),
             "id": e.id,
@@ -72,7 +69,7 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     data: dict[str, Any] = {"deodar": VERSION, "name": doc.name, "time_unit": doc.time_unit}
     data |= {} if doc.dt is None else {"dt": doc.dt}
     data |= {} if doc.t0 == 0 else {"t0": doc.t0}
-    data["axes"] = {key: _axis_data(axis) for key, axis in axes.items()}
+    data["axes"] = {key: axis_data(axis) for key, axis in table.items()}
     data |= {
         "parameters": shared,
         "elements": elements,
@@ -89,6 +86,20 @@ def to_data(doc: Document) -> tuple[dict[str, Any], dict[str, FrozenArray]]:
     data |= {"notes": doc.notes} if doc.notes else {}
     data |= {"layout": dict(doc.layout)} if doc.layout else {}
     return data, arrays
+
+
+def axes(doc: Document) -> dict[str, Axis]:
+    """Return the axes of a document by their keys, as `to_data` does."""
+    table: dict[str, Axis] = {}
+    for e in doc.entries:
+        for axis in axes_in(e.element):
+            axis_key(table, axis)
+    return table
+
+
+def axis_key(table: dict[str, Axis], axis: Axis) -> str:
+    """Return the key of an axis in a table of axes; a new axis is added to it."""
+    return _key(table, axis.name, axis)
 
 
 def dumps(doc: Document, arrays_file: str = "") -> tuple[str, bytes | None]:
@@ -163,7 +174,8 @@ def _key(table: dict[str, Any], base: str, value: Any) -> str:
     return key
 
 
-def _axis_data(axis: Axis) -> dict[str, Any]:
+def axis_data(axis: Axis) -> dict[str, Any]:
+    """Return an axis as plain data."""
     out: dict[str, Any] = {
         "name": axis.name,
         "lower": axis.lower,
@@ -220,7 +232,11 @@ def loads(content: bytes, beside: Callable[[str], bytes | None]) -> Document:
     """
     if package.is_content(content):
         return _load_package(io.BytesIO(content))
-    data = codec.read(content)
+    return of_data(codec.read(content), beside)
+
+
+def of_data(data: Any, beside: Callable[[str], bytes | None]) -> Document:
+    """Return the document of plain data; `beside` as in `loads`."""
     return from_data(data, _arrays(data, beside))
 
 
@@ -306,10 +322,14 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
 
 
 __all__ = [
+    "axes",
+    "axis_data",
+    "axis_key",
     "dumps",
     "from_data",
     "load",
     "loads",
+    "of_data",
     "pack",
     "require_room",
     "save",

@@ -10,6 +10,7 @@ from deodar import codec, registry
 from deodar.declarations import Needed
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.leaves import get
+from deodar.numerics.axes import Axis
 from deodar.parameters import PLAIN, FrozenArray, Parameter, Part, an, normal, parameter, parameters, show
 
 
@@ -87,6 +88,24 @@ def to_json(
             value = getattr(part, p.name)
             out[p.name] = None if value is None else _plain(p, value, axis_key, array_key)
     return out
+
+
+def axes_in(part: Any) -> Iterator[Axis]:
+    """Yield the axes of a part and of the parts inside it, in the order of the fields."""
+    for p in parameters(type(part)):
+        value = getattr(part, p.name) if p.form in ("axes", "axis", "part", "parts") else None
+        if value is None:
+            continue
+        match p.form:
+            case "axes":
+                yield from value
+            case "axis":
+                yield value
+            case "part":
+                yield from axes_in(value)
+            case _:
+                for inner in value:
+                    yield from axes_in(inner)
 
 
 def _plain(
@@ -256,10 +275,14 @@ def part_from_json(
     arrays: Mapping[str, FrozenArray],
     base: type[Any],
     name: str,
+    given: Mapping[str, Any] | None = None,
 ) -> Any:
-    """Return the named part that plain data describe; the error lists every problem with its path."""
+    """Return the named part that plain data describe; the error lists every problem with its path.
+
+    `given` are further values, not as plain data.
+    """
     problems: list[Problem] = []
-    part = _from_json(data, where, axes, arrays, base, problems, {"name": name})
+    part = _from_json(data, where, axes, arrays, base, problems, {**(given or {}), "name": name})
     if problems:
         raise ParameterError(problems)
     return part

@@ -56,6 +56,7 @@ class OpenProject:
 
     Attributes:
         queue: runs one change after the other.
+        trust: whether functions that documents name may be run.
         version: number of changes that pages must receive.
         model: the document being edited, with its history.
         file: the file that the document is saved to.
@@ -78,7 +79,7 @@ class OpenProject:
         changed: Callable[[], None],
     ) -> None:
         self.workspace, self.store, self.engine, self.embodiment = workspace, store, engine, embodiment
-        self._trust, self._changed = trust, changed
+        self.trust, self._changed = trust, changed
         self.queue = ChangeQueue()
         self.version = 0
         self.model: Model | None = None
@@ -254,7 +255,7 @@ class OpenProject:
             await self._refuse(title, error)
             return
         await self._leave()
-        self.model = Model(document=doc, trusted=self._trust)
+        self.model = Model(document=doc, trusted=self.trust)
         self.file, self._saved, self._digest = file, view.plain(doc), await self._hash(file)
         self._name, self._kept = self.store.new_name(), doc
         if file is not None:
@@ -425,6 +426,19 @@ class OpenProject:
             model.history.amend(new)
         self._gesture = None
         self._moved()
+
+    async def lay_out(self, how: Callable[[Document], Document]) -> None:
+        """Apply a function that changes only the layout, as one step of undo; records have a layout too."""
+        model = self._require()
+        new = how(model.document)
+        if new is not model.document:
+            model.history.commit(new)
+            self._gesture = None
+            self._moved()
+
+    def document(self) -> Document:
+        """Return the open document, also that of a record; raise DocumentError if none is open."""
+        return self._require().document
 
     async def undo(self) -> None:
         """Undo the last change."""

@@ -1,12 +1,15 @@
-"""Handlers of requests: one function for each message of `to_server`, registered by `handles`."""
+"""Handlers of requests: one function for each message of `to_server`, registered by `handles`.
+
+Those that build a document are in `build_requests`.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -20,8 +23,10 @@ from deodar.model import edit, files, find
 from deodar.model.paths import quote
 from deodar.numerics.axes import Axes
 from deodar.recording import places
+from deodar.server import build_requests as build_requests  # registers its handlers
 from deodar.server import content, figure_file, gallery, to_server
 from deodar.server.file_thread import in_file_thread
+from deodar.server.handlers import HANDLERS, handles
 from deodar.server.hub import Hub
 from deodar.server.page import Page
 from deodar.server.scene import SentBodies
@@ -35,26 +40,6 @@ MOST_STREAMS = 2000
 """Largest number of streams of one page."""
 
 Answers = list[Answer | Folder]
-R = TypeVar("R", bound=to_server.Request)
-Handler = Callable[[Hub, Page, R], Awaitable[Answer | Folder | None]]
-HANDLERS: dict[type[to_server.Request], Handler[Any]] = {}
-"""The handler of each message class; `handles` registers them."""
-
-
-def handles(kind: type[R]) -> Callable[[Handler[R]], Handler[R]]:
-    """Decorator that registers the handler of a message class.
-
-    Raises:
-        ModelError: the message has a handler already.
-    """
-
-    def register(handler: Handler[R]) -> Handler[R]:
-        if kind in HANDLERS:
-            raise ModelError(f"the message {kind.__name__} has a handler already")
-        HANDLERS[kind] = handler
-        return handler
-
-    return register
 
 
 async def do(hub: Hub, page: Page, message: to_server.Request) -> Answers:

@@ -499,7 +499,8 @@ class Answer(Message, frozen=True, tag="answer"):
     `replace` (repeat it with replace). `cost` is the cost of a change. For a preset, `carried` is the number
     of values that changed and `unmatched` lists the values that could not be applied. `imported` is a
     sentence on the import of a file of another tool. `version` is the first version of the document with the
-    change, if the request made one.
+    change, if the request made one. `made` lists the ids of new elements, `group` the names of a new group;
+    `text` is what the request asked for: a document for the clipboard.
     """
 
     request: int
@@ -511,3 +512,6 @@ class Answer(Message, frozen=True, tag="answer"):
     unmatched: list[str] = []
     imported: str = ""
     version: int = 0
+    made: list[Id] = []
+    group: list[str] = []
+    text: str = ""

@@ -195,6 +195,160 @@ class Arrange(DocumentRequest, frozen=True, kw_only=True, tag="arrange"):
     undoable: bool = True
 
 
+Coordinate = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+Position = tuple[Coordinate, Coordinate]
+Group = Annotated[list[Text], msgspec.Meta(max_length=64)]
+Many = msgspec.Meta(max_length=100_000)
+Ids = Annotated[list[Id], Many]
+Groups = Annotated[list[Group], Many]
+
+
+class PortEnd(Data, frozen=True, kw_only=True):
+    """A port of an element; an empty `port` means the default one: the output, the first input."""
+
+    element: Id
+    port: Text = ""
+
+
+class Ends(Data, frozen=True, kw_only=True):
+    """The ends of a connection; an empty port means the default one."""
+
+    source: Id
+    source_port: Text = ""
+    target: Id
+    target_port: Text = ""
+
+
+@MESSAGES.register
+class NewDocument(DocumentRequest, frozen=True, kw_only=True, tag="new"):
+    """Open an empty document without a file."""
+
+    discard: bool = False
+
+
+@MESSAGES.register
+class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
+    """Add an element of a kind; the answer has its id in `made`.
+
+    `values` has the format of documents. Parameters without a value get one that works at once: axes are
+    those of the ports that the element is connected with, else those of the first field, else a new axis x.
+    `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into. An
+    empty name means a free one after its kind; a taken one gets a number. `at` is the position of its box.
+    """
+
+    kind: Text
+    values: dict[str, Any] = {}
+    name: Text = ""
+    group: Group = []
+    at: Position | None = None
+    source: PortEnd | None = None
+    target: PortEnd | None = None
+    wire: Ends | None = None
+
+
+@MESSAGES.register
+class Connect(DocumentRequest, frozen=True, kw_only=True, tag="connect"):
+    """Connect an output port to an input port; `reads` is previous, current, delayed, or empty."""
+
+    source: Id
+    source_port: Text = ""
+    target: Id
+    target_port: Text = ""
+    reads: Text = ""
+
+
+@MESSAGES.register
+class Disconnect(DocumentRequest, frozen=True, kw_only=True, tag="disconnect"):
+    """Remove a connection."""
+
+    source: Id
+    source_port: Text = ""
+    target: Id
+    target_port: Text = ""
+
+
+@MESSAGES.register
+class Reconnect(DocumentRequest, frozen=True, kw_only=True, tag="reconnect"):
+    """Move the ends of a connection."""
+
+    old: Ends
+    new: Ends
+
+
+@MESSAGES.register
+class RemoveElements(DocumentRequest, frozen=True, kw_only=True, tag="remove"):
+    """Remove elements, groups with their content, and connections."""
+
+    elements: Ids = []
+    groups: Groups = []
+    connections: Annotated[list[Ends], Many] = []
+
+
+@MESSAGES.register
+class Rename(DocumentRequest, frozen=True, kw_only=True, tag="rename"):
+    """Rename an element, or with an empty `element` a group. A name that is taken is refused."""
+
+    name: Text
+    element: Id = ""
+    group: Group = []
+
+
+@MESSAGES.register
+class MoveInto(DocumentRequest, frozen=True, kw_only=True, tag="move_into"):
+    """Move elements and groups into a group; an empty `group` is the top level."""
+
+    elements: Ids = []
+    groups: Groups = []
+    group: Group = []
+
+
+@MESSAGES.register
+class MakeGroup(DocumentRequest, frozen=True, kw_only=True, tag="group"):
+    """Put elements and groups into a new group, whose names are `group` of the answer.
+
+    An empty name means a free one. `at`: the boxes are moved together, their corner to there.
+    """
+
+    elements: Ids = []
+    groups: Groups = []
+    name: Text = ""
+    at: Position | None = None
+
+
+@MESSAGES.register
+class Ungroup(DocumentRequest, frozen=True, kw_only=True, tag="ungroup"):
+    """Move the content of a group to its parent."""
+
+    group: Group
+
+
+@MESSAGES.register
+class CopyElements(Request, frozen=True, kw_only=True, tag="copy"):
+    """Return elements and groups as a document of their own, the JSON text `text` of the answer."""
+
+    elements: Ids = []
+    groups: Groups = []
+
+
+@MESSAGES.register
+class Paste(DocumentRequest, frozen=True, kw_only=True, tag="paste"):
+    """Add the content of a document, given as text, to a group; the answer has the new ids in `made`.
+
+    `at` is the position of its upper left corner. Other text is refused, and nothing changes.
+    """
+
+    text: str
+    group: Group = []
+    at: Position | None = None
+
+
+@MESSAGES.register
+class PlaceBoxes(DocumentRequest, frozen=True, kw_only=True, tag="place"):
+    """Move boxes to positions, by the ids of their elements."""
+
+    positions: dict[Id, Position]
+
+
 @MESSAGES.register
 class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"):
     """Apply the values of another file below the root, by names and kinds, as one step of undo.

@@ -1,0 +1,90 @@
+"""New elements, as an editor makes them from a kind: with axes and values that work at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from deodar import registry
+from deodar.declarations import Needed
+from deodar.element import Element
+from deodar.errors import ParameterError
+from deodar.model import files
+from deodar.model.document import Document
+from deodar.model.parts import part_from_json
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import Parameter, an, parameters
+
+FIRST = Axis("x", 0, 100, samples=101)
+"""The axis of the first element of a document."""
+
+
+def element(
+    doc: Document,
+    kind: str,
+    name: str,
+    values: Mapping[str, Any],
+    axes: Axes | None = None,
+    arriving: Axes | None = None,
+) -> Element:
+    """Return a new element of a kind.
+
+    Args:
+        doc: the document that the element is made for.
+        kind: name of the kind.
+        name: name of the element.
+        values: parameters in the format of documents, axes by their keys; others have starting values.
+        axes: its axes; None: those of the first element with a state and axes, or a new axis.
+        arriving: axes of its input; None: unknown.
+
+    Raises:
+        UnknownName: no kind has that name.
+        ParameterError: the kind is no element, or a value is refused; the error lists all.
+    """
+    cls = registry.kind(kind)
+    if not issubclass(cls, Element):
+        raise ParameterError(f"expected an element, got {an(kind)}", where=kind)
+    known = files.axes(doc)
+    free = usual_axes(doc) if axes is None else axes
+    body: dict[str, Any] = {**values, "kind": kind}
+    example, own = cls.example(), free
+    for p in parameters(cls):
+        if p.name not in values:
+            needed = _needed_axes(p, getattr(example, p.name), free)
+            if needed is not None:
+                keys = [files.axis_key(known, axis) for axis in needed]
+                body[p.name] = keys if p.form == "axes" else keys[0]
+        if p.name == "axes":
+            keys = body.get("axes", [])
+            listed = keys if isinstance(keys, list) else []
+            own = tuple(known[key] for key in listed if isinstance(key, str) and key in known)
+    begun = {k: v for k, v in cls.starting_values(own, arriving).items() if k not in values}
+    return part_from_json(body, name, known, {}, Element, name, begun)
+
+
+def usual_axes(doc: Document) -> Axes:
+    """Return the axes of the first element that has a state and axes, else of the first with axes.
+
+    A document without axes gets a new one.
+    """
+    found = [(e.element.stateful, axes) for e in doc.entries if (axes := _axes(e.element))]
+    return next((axes for state, axes in found if state), found[0][1] if found else (FIRST,))
+
+
+def _axes(element: Element) -> Axes:
+    given: Sequence[Axis] = getattr(element, "axes", ())
+    return tuple(given)
+
+
+def _needed_axes(p: Parameter, example: Any, axes: Axes) -> Axes | None:
+    """Return the axes that a new element gets for a parameter; None: the parameter keeps its default."""
+    if p.form == "axes" and example:
+        return axes
+    if p.form == "axis" and isinstance(p.default, Needed):
+        return (example,)
+    return None
+
+
+def kinds() -> Iterator[type[Element]]:
+    """Yield every registered kind of element."""
+    yield from (cls for cls in registry.kinds().values() if issubclass(cls, Element))

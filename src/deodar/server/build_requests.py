@@ -1,0 +1,136 @@
+"""Handlers of requests that build a document: new elements, connections, groups, copies."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses as dc
+from collections.abc import Callable
+from typing import TypeVar
+
+from deodar.errors import DeodarError, DocumentError
+from deodar.model import building, clipboard
+from deodar.model.building import Around, EndPorts
+from deodar.model.document import Document
+from deodar.model.paths import PathNames
+from deodar.server import to_server
+from deodar.server.handlers import handles
+from deodar.server.hub import Hub
+from deodar.server.page import Page
+from deodar.server.to_page import Answer
+
+T = TypeVar("T")
+
+
+def _ends(given: to_server.Ends | to_server.Connect | to_server.Disconnect) -> EndPorts:
+    return (given.source, given.source_port, given.target, given.target_port)
+
+
+def _port(given: to_server.PortEnd | None) -> building.ElementPort | None:
+    return None if given is None else (given.element, given.port)
+
+
+def _groups(given: list[list[str]]) -> list[PathNames]:
+    return [tuple(g) for g in given]
+
+
+async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T:
+    """Change the document by a function that also returns a result, and return the result."""
+    found: list[T] = []
+
+    def change(doc: Document) -> Document:
+        new, result = how(doc)
+        found.append(result)
+        return new
+
+    await hub.project.change(change)
+    return found[0]
+
+
+@handles(to_server.NewDocument)
+async def _new(hub: Hub, page: Page, m: to_server.NewDocument) -> None:
+    await hub.project.open_copy(lambda: Document("untitled"), "untitled", m.discard)
+
+
+@handles(to_server.AddElement)
+async def _add_element(hub: Hub, page: Page, m: to_server.AddElement) -> Answer:
+    around = Around(_port(m.source), _port(m.target), None if m.wire is None else _ends(m.wire))
+    made = await _changed(
+        hub, lambda doc: building.add(doc, m.kind, m.values, m.name, tuple(m.group), m.at, around)
+    )
+    return Answer(request=m.request, made=made)
+
+
+@handles(to_server.Connect)
+async def _connect(hub: Hub, page: Page, m: to_server.Connect) -> None:
+    await hub.project.change(lambda doc: building.connect(doc, _ends(m), m.reads))
+
+
+@handles(to_server.Disconnect)
+async def _disconnect(hub: Hub, page: Page, m: to_server.Disconnect) -> None:
+    await hub.project.change(lambda doc: building.disconnect(doc, [_ends(m)]))
+
+
+@handles(to_server.Reconnect)
+async def _reconnect(hub: Hub, page: Page, m: to_server.Reconnect) -> None:
+    await hub.project.change(lambda doc: building.reconnect(doc, _ends(m.old), _ends(m.new)))
+
+
+@handles(to_server.RemoveElements)
+async def _remove(hub: Hub, page: Page, m: to_server.RemoveElements) -> None:
+    wires = [_ends(c) for c in m.connections]
+    await hub.project.change(lambda doc: building.remove(doc, m.elements, _groups(m.groups), wires))
+
+
+@handles(to_server.Rename)
+async def _rename(hub: Hub, page: Page, m: to_server.Rename) -> None:
+    if m.element:
+        await hub.project.change(lambda doc: building.rename(doc, m.element, m.name))
+    else:
+        await hub.project.change(lambda doc: building.rename_group(doc, tuple(m.group), m.name))
+
+
+@handles(to_server.MoveInto)
+async def _move_into(hub: Hub, page: Page, m: to_server.MoveInto) -> None:
+    to = tuple(m.group)
+    await hub.project.change(lambda doc: building.move_into(doc, m.elements, _groups(m.groups), to))
+
+
+@handles(to_server.MakeGroup)
+async def _group(hub: Hub, page: Page, m: to_server.MakeGroup) -> Answer:
+    path = await _changed(hub, lambda doc: building.group(doc, m.elements, _groups(m.groups), m.name, m.at))
+    return Answer(request=m.request, group=list(path))
+
+
+@handles(to_server.Ungroup)
+async def _ungroup(hub: Hub, page: Page, m: to_server.Ungroup) -> None:
+    await hub.project.change(lambda doc: building.ungroup(doc, tuple(m.group)))
+
+
+@handles(to_server.CopyElements)
+async def _copy(hub: Hub, page: Page, m: to_server.CopyElements) -> Answer:
+    doc = hub.project.document()
+    text = await asyncio.to_thread(
+        lambda: clipboard.text(building.excerpt(doc, m.elements, _groups(m.groups)))
+    )
+    return Answer(request=m.request, text=text)
+
+
+@handles(to_server.Paste)
+async def _paste(hub: Hub, page: Page, m: to_server.Paste) -> Answer:
+    try:
+        read = await asyncio.to_thread(clipboard.read, m.text)
+    except DeodarError as error:
+        first, *more = error.problems
+        what = f"the clipboard holds no elements that can be pasted: {first.what}"
+        raise DocumentError(
+            what + (f" (and {len(more)} more problems)" if more else ""), first.where, first.fix
+        ) from None
+    # functions that the text names run only where the studio was started with trust, as those of a file
+    template = dc.replace(read, foreign=not hub.project.trust)
+    made = await _changed(hub, lambda doc: building.paste(doc, template, tuple(m.group), m.at))
+    return Answer(request=m.request, made=made)
+
+
+@handles(to_server.PlaceBoxes)
+async def _place(hub: Hub, page: Page, m: to_server.PlaceBoxes) -> None:
+    await hub.project.lay_out(lambda doc: building.placed(doc, m.positions))

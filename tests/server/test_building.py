@@ -1,0 +1,190 @@
+"""Building by mouse over a real socket: elements, connections, groups, the clipboard."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import deodar as dd
+from tests.server.page import Page, play, studio
+
+
+def names(p: Page) -> set[str]:
+    """Return the paths of all elements of the open document."""
+    return {e["path"] for e in p.document["elements"]}
+
+
+def wires(p: Page) -> set[tuple[str, str]]:
+    """Return the paths of both elements of each connection."""
+    path = {e["id"]: e["path"] for e in p.document["elements"]}
+    return {(path[c["source"]], path[c["target"]]) for c in p.document["connections"]}
+
+
+async def made(p: Page, type: str, **message: Any) -> list[str]:
+    """Send a request that makes elements, and return their ids."""
+    answer = await p.do(type, **message)
+    return answer["made"]
+
+
+def test_a_model_is_built_from_nothing_and_runs(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        assert p.document["elements"] == [] and p.document["file"] == ""
+        (u,) = await made(p, "add_element", kind="Field", at=[10, 20])
+        (s,) = await made(p, "add_element", kind="GaussianStimulus", target={"element": u}, at=[0, 0])
+        assert names(p) == {"field", "gaussian_stimulus"} and wires(p) == {("gaussian_stimulus", "field")}
+        assert p.document["layout"]["boxes"] == {u: {"x": 10, "y": 20}, s: {"x": 0, "y": 0}}
+        assert p.document["undo"] == 2 and p.document["unsaved"] and p.document["problems"] == []
+        await p.until(lambda: not p.clock["busy"])
+        await p.do("watch", stream=1, element=u, port="activation")
+        await p.do("speed", factor=None)
+        await p.do("step", n=200)
+        await p.until(lambda: 1 in p.frames and p.frames[1][0] == 200)
+        assert p.frames[1][1].max() > 0 > p.frames[1][1].min(), "the field has a peak"
+        await p.do("save", path="built")
+
+    with studio(root) as address:
+        play(address, scene)
+    assert dd.load(root / "built.json").check() == []
+
+
+def test_each_edit_is_one_step_of_undo(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u, left, right = p.element("u"), p.element("left"), p.element("right")
+        before = p.document
+        wire = {"source": left, "target": u}
+        edits: list[tuple[str, dict[str, Any]]] = [
+            ("add_element", {"kind": "Gain", "wire": wire, "at": [1, 2]}),
+            ("disconnect", {"source": right, "target": u}),
+            ("connect", {"source": u, "target": u, "source_port": "output", "target_port": "input"}),
+            ("reconnect", {"old": {"source": u, "target": u}, "new": {"source": right, "target": u}}),
+            ("rename", {"element": u, "name": "field"}),
+            ("group", {"elements": [left, right], "name": "inputs", "at": [0, 0]}),
+            ("rename", {"group": ["inputs"], "name": "stimuli"}),
+            ("move_into", {"elements": [u], "group": ["stimuli"]}),
+            ("ungroup", {"group": ["stimuli"]}),
+            ("place", {"positions": {u: [3, 4]}}),
+            ("remove", {"elements": [left], "connections": [{"source": right, "target": u}]}),
+        ]
+        for k, (type, message) in enumerate(edits):
+            await p.do(type, **message)
+            assert p.document["undo"] == k + 1, type
+        assert names(p) == {"field", "right", "gain"} and wires(p) == {("gain", "field")}
+        for _ in edits:
+            await p.do("undo")
+        assert {key: p.document[key] for key in before if key != "redo"} == {
+            key: before[key] for key in before if key != "redo"
+        }
+        for _ in edits:
+            await p.do("redo")
+        assert names(p) == {"field", "right", "gain"} and p.document["redo"] == 0
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_a_refused_edit_states_the_reason_and_changes_nothing(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u, left = p.element("u"), p.element("left")
+        before = p.document
+        refused: list[tuple[str, dict[str, Any], str]] = [
+            ("connect", {"source": left, "target": u}, "already connected"),
+            ("connect", {"source": u, "target": left}, "no input port"),
+            ("connect", {"source": u, "source_port": "outptu", "target": u}, "does not exist"),
+            ("disconnect", {"source": u, "target": u}, "not connected"),
+            ("rename", {"element": u, "name": "left"}, "already an element"),
+            ("rename", {"group": ["none"], "name": "x"}, "no group"),
+            ("remove", {"elements": ["00000000"]}, "was removed"),
+            ("add_element", {"kind": "Gaussian"}, "expected an element"),
+            ("add_element", {"kind": "Field", "values": {"axes": 3}}, "not among the document's axes"),
+            ("add_element", {"kind": "Gain", "wire": {"source": u, "target": u}}, "not connected"),
+            ("group", {}, "nothing is selected"),
+        ]
+        for type, message, what in refused:
+            answer = await p.ask(type, **message)
+            assert what in answer["problems"][0]["what"], (type, answer)
+            assert answer["made"] == [] and p.document["undo"] == 0
+        assert p.document == before
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_elements_are_copied_to_another_document(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        answer = await p.do("copy", elements=[e["id"] for e in p.document["elements"]])
+        data = json.loads(answer["text"])
+        assert data["elements"].keys() == {"u", "left", "right"} and len(data["connections"]) == 2
+        new = await made(p, "paste", text=answer["text"], at=[100, 100])
+        assert names(p) == {"u", "left", "right", "u2", "left2", "right2"} and len(new) == 3
+        assert len(p.document["connections"]) == 4
+        await p.open("open_file", path="node.json", discard=True)
+        before = names(p)
+        await made(p, "paste", text=answer["text"], group=["other"])
+        assert names(p) == before | {"other.u", "other.left", "other.right"}
+        assert p.document["groups"] == [["other"]] and p.document["undo"] == 1
+        for text in (
+            "",
+            "hello",
+            '{"deodar": 3, "elements": {"u": {"kind": "Nothing"}}}',
+            answer["text"][:99],
+        ):
+            refused = await p.ask("paste", text=text)
+            assert "cannot be pasted" not in str(refused["problems"][0]["fix"])
+            assert "can be pasted" in refused["problems"][0]["what"] and p.document["undo"] == 1
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_a_pasted_function_runs_only_where_the_studio_was_started_with_trust(
+    root: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    (tmp_path / "pasted_module.py").write_text(
+        "from pathlib import Path\nPath(__file__).with_name('ran').touch()\ndef f(u, i, t): return u\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    text = json.dumps({"deodar": 1, "elements": {"f": {"kind": "Function", "function": "pasted_module:f"}}})
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await made(p, "paste", text=text)
+        await p.until(lambda: p.clock["failure"])
+        assert "--trust" in p.clock["failure"][0]["fix"]
+        await p.do("undo")
+        await p.runs()
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 5)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+    assert not (tmp_path / "ran").exists()
+
+    async def trusted(p: Page) -> None:
+        await p.runs()
+        await made(p, "paste", text=text)
+        await p.until(lambda: (tmp_path / "ran").exists())
+
+    with studio(root, root / "selection.json", trust=True) as address:
+        play(address, trusted)
+
+
+def test_a_record_is_copied_from_and_not_built_on(root: Path) -> None:
+    model = dd.load(root / "selection.json")
+    dd.save_record(dd.simulate(model, 20, every=10), root / "record.zarr")
+
+    async def scene(p: Page) -> None:
+        await p.do("open_file", path="record.zarr")
+        await p.until(lambda: p.document and p.document["record"])
+        answer = await p.do("copy", elements=[p.element("u")])
+        assert '"u"' in answer["text"]
+        for type, message in (("add_element", {"kind": "Field"}), ("paste", {"text": answer["text"]})):
+            refused = await p.ask(type, **message)
+            assert "record" in refused["problems"][0]["what"]
+
+    with studio(root) as address:
+        play(address, scene)
