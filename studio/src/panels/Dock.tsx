@@ -14,7 +14,7 @@ import { live } from "../world/live";
 import { World } from "../world/World";
 import { restore, signature } from "./arrangement";
 import { Empty } from "./Empty";
-import { openTool, setDock } from "./openPlot";
+import { forgetArrangements, openTool, setDock } from "./openPlot";
 import { PlotPanel } from "./PlotPanel";
 import "./dock.css";
 
@@ -49,6 +49,7 @@ export function Dock() {
     }
     let timer: ReturnType<typeof setTimeout> | undefined;
     restore(api, useStudio.getState().document?.layout["panels"]);
+    forgetArrangements();
     saved.current = signature(api.toJSON());
     const save = () => {
       const arrangement = api.toJSON();

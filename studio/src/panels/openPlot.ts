@@ -5,14 +5,23 @@ import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/
 import { readParams } from "../plots/settings";
 import { useStudio } from "../store";
 import { placeFor } from "./placement";
+import { Remembered } from "./remembered";
 import { TOOLS, type Tool } from "./tools";
 
 export type PlotWish = { element: string; kind?: PlotKind; port?: string };
 
 let dock: DockviewApi | null = null;
+let remembered: Remembered | null = null;
 
 export function setDock(api: DockviewApi | null): void {
+  remembered?.end();
   dock = api;
+  remembered = api === null ? null : new Remembered(api);
+}
+
+// Another document has its own arrangement.
+export function forgetArrangements(): void {
+  remembered?.forget();
 }
 
 // Show a plot: the one that is there, or else a new one.
@@ -27,6 +36,7 @@ export function openPlot(wish: PlotWish): void {
     return;
   }
   const position = placeFor(dock);
+  remembered?.add();
   dock.addPanel({
     id: freeId(dock),
     component: "plot",
@@ -62,6 +72,7 @@ export function openTool(tool: Tool): void {
     return;
   }
   const { title, direction, width } = TOOLS[tool];
+  remembered?.add();
   dock.addPanel({ id: tool, component: tool, title, position: { direction }, initialWidth: width });
 }
 
