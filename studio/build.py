@@ -6,6 +6,7 @@ python studio/build.py lint       the formatting of the files (prettier), and th
 python studio/build.py format     format the files, lines of at most 110 columns (prettier)
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
+python studio/build.py firefox    the page in an installed Firefox, before a running studio
 python studio/build.py bench      what the page promises about time, measured in a real browser and printed
 python studio/build.py pictures   the manual's pictures of the studio, into docs/pictures
 python studio/build.py npm ...    npm itself, to add or renew a library
@@ -50,6 +51,7 @@ TOOLS: dict[str, list[list[str]]] = {
     "format": [[PRETTIER, "--write", "."]],
     "test": [[VITEST, "run"]],
     "browser": [[VITEST, "run", "--config", "vitest.browser.ts"]],
+    "firefox": [[VITEST, "run", "--config", "vitest.firefox.ts"]],
     "bench": [[VITEST, "run", "--config", "vitest.bench.ts"]],
     "pictures": [[VITEST, "run", "--config", "vitest.pictures.ts"]],
 }
