@@ -39,10 +39,53 @@ def test_axes_beyond_the_second_are_folded_except_the_channels_of_a_picture(
 
 
 @pytest.mark.parametrize(("most", "expected"), [(0, 9), (1, 2), (2, 2), (5, 5), (9, 9), (20, 9)])
-def test_a_thinned_array_keeps_both_ends_and_every_channel(most: int, expected: int) -> None:
+def test_a_picture_is_thinned_to_means_of_its_cells(most: int, expected: int) -> None:
     array = np.add.outer(np.arange(9) * 10.0, np.arange(3.0))
     thin = stream.thin(array, most, channels=True)
     assert thin.shape == (expected, 3)
-    assert np.array_equal(thin[[0, -1]], array[[0, -1]])
-    steps = np.diff(thin[:, 0])
-    assert steps.min() > 0 and steps.max() - steps.min() <= 10
+    starts = np.arange(expected) * 9 // expected
+    means = [part.mean(axis=0) for part in np.split(array, starts[1:])]
+    assert np.allclose(thin, means)
+
+
+@pytest.mark.parametrize("most", [1, 2, 3, 64, 999])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_peak_or_trough_of_one_sample_remains_wherever_it_is(most: int, sign: int) -> None:
+    resting = np.full(10_000, -5.0)
+    for place in (0, 1, 4_999, 5_003, 9_999):
+        array = resting.copy()
+        array[place] += 8.0 * sign
+        thin = stream.thin(array, most, channels=False)
+        assert thin.shape == (2 * (max(2, most) // 2),)
+        extreme = thin.max() if sign > 0 else thin.min()
+        assert extreme == array[place]
+        shown = int(np.abs(thin + 5.0).argmax()) / len(thin)
+        assert abs(shown - place / 10_000) <= 2 / len(thin)
+
+
+def test_minimum_and_maximum_of_a_bin_keep_their_order() -> None:
+    rising = np.arange(100.0)
+    assert np.array_equal(stream.thin(rising, 10, channels=False), [0, 19, 20, 39, 40, 59, 60, 79, 80, 99])
+    assert np.array_equal(stream.thin(-rising, 4, channels=False), [0, -49, -50, -99])
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_peak_or_trough_of_one_sample_of_a_plane_remains(sign: int) -> None:
+    random = np.random.default_rng(0)
+    for x, y in [(0, 0), (299, 199), (37, 151)]:
+        array = random.normal(-5, 0.1, (300, 200))
+        array[x, y] = -5 + 8.0 * sign
+        thin = stream.thin(array, 64, channels=False)
+        assert thin.shape == (64, 64)
+        assert thin[((x + 1) * 64 - 1) // 300, ((y + 1) * 64 - 1) // 200] == array[x, y]
+        assert np.abs(thin + 5).max() == 8.0
+
+
+def test_places_without_a_value_hide_no_others() -> None:
+    array = np.full(1000, np.nan)
+    array[501] = 1.0
+    assert np.nanmax(stream.thin(array, 10, channels=False)) == 1.0
+    plane = np.full((100, 100), np.nan)
+    plane[50, 50] = 1.0
+    thin = stream.thin(plane, 10, channels=False)
+    assert thin[5, 5] == 1.0 and np.isnan(thin).sum() == 99

@@ -18,6 +18,9 @@ from deodar.session.port_reader import PortKey
 CHANNELS = ("channel", 3)
 """Name and number of samples of the last axis of a picture."""
 
+MOST_MEDIAN = 4096
+"""Largest number of samples from which a median is computed."""
+
 
 class Stream:
     """A port of an element, or with a `request` its time course, under a number that the page chose.
@@ -87,7 +90,7 @@ class Stream:
             return Announced(stream=self.number, shape=[2], axes=[], folded=[], channels=False)
         channels = is_picture(self._axes)
         kept = self._axes if channels else self._axes[:2]
-        shape = [_thinned(a.samples, self.most) for a in kept]
+        shape = [_thinned(a.samples, self.most, len(kept)) for a in kept]
         if channels:
             shape[-1] = CHANNELS[1]
         return Announced(
@@ -112,19 +115,75 @@ def fold(array: np.ndarray, axes: Sequence[Axis]) -> np.ndarray:
 
 
 def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
-    """Thin an array to at most `most` samples along each axis (0: all), evenly spaced, including both ends.
+    """Thin an array to at most `most` samples along each axis (0: all), so that narrow peaks remain.
 
-    With `channels` the last axis keeps all samples.
+    The samples along an axis are divided into bins. Over one axis each bin gives its minimum and its maximum,
+    in the order of their positions. Over two axes each cell gives the value that is farthest from the median
+    of the array: a field is at its resting level almost everywhere, and a peak above it is kept as well as a
+    trough below it, which the maximum of a cell would hide. With `channels` a cell gives its mean, as when a
+    picture is made smaller; the last axis keeps all samples. Values that are NaN count only in bins without
+    others.
     """
-    for d in range(array.ndim - channels):
-        n = array.shape[d]
-        if _thinned(n, most) < n:
-            array = array.take(np.linspace(0, n - 1, _thinned(n, most)).round().astype(int), axis=d)
+    if array.ndim == 1:
+        n = array.shape[0]
+        return array if _thinned(n, most, 1) == n else _extremes(array, _thinned(n, most, 1) // 2)
+    bins = [_thinned(n, most, array.ndim) for n in array.shape[: array.ndim - channels]]
+    thinned = [d for d, n in enumerate(bins) if n < array.shape[d]]
+    median = _median(array) if thinned and not channels else 0.0
+    for d in thinned:
+        rows = np.moveaxis(array, d, 0)
+        rows = _means(rows, bins[d]) if channels else _farthest(rows, bins[d], median)
+        array = np.moveaxis(rows, 0, d)
     return array
 
 
-def _thinned(samples: int, most: int) -> int:
-    return samples if most == 0 else min(samples, max(2, most))
+def _extremes(array: np.ndarray, bins: int) -> np.ndarray:
+    values = array[_bins(array.shape[0], bins)]
+    missing = np.isnan(values)
+    lowest = np.where(missing, np.inf, values).argmin(axis=1)
+    highest = np.where(missing, -np.inf, values).argmax(axis=1)
+    order = np.sort(np.stack([lowest, highest], axis=1), axis=1)
+    return np.take_along_axis(values, order, axis=1).reshape(-1)
+
+
+def _farthest(array: np.ndarray, bins: int, median: float) -> np.ndarray:
+    values = array[_bins(array.shape[0], bins)]
+    distances = np.abs(values - median)
+    distances[np.isnan(distances)] = -1.0
+    return np.take_along_axis(values, distances.argmax(axis=1)[:, None], axis=1)[:, 0]
+
+
+def _means(array: np.ndarray, bins: int) -> np.ndarray:
+    starts = _edges(array.shape[0], bins)
+    counts = np.diff(np.append(starts, array.shape[0]))
+    return np.add.reduceat(array, starts, axis=0) / counts.reshape(-1, *[1] * (array.ndim - 1))
+
+
+def _edges(samples: int, bins: int) -> np.ndarray:
+    """Return the first sample of each bin."""
+    return np.arange(bins) * samples // bins
+
+
+def _bins(samples: int, bins: int) -> np.ndarray:
+    """Return the samples of each bin, one row for each; shorter bins repeat their last sample."""
+    starts = _edges(samples, bins)
+    ends = np.append(starts[1:], samples)
+    return np.minimum(starts[:, None] + np.arange((ends - starts).max()), ends[:, None] - 1)
+
+
+def _median(array: np.ndarray) -> float:
+    """Return the median of at most `MOST_MEDIAN` samples, evenly spaced."""
+    flat = array.reshape(-1)
+    some = flat[:: max(1, flat.size // MOST_MEDIAN)]
+    some = some[~np.isnan(some)]
+    return float(np.median(some)) if some.size else 0.0
+
+
+def _thinned(samples: int, most: int, dimensions: int) -> int:
+    """Return the number of samples that `thin` leaves; over one axis an even one, of pairs."""
+    if most == 0 or samples <= max(2, most):
+        return samples
+    return max(2, most) if dimensions > 1 else 2 * (max(2, most) // 2)
 
 
 def _lost(number: int, problem: Problem) -> Lost:

@@ -208,8 +208,9 @@ function firstShown(ports: string[], level: string, recorded?: string[]): string
 }
 
 function columns(lives: Live[]): uPlot.AlignedData {
-  const axis = lives.find((live) => live.form !== null)?.form?.axes[0];
-  const places = axis === undefined ? new Float64Array() : points(axis);
+  const form = lives.find((live) => live.form !== null)?.form;
+  const axis = form?.axes[0];
+  const places = axis === undefined ? new Float64Array() : points(axis, form?.shape[0]);
   const nothing = () => Array.from(places, () => null);
   return [
     places,

@@ -10,7 +10,7 @@ import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { centred, type Scale, scale, type ScaleName, SCALES } from "./colors";
 import { exportPng } from "./exportPng";
 import { attachInjection } from "./injection";
-import { axisLabel, hasLevels, runsDown, stepOf } from "./kinds";
+import { axisLabel, edges, hasLevels, runsDown } from "./kinds";
 import { pushAmplitude, thresholdOf } from "./levels";
 import { axis, frame, type Look } from "./look";
 import { extent, paintHeat, type Range } from "./paint";
@@ -198,25 +198,20 @@ export function HeatMap(props: PlotProps) {
   );
 }
 
-// From the outer edge of the first cell to that of the last.
-function edges(axis: AxisView): [number, number] {
-  const step = stepOf(axis);
-  const last = axis.lower + (axis.samples - 1) * step;
-  return [axis.lower - step / 2, last + step / 2];
-}
-
 function readAt(chart: uPlot, live: Live | null, x: AxisView, y: AxisView): string {
   const at = [
     chart.posToVal(chart.cursor.left ?? 0, "x"),
     chart.posToVal(chart.cursor.top ?? 0, "y"),
   ] as const;
-  const [ix, iy] = [nearest(x, at[0]), nearest(y, at[1])];
-  const value = live?.frame?.values[ix * y.samples + iy];
+  const [nx = x.samples, ny = y.samples] = live?.form?.shape ?? [];
+  const value = live?.frame?.values[cell(x, nx, at[0]) * ny + cell(y, ny, at[1])];
   return value === undefined
     ? ""
     : `${x.name} ${reading(at[0])}   ${y.name} ${reading(at[1])}   ${reading(value)}`;
 }
 
-function nearest(axis: AxisView, value: number): number {
-  return Math.min(axis.samples - 1, Math.max(0, Math.round((value - axis.lower) / stepOf(axis))));
+// Which of `count` equal parts of an axis a position is in.
+function cell(axis: AxisView, count: number, position: number): number {
+  const [first, last] = edges(axis);
+  return Math.min(count - 1, Math.max(0, Math.floor(((position - first) / (last - first)) * count)));
 }

@@ -131,6 +131,7 @@ describe("the first plot", () => {
 describe("axes", () => {
   it("have the sample positions of the server", () => {
     expect([...points(axis("x", 3))]).toEqual([0, 5, 10]);
+    expect([...points(axis("x", 11), 2)]).toEqual([2.25, 7.75]);
     expect([...points(axis("x", 4, { periodic: true, upper: 8 }))]).toEqual([0, 2, 4, 6]);
     expect(stepOf(axis("x", 1, { periodic: true }))).toBe(10);
   });

@@ -111,10 +111,21 @@ export function runsDown(document: DocumentView, axis: AxisView): boolean {
   );
 }
 
-// Places of the samples.
-export function points(axis: AxisView): Float64Array {
+// Positions of the samples; of fewer values than samples, the middles of equal parts of the axis
+// (src/deodar/server/stream.py).
+export function points(axis: AxisView, values = axis.samples): Float64Array {
+  const [first, last] = edges(axis);
+  const step = (last - first) / values;
+  return Float64Array.from({ length: values }, (_, i) =>
+    values === axis.samples ? axis.lower + i * stepOf(axis) : first + (i + 0.5) * step,
+  );
+}
+
+// From the outer edge of the cell of the first sample to that of the last.
+export function edges(axis: AxisView): [number, number] {
   const step = stepOf(axis);
-  return Float64Array.from({ length: axis.samples }, (_, i) => axis.lower + i * step);
+  const last = axis.lower + (axis.samples - 1) * step;
+  return [axis.lower - step / 2, last + step / 2];
 }
 
 export function stepOf(axis: AxisView): number {

@@ -65,7 +65,7 @@ describe("the values that it draws", () => {
     ]);
     const [thinned] = axesOf(formOf([3], HEADING));
     expect(thinned?.samples).toBe(3);
-    expect([...(thinned?.points ?? [])]).toEqual([-180, 0, 135]);
+    expect([...(thinned?.points ?? [])]).toEqual([-142.5, -22.5, 97.5]);
   });
 
   it("are a copy, because other plots draw the same values", () => {

@@ -4,7 +4,7 @@
 import type { Announced, ListedProblem, PlotView } from "../protocol";
 import type { Frame } from "../frames";
 import { curveColor } from "./colors";
-import { stepOf } from "./kinds";
+import { points } from "./kinds";
 import type { Look } from "./look";
 
 // What a module receives for each drawing.
@@ -91,15 +91,12 @@ export function problemOf(plot: PlotView, error: unknown): ListedProblem {
   };
 }
 
-// The axes of the values, which may be thinned: evenly, with both ends (src/deodar/server/stream.py).
+// The axes of the values, which may be thinned.
 export function axesOf(form: Announced): PackagedAxis[] {
   return form.axes.map((axis, d) => {
     const { name, unit, lower, upper, periodic } = axis;
     const samples = form.shape[d] ?? axis.samples;
-    const share = samples > 1 ? (axis.samples - 1) / (samples - 1) : 0;
-    const step = stepOf(axis);
-    const points = Float64Array.from({ length: samples }, (_, i) => lower + Math.round(i * share) * step);
-    return { name, unit, lower, upper, periodic, samples, points };
+    return { name, unit, lower, upper, periodic, samples, points: points(axis, samples) };
   });
 }
 
