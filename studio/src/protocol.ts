@@ -30,6 +30,18 @@ export type AddElement = {
   wire?: Ends | null;
 };
 
+// Add a template of `welcome` as a new group; the answer has its ids in `made` and its names in `group`.
+//
+// `group` is the group that it is added to, `at` the position of its upper left corner.
+export type AddTemplate = {
+  type: "add_template";
+  request?: number;
+  session?: number;
+  name: string;
+  group?: string[];
+  at?: unknown[] | null;
+};
+
 // Advance by `n` Euler steps, then pause.
 export type Advance = {
   type: "step";
@@ -146,6 +158,17 @@ export type BoxView = {
   fixed: boolean;
 };
 
+// Change an axis, given by its key, for all elements that have it.
+//
+// `axis` has the properties of the new one: name, lower, upper, samples, periodic, unit.
+export type ChangeAxis = {
+  type: "change_axis";
+  request?: number;
+  session?: number;
+  key: string;
+  axis: Record<string, unknown>;
+};
+
 // The new value of one parameter, the only difference to the previous version of the document.
 export type Changed = {
   type: "changed";
@@ -182,6 +205,21 @@ export type Close = {
   request?: number;
   session?: number;
   discard?: boolean;
+};
+
+// Add, change or remove a comment on the graph; the answer has the id of a new one in `made`.
+//
+// An empty `comment` adds one. None leaves text, position or size (width, height) unchanged. Comments are in
+// the layout, `comments` by id, with `text`, `x`, `y`, `width` and `height`.
+export type Comment = {
+  type: "comment";
+  request?: number;
+  session?: number;
+  comment?: string;
+  text?: string | null;
+  at?: unknown[] | null;
+  size?: unknown[] | null;
+  remove?: boolean;
 };
 
 // Compare the open record with another one below the root; a `comparison` message follows.
@@ -387,6 +425,43 @@ export type FileProblems = {
   problems: ListedProblem[];
 };
 
+// Judge what a port can be connected with; a `fitting` message follows.
+//
+// An empty `port` means the default output, or the first input of an element without outputs.
+export type FindFits = {
+  type: "fits";
+  request?: number;
+  element: string;
+  port?: string;
+};
+
+// Whether a port can be connected, and why not, or how the values change on the way.
+//
+// `offers`: couplings for ports whose axes differ, the best first.
+export type FitView = {
+  element: string;
+  port: string;
+  fits: boolean;
+  reason: string;
+  offers: OfferView[];
+};
+
+// What a port can be connected with: all ports of the other direction, and kinds of new elements.
+export type Fits = {
+  type: "fitting";
+  request: number;
+  element: string;
+  port: string;
+  ports: FitView[];
+  kinds: FittingKindView[];
+};
+
+// A kind whose new element can be connected, and its port.
+export type FittingKindView = {
+  kind: string;
+  port: string;
+};
+
 // Content of a folder below the root; `records` are files, and folders that are not in `folders`.
 export type Folder = {
   type: "folder";
@@ -532,6 +607,15 @@ export type NewDocument = {
   request?: number;
   session?: number;
   discard?: boolean;
+};
+
+// A coupling that can stand between two ports whose axes differ: `add_element` with these values.
+//
+// `note` states what it loses; it is empty if every position is kept.
+export type OfferView = {
+  kind: string;
+  values: Record<string, unknown>;
+  note: string;
 };
 
 // Open an example, as a document without a file.
@@ -882,6 +966,17 @@ export type SeekFrames = {
   frames: number;
 };
 
+// Change one parameter of several elements to the same value, as `set` does for one.
+export type SetMany = {
+  type: "set_many";
+  request?: number;
+  session?: number;
+  elements: string[];
+  parameter: string;
+  value: unknown;
+  gesture?: number;
+};
+
 // Change a parameter of an element (`kernel.0.sigma`), or the document parameter if `element` is empty.
 //
 // `value` has the format of documents: numbers, text, parts with their kind, axes by their key. Changes with
@@ -920,6 +1015,16 @@ export type StopRecord = {
   request?: number;
 };
 
+// A model that can be added to a document as a group.
+//
+// `room` is `architectures`, published models, or `examples`, documents of the gallery.
+export type TemplateView = {
+  name: string;
+  title: string;
+  sentence: string;
+  room: "architectures" | "examples";
+};
+
 // The moments that the page can show, in document time, and the one that it shows.
 //
 // `frames` is their number. From `full_from` on none was removed to save memory. `time` is the moment shown
@@ -951,6 +1056,7 @@ export type ToPage =
   | Announced
   | Lost
   | Folder
+  | Fits
   | Answer;
 
 export type ToServer =
@@ -986,6 +1092,11 @@ export type ToServer =
   | CopyElements
   | Paste
   | PlaceBoxes
+  | SetMany
+  | ChangeAxis
+  | AddTemplate
+  | Comment
+  | FindFits
   | ApplyPreset
   | ApplyPresetText
   | Undo
@@ -1107,6 +1218,7 @@ export type Welcome = {
   root: string;
   kinds: Kind[];
   examples: ExampleView[];
+  templates: TemplateView[];
   plots: PlotView[];
 };
 

@@ -188,3 +188,117 @@ def test_a_record_is_copied_from_and_not_built_on(root: Path) -> None:
 
     with studio(root) as address:
         play(address, scene)
+
+
+def test_the_page_learns_what_a_port_can_be_connected_with(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u, left = p.element("u"), p.element("left")
+        await p.do("fits", element=left)
+        found = p.said["fitting"]
+        assert found["element"] == left and [f["element"] for f in found["ports"]] == [u]
+        assert found["ports"][0]["reason"] == "they are connected already"
+        assert {"kind": "Field", "port": "input"} in found["kinds"]
+        axis = {"name": "y", "lower": 0, "upper": 100, "samples": 51}
+        (v,) = await made(p, "add_element", kind="Field", name="v", values={"axes": [axis]})
+        await p.do("fits", element=u, port="output")
+        port = next(f for f in p.said["fitting"]["ports"] if f["element"] == v)
+        assert not port["fits"] and "axes are missing on both sides" in port["reason"]
+        offer = port["offers"][0]
+        assert offer == {"kind": "Project", "values": {"axes": ["y"], "rename": {"x": "y"}}, "note": ""}
+        ends = {"source": {"element": u, "port": "output"}, "target": {"element": v}}
+        await made(p, "add_element", kind=offer["kind"], values=offer["values"], **ends)
+        assert not [q for q in p.document["problems"] if q["severity"] == "problem"]
+        assert wires(p) >= {("u", "project"), ("project", "v")}
+        assert "no port" in (await p.ask("fits", element=u, port="x"))["problems"][0]["what"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_one_parameter_of_several_elements_is_set_in_one_step(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        both = [p.element("left"), p.element("right")]
+        for value in (3, 4, 5):
+            done = await p.do("set_many", elements=both, parameter="amplitude", value=value, gesture=1)
+            assert done["cost"] == "live"
+        await p.until(lambda: [e["values"]["amplitude"] for e in p.document["elements"][1:]] == [5, 5])
+        assert p.document["undo"] == 1
+        refused = await p.ask("set_many", elements=[*both, p.element("u")], parameter="amplitude", value=9)
+        assert "amplitude" in refused["problems"][0]["what"] and p.document["undo"] == 1
+        assert [e["values"]["amplitude"] for e in p.document["elements"][1:]] == [5, 5]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_an_axis_changes_for_all_elements_that_have_it(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        axis = {"name": "place", "lower": -50, "upper": 50, "samples": 201, "unit": "mm"}
+        assert (await p.do("change_axis", key="x", axis=axis))["cost"] == "recompile"
+        (only,) = p.document["axes"]
+        assert (only["name"], only["samples"], only["unit"]) == ("place", 201, "mm")
+        assert [e["values"]["axes"] for e in p.document["elements"]] == [["place"]] * 3
+        assert p.document["problems"] == [] or p.document["problems"][0]["severity"] == "warning"
+        for key, bad, what in (
+            ("x", axis, "has no axis"),
+            ("place", axis | {"samples": -1}, "samples"),
+            ("place", {"name": "x"}, "needs lower"),
+            ("place", axis | {"colour": 1}, "colour"),
+        ):
+            refused = await p.ask("change_axis", key=key, axis=bad)
+            assert what in refused["problems"][0]["what"], refused
+        await p.do("set", element=p.element("u"), parameter="axes", value=[axis | {"name": "other"}])
+        assert [a["key"] for a in p.document["axes"]] == ["other", "place"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_every_template_is_added_as_a_group(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        listed = p.said["welcome"]["templates"]
+        rooms = {
+            room: [t["name"] for t in listed if t["room"] == room] for room in ("architectures", "examples")
+        }
+        assert {"behaviour", "saliency", "serial_order"} <= set(rooms["architectures"])
+        assert "selection" in rooms["examples"] and all(t["title"] and t["sentence"] for t in listed)
+        for template in ("behaviour", "selection"):
+            answer = await p.do("add_template", name=template, at=[100, 50])
+            assert answer["group"] == [template] and answer["made"]
+            boxes = [p.document["layout"]["boxes"][i] for i in answer["made"]]
+            assert (min(b["x"] for b in boxes), min(b["y"] for b in boxes)) == (100, 50)
+        again = await p.do("add_template", name="behaviour", group=["behaviour"])
+        assert again["group"] == ["behaviour", "behaviour"] and p.document["undo"] == 3
+        assert not [q for q in p.document["problems"] if q["severity"] == "problem"]
+        refused = await p.ask("add_template", name="behavior")
+        assert "behaviour" in refused["problems"][0]["fix"]
+
+    with studio(root) as address:
+        play(address, scene)
+
+
+def test_comments_have_no_effect_on_the_model(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        (one,) = await made(p, "comment", text="the winner", at=[1, 2])
+        await p.do("comment", comment=one, size=[100, 50])
+        (two,) = await made(p, "comment", text="another", at=[5, 5])
+        assert p.document["layout"]["comments"][one] == {
+            "text": "the winner",
+            "x": 1,
+            "y": 2,
+            "width": 100,
+            "height": 50,
+        }
+        assert not p.clock["busy"] and p.document["undo"] == 3 and p.document["unsaved"]
+        await p.do("comment", comment=two, remove=True)
+        await p.do("comment", comment=one, remove=True)
+        assert "comments" not in p.document["layout"]
+        assert "no comment" in (await p.ask("comment", comment=one, text="x"))["problems"][0]["what"]
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)

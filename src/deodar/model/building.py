@@ -7,10 +7,12 @@ free ones: `u` becomes `u2`.
 from __future__ import annotations
 
 import dataclasses as dc
+import itertools
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, cast
 
+from deodar.codec import Json
 from deodar.errors import ModelError, UnknownName, did_you_mean
 from deodar.model import edit, find, starting
 from deodar.model.document import Connection, Document, Entry
@@ -25,8 +27,11 @@ EndPorts = tuple[str, str, str, str]
 BOXES = "boxes"
 """Key of the layout for the positions of boxes: `{id: {"x": 0, "y": 0}}`."""
 
-APART: BoxPosition = (200.0, 120.0)
-"""Distance of boxes that have no positions of their own, along both directions."""
+COMMENTS = "comments"
+"""Key of the layout for comments: `{id: {"text": "", "x": 0, "y": 0}}`."""
+
+APART: BoxPosition = (240.0, 140.0)
+"""Distance of boxes that get positions here, along both directions."""
 
 ElementPort = tuple[str, str]
 """Element id and port; an empty port means the default one."""
@@ -207,6 +212,39 @@ def paste(
     return _with_positions(doc, template, list(template.entries), shift, at), [e.id for e in made]
 
 
+def insert(
+    doc: Document, template: Document, name: str, group: PathNames = (), at: BoxPosition | None = None
+) -> tuple[Document, list[str], PathNames]:
+    """Return a document with the content of another one in a new group, the new ids, and the group's path."""
+    path = (*group, free_name(doc, group, name))
+    new, made = paste(doc, template, path, at)
+    return new, made, path
+
+
+def comment(doc: Document, ident: str, values: Mapping[str, Json] | None) -> tuple[Document, str]:
+    """Return a document with a comment on its graph, and the comment's id.
+
+    Comments are kept in the layout and have no effect on the model.
+
+    Args:
+        doc: the document.
+        ident: id of the comment; empty: a new one.
+        values: what changes of it, such as its text and position; None removes it.
+    """
+    given = doc.layout.get(COMMENTS)
+    known = dict(cast("dict[str, Any]", given)) if isinstance(given, dict) else {}
+    if ident and ident not in known:
+        raise UnknownName(f"there is no comment {ident!r}")
+    ident = ident or next(f"c{n}" for n in itertools.count(1) if f"c{n}" not in known)
+    if values is None:
+        known.pop(ident, None)
+    else:
+        old = known.get(ident)
+        known[ident] = {**(cast("dict[str, Any]", old) if isinstance(old, dict) else {}), **values}
+    layout = {k: v for k, v in {**doc.layout, COMMENTS: known or None}.items() if v is not None}
+    return edit.arrange(doc, layout), ident
+
+
 def placed(doc: Document, boxes: Mapping[str, BoxPosition | None]) -> Document:
     """Return a document in which boxes have other positions; None removes a position."""
     old = cast("dict[str, Any]", doc.layout.get(BOXES) or {})
@@ -343,16 +381,42 @@ def _with_positions(
 ) -> Document:
     """Return a document whose last entries, copies of others, have their positions, moved by `shift`.
 
-    Copies of elements without a position are placed in rows, if `at` is given.
+    If `at` is given and no copied element has a position, they are placed in columns, sources to the left.
     """
     known, new = positions(template), doc.entries[len(doc.entries) - len(copied) :]
-    found: dict[str, BoxPosition] = {}
-    rows = 0
-    for old, entry in zip(copied, new, strict=True):
-        if old.id in known:
-            x, y = known[old.id]
-            found[entry.id] = (x + shift[0], y + shift[1])
-        elif at is not None:
-            found[entry.id] = (at[0] + APART[0] * (rows % 4), at[1] + APART[1] * (rows // 4))
-            rows += 1
+    if at is not None and not any(e.id in known for e in copied):
+        known, shift = columns(template), at
+    found = {
+        entry.id: (known[old.id][0] + shift[0], known[old.id][1] + shift[1])
+        for old, entry in zip(copied, new, strict=True)
+        if old.id in known
+    }
     return placed(doc, found)
+
+
+def columns(doc: Document) -> dict[str, BoxPosition]:
+    """Return positions of all boxes in columns: an element is to the right of what it reads."""
+    sources: dict[str, list[str]] = {e.id: [] for e in doc.entries}
+    targets: dict[str, list[str]] = {e.id: [] for e in doc.entries}
+    for c in doc.connections:
+        sources[c.target].append(c.source)
+        targets[c.source].append(c.target)
+    waits = {i: len(found) for i, found in sources.items()}
+    column: dict[str, int] = {}
+    while len(column) < len(waits):
+        # in a loop, the element that waits for the fewest others comes first
+        left = [i for i in waits if i not in column]
+        ready = [i for i in left if waits[i] == 0] or [min(left, key=waits.__getitem__)]
+        for i in ready:  # the list grows during the loop
+            column[i] = 1 + max((column[s] for s in sources[i] if s in column), default=-1)
+            for target in targets[i]:
+                waits[target] -= 1
+                if waits[target] == 0 and target not in column and target not in ready:
+                    ready.append(target)
+    rows: dict[int, int] = {}
+    out: dict[str, BoxPosition] = {}
+    for e in doc.entries:
+        x = column[e.id]
+        out[e.id] = (APART[0] * x, APART[1] * rows.get(x, 0))
+        rows[x] = rows.get(x, 0) + 1
+    return out

@@ -20,6 +20,7 @@ from deodar.leaves import get, replace
 from deodar.model import find
 from deodar.model.document import READS, Connection, Document, DocumentParameter, Entry, Use
 from deodar.model.paths import PathNames, display, stored_id
+from deodar.numerics.axes import Axis
 from deodar.parameters import Reference, is_text, parameter, parameters, real, show
 
 TIME_UNIT = re.compile(r"^(us|ms|s|min|abstract|1 = \d+(\.\d+)?(e[+-]?\d+)? (us|ms|s|min))$")
@@ -315,6 +316,19 @@ def assignments(path: Any, value: Any) -> Mapping[str, Any]:
     return {key: given[key].__value__() if isinstance(given[key], Reference) else given[key] for key in given}
 
 
+def replace_axis(doc: Document, old: Axis, new: Axis) -> Document:
+    """Return a document in which every element and part has another axis in the place of one.
+
+    Raises:
+        ModelError: no element has the axis.
+        ParameterError: an element cannot have the new axis, such as one with an array of the old length.
+    """
+    changed = {e.id: dc.replace(e, element=_with_axis(e.element, old, new)) for e in doc.entries}
+    if all(changed[e.id].element is e.element for e in doc.entries):
+        raise ModelError(f"no element has the axis {old}")
+    return dc.replace(doc, entries=tuple(changed[e.id] for e in doc.entries))
+
+
 def every(doc: Document, ident: str, ticks: int) -> Document:
     """Return a document in which an element has another step."""
     require_ticks(ticks, find.entry(doc, ident).path)
@@ -478,6 +492,29 @@ class UndoHistory:
         self._past.append(self.document)
         self.document = self._future.pop()
         return True
+
+
+def _with_axis(part: Any, old: Axis, new: Axis) -> Any:
+    """Return a part with another axis in the place of one; the same object without that axis."""
+    moved: dict[str, Any] = {}
+    for p in parameters(type(part)):
+        value: Any = getattr(part, p.name) if p.form in ("axes", "axis", "part", "parts") else None
+        if value is None:
+            continue
+        match p.form:
+            case "axis":
+                after: Any = new if value == old else value
+            case "axes":
+                after = tuple(new if a == old else a for a in value)
+            case "part":
+                after = _with_axis(value, old, new)
+            case _:
+                after = tuple(_with_axis(v, old, new) for v in value)
+        same = after is value or (
+            isinstance(after, tuple) and all(a is b for a, b in zip(after, value, strict=True))
+        )
+        moved |= {} if same else {p.name: after}
+    return dc.replace(part, **moved) if moved else part
 
 
 def _put(doc: Document, ident: str, path: str, value: Any) -> Document:

@@ -301,21 +301,13 @@ class _Resolver:
         """Return a slot over the wanted axes, through an implicit projection, or report a problem that names
         both sides.
         """
-        here, there = {a.name: a for a in want}, {a.name: a for a in axes}
-        shared = [n for n in there if n in here]
-        bad = [n for n in shared if not there[n].fits(here[n])]
-        both = bool(set(there) - set(here)) and bool(set(here) - set(there))
-        if bad or both:
-            reason = (
-                f"bounds, unit or periodicity of {bad[0]!r} differ"
-                if bad
-                else "axes are missing on both sides"
-            )
+        reason = misfit(axes, want)
+        if reason:
             self.problem(
                 node.id,
                 f"{source.path}.{slot[1]} {describe(axes)} does not fit {node.path}.{port} {describe(want)}:"
                 f" {reason}",
-                f"Write: {_remedy(source.path, node.path, axes, want, bool(bad))}",
+                f"Write: {_remedy(source.path, node.path, axes, want, bool(_unlike(axes, want)))}",
             )
             return None
         key = ",".join(f"{a.name}:{a.samples}" for a in want)
@@ -417,6 +409,20 @@ def resolve(doc: Document) -> tuple[list[Node], list[Problem]]:
     nodes = resolver.run()
     place = {e.path: k for k, e in enumerate(doc.entries)}
     return nodes, sorted(resolver.problems, key=lambda p: place.get(p.where, len(place)))
+
+
+def misfit(axes: Axes, want: Axes) -> str:
+    """Return why a connection from axes to other axes needs a coupling between them; "" if it needs none."""
+    here, there = {a.name for a in want}, {a.name for a in axes}
+    if bad := _unlike(axes, want):
+        return f"bounds, unit or periodicity of {bad[0]!r} differ"
+    return "axes are missing on both sides" if there - here and here - there else ""
+
+
+def _unlike(axes: Axes, want: Axes) -> list[str]:
+    """Return the names of axes that both have with another range, unit or boundary."""
+    here = {a.name: a for a in want}
+    return [a.name for a in axes if a.name in here and not a.fits(here[a.name])]
 
 
 def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) -> str:

@@ -5,18 +5,18 @@ from __future__ import annotations
 import asyncio
 import dataclasses as dc
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from deodar.errors import DeodarError, DocumentError
-from deodar.model import building, clipboard
+from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
+from deodar.model import building, clipboard, edit, files, find, fits, starting
 from deodar.model.building import Around, EndPorts
 from deodar.model.document import Document
 from deodar.model.paths import PathNames
-from deodar.server import to_server
+from deodar.server import templates, to_server, view
 from deodar.server.handlers import handles
 from deodar.server.hub import Hub
 from deodar.server.page import Page
-from deodar.server.to_page import Answer
+from deodar.server.to_page import Answer, Fits
 
 T = TypeVar("T")
 
@@ -129,6 +129,67 @@ async def _paste(hub: Hub, page: Page, m: to_server.Paste) -> Answer:
     template = dc.replace(read, foreign=not hub.project.trust)
     made = await _changed(hub, lambda doc: building.paste(doc, template, tuple(m.group), m.at))
     return Answer(request=m.request, made=made)
+
+
+@handles(to_server.SetMany)
+async def _set_many(hub: Hub, page: Page, m: to_server.SetMany) -> Answer:
+    def change(doc: Document) -> Document:
+        new = doc
+        for ident in dict.fromkeys(m.elements):
+            value = view.read_value(doc, find.entry(doc, ident), m.parameter, m.value)
+            new = edit.put(new, ident, m.parameter, value)
+        return new
+
+    gesture = (page.number, m.gesture) if m.gesture else None
+    return Answer(request=m.request, cost=await hub.project.change(change, gesture))
+
+
+@handles(to_server.ChangeAxis)
+async def _change_axis(hub: Hub, page: Page, m: to_server.ChangeAxis) -> Answer:
+    def change(doc: Document) -> Document:
+        known = files.axes(doc)
+        if m.key not in known:
+            raise UnknownName(f"the document has no axis {m.key!r}", fix=did_you_mean(m.key, known))
+        return edit.replace_axis(doc, known[m.key], starting.axis(m.axis))
+
+    return Answer(request=m.request, cost=await hub.project.change(change))
+
+
+@handles(to_server.AddTemplate)
+async def _add_template(hub: Hub, page: Page, m: to_server.AddTemplate) -> Answer:
+    template = await asyncio.to_thread(templates.document, m.name)
+    group: list[str] = []
+
+    def insert(doc: Document) -> tuple[Document, list[str]]:
+        new, ids, path = building.insert(doc, template, m.name, tuple(m.group), m.at)
+        group.extend(path)
+        return new, ids
+
+    made = await _changed(hub, insert)
+    return Answer(request=m.request, made=made, group=group)
+
+
+@handles(to_server.Comment)
+async def _comment(hub: Hub, page: Page, m: to_server.Comment) -> Answer:
+    values: dict[str, Any] = {} if m.text is None else {"text": m.text}
+    values |= {} if m.at is None else {"x": m.at[0], "y": m.at[1]}
+    values |= {} if m.size is None else {"width": m.size[0], "height": m.size[1]}
+    found: list[str] = []
+
+    def change(doc: Document) -> Document:
+        new, ident = building.comment(doc, m.comment, None if m.remove else values)
+        found.append(ident)
+        return new
+
+    await hub.project.lay_out(change)
+    return Answer(request=m.request, made=[] if m.comment else found)
+
+
+@handles(to_server.FindFits)
+async def _find_fits(hub: Hub, page: Page, m: to_server.FindFits) -> Fits:
+    doc = hub.project.document()
+    ports, kinds = await asyncio.to_thread(fits.fits, doc, m.element, m.port)
+    return view.fits(m, ports, kinds)
 
 
 @handles(to_server.PlaceBoxes)

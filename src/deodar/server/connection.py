@@ -32,6 +32,7 @@ from deodar.server.to_page import (
     Comparison,
     Costs,
     FileProblems,
+    Fits,
     Folder,
     Gallery,
     ListedProblem,
@@ -59,7 +60,7 @@ class PageConnection:
         self.page = hub.new_page()
         self._socket = socket
         self._room = asyncio.Event()
-        self._answers: deque[Answer | Folder] = deque()
+        self._answers: deque[Answer | Folder | Fits] = deque()
         self._exchange = 0
         self._ready = True
         self._published = self._published_other = -1

@@ -9,10 +9,10 @@ from deodar.errors import ModelError
 from deodar.server import to_server
 from deodar.server.hub import Hub
 from deodar.server.page import Page
-from deodar.server.to_page import Answer, Folder
+from deodar.server.to_page import Answer, Fits, Folder
 
 R = TypeVar("R", bound=to_server.Request)
-Handler = Callable[[Hub, Page, R], Awaitable[Answer | Folder | None]]
+Handler = Callable[[Hub, Page, R], Awaitable[Answer | Folder | Fits | None]]
 HANDLERS: dict[type[to_server.Request], Handler[Any]] = {}
 
 

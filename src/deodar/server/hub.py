@@ -10,7 +10,7 @@ from pathlib import Path
 from deodar import __version__
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
-from deodar.server import gallery, plots, view
+from deodar.server import gallery, plots, templates, view
 from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import try_in_file_thread
 from deodar.server.page import Page
@@ -57,6 +57,7 @@ class Hub:
             root=str(self.workspace.root),
             kinds=view.kinds(),
             examples=gallery.examples(),
+            templates=templates.listed(),
             plots=plots.views(),
         )
         self._keeping = asyncio.create_task(self._keep())

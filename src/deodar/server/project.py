@@ -387,9 +387,12 @@ class OpenProject:
         shown = view.shown_value(new, element, parameter)
         return await self._commit(new, gesture, (element, parameter, shown))
 
-    async def change(self, how: Callable[[Document], Document]) -> Cost:
-        """Apply a function to the document, as one step of undo."""
-        return await self._commit(how(self._require().document), None)
+    async def change(self, how: Callable[[Document], Document], gesture: object = None) -> Cost:
+        """Apply a function to the document, as one step of undo.
+
+        Changes in sequence with the same `gesture` (not None) are one step together.
+        """
+        return await self._commit(how(self._require_model().document), gesture)
 
     async def describe(self, values: dict[str, Any]) -> None:
         """Change general properties of the document."""

@@ -31,7 +31,7 @@ from deodar.server.hub import Hub
 from deodar.server.page import Page
 from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
-from deodar.server.to_page import Answer, Folder
+from deodar.server.to_page import Answer, Fits, Folder
 from deodar.session.recorder import compile_records
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -39,7 +39,7 @@ from deodar.worlds._base import World
 MOST_STREAMS = 2000
 """Largest number of streams of one page."""
 
-Answers = list[Answer | Folder]
+Answers = list[Answer | Folder | Fits]
 
 
 async def do(hub: Hub, page: Page, message: to_server.Request) -> Answers:
@@ -54,7 +54,7 @@ async def do(hub: Hub, page: Page, message: to_server.Request) -> Answers:
 
 async def _done(hub: Hub, page: Page, message: to_server.Request) -> Answers:
     done = await HANDLERS[type(message)](hub, page, message)
-    if isinstance(done, Folder):
+    if isinstance(done, (Folder, Fits)):
         return [done, Answer(request=message.request)]
     return [done or Answer(request=message.request)]
 

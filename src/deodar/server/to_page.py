@@ -179,6 +179,18 @@ class ExampleView(Data, frozen=True):
     picture: str
 
 
+class TemplateView(Data, frozen=True):
+    """A model that can be added to a document as a group.
+
+    `room` is `architectures`, published models, or `examples`, documents of the gallery.
+    """
+
+    name: str
+    title: str
+    sentence: str
+    room: Literal["architectures", "examples"]
+
+
 class PlotView(Data, frozen=True):
     """A plot from an installed package, in addition to those of the page.
 
@@ -211,6 +223,7 @@ class Welcome(Message, frozen=True, tag="welcome"):
     root: str
     kinds: list[Kind]
     examples: list[ExampleView]
+    templates: list[TemplateView]
     plots: list[PlotView]
 
 
@@ -489,6 +502,48 @@ class Folder(Message, frozen=True, tag="folder"):
     files: list[str]
     pictures: list[str]
     records: list[str]
+
+
+class OfferView(Data, frozen=True):
+    """A coupling that can stand between two ports whose axes differ: `add_element` with these values.
+
+    `note` states what it loses; it is empty if every position is kept.
+    """
+
+    kind: str
+    values: dict[str, Any]
+    note: str
+
+
+class FitView(Data, frozen=True):
+    """Whether a port can be connected, and why not, or how the values change on the way.
+
+    `offers`: couplings for ports whose axes differ, the best first.
+    """
+
+    element: Id
+    port: str
+    fits: bool
+    reason: str
+    offers: list[OfferView]
+
+
+class FittingKindView(Data, frozen=True):
+    """A kind whose new element can be connected, and its port."""
+
+    kind: str
+    port: str
+
+
+@MESSAGES.register
+class Fits(Message, frozen=True, tag="fitting"):
+    """What a port can be connected with: all ports of the other direction, and kinds of new elements."""
+
+    request: int
+    element: Id
+    port: str
+    ports: list[FitView]
+    kinds: list[FittingKindView]
 
 
 @MESSAGES.register

@@ -350,6 +350,65 @@ class PlaceBoxes(DocumentRequest, frozen=True, kw_only=True, tag="place"):
 
 
 @MESSAGES.register
+class SetMany(DocumentRequest, frozen=True, kw_only=True, tag="set_many"):
+    """Change one parameter of several elements to the same value, as `set` does for one."""
+
+    elements: Ids
+    parameter: Text
+    value: Any
+    gesture: Count = 0
+
+
+@MESSAGES.register
+class ChangeAxis(DocumentRequest, frozen=True, kw_only=True, tag="change_axis"):
+    """Change an axis, given by its key, for all elements that have it.
+
+    `axis` has the properties of the new one: name, lower, upper, samples, periodic, unit.
+    """
+
+    key: Text
+    axis: dict[str, Any]
+
+
+@MESSAGES.register
+class AddTemplate(DocumentRequest, frozen=True, kw_only=True, tag="add_template"):
+    """Add a template of `welcome` as a new group; the answer has its ids in `made` and its names in `group`.
+
+    `group` is the group that it is added to, `at` the position of its upper left corner.
+    """
+
+    name: Text
+    group: Group = []
+    at: Position | None = None
+
+
+@MESSAGES.register
+class Comment(DocumentRequest, frozen=True, kw_only=True, tag="comment"):
+    """Add, change or remove a comment on the graph; the answer has the id of a new one in `made`.
+
+    An empty `comment` adds one. None leaves text, position or size (width, height) unchanged. Comments are in
+    the layout, `comments` by id, with `text`, `x`, `y`, `width` and `height`.
+    """
+
+    comment: Id = ""
+    text: str | None = None
+    at: Position | None = None
+    size: Position | None = None
+    remove: bool = False
+
+
+@MESSAGES.register
+class FindFits(Request, frozen=True, kw_only=True, tag="fits"):
+    """Judge what a port can be connected with; a `fitting` message follows.
+
+    An empty `port` means the default output, or the first input of an element without outputs.
+    """
+
+    element: Id
+    port: Text = ""
+
+
+@MESSAGES.register
 class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"):
     """Apply the values of another file below the root, by names and kinds, as one step of undo.
 

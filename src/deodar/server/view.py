@@ -12,9 +12,10 @@ import msgspec
 from deodar.element import Element
 from deodar.errors import Problem as Wrong
 from deodar.kinds.description import descriptions
-from deodar.model import files, find
+from deodar.model import files, find, starting
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
+from deodar.model.fits import Fit, FittingKind
 from deodar.model.parts import value_from_json
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axis
@@ -31,11 +32,16 @@ from deodar.server.to_page import (
     DocumentParameterView,
     DocumentView,
     ElementView,
+    Fits,
+    FittingKindView,
+    FitView,
     Kind,
     LinkView,
     ListedProblem,
+    OfferView,
     RecordView,
 )
+from deodar.server.to_server import FindFits
 
 BESIDE = ("kind", "id", "every")
 """Keys of an element in a document that are not parameters."""
@@ -116,6 +122,22 @@ def comparison(found: RecordComparison, path: str) -> Comparison:
         notes=found.notes,
         problems=problems(found.problems),
     )
+
+
+def fits(m: FindFits, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fits:
+    """Convert what a port can be connected with."""
+    shown = [
+        FitView(
+            element=f.element,
+            port=f.port,
+            fits=f.fits,
+            reason=f.reason,
+            offers=[OfferView(kind=o.kind, values=dict(o.values), note=o.note) for o in f.offers],
+        )
+        for f in ports
+    ]
+    found = [FittingKindView(kind=k.kind, port=k.port) for k in kinds]
+    return Fits(request=m.request, element=m.element, port=m.port, ports=shown, kinds=found)
 
 
 def _difference(reader: RecordReader, found: FirstDifference) -> DifferenceView:
@@ -207,9 +229,18 @@ def _axis(data: Mapping[str, Any]) -> Axis:
 
 def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
     """Convert a parameter's value from the page to the form of the document."""
-    data, arrays = files.to_data(doc)
-    axes = {key: _axis(found) for key, found in data["axes"].items()}
+    axes = files.axes(doc)
+    if "." not in parameter:
+        value = starting.keyed(type(entry.element), parameter, value, axes)
+    arrays = files.to_data(doc)[1] if _names_array(value) else {}
     return value_from_json(entry.element, parameter, value, f"{entry.path}.{parameter}", axes, arrays)
+
+
+def _names_array(value: Any) -> bool:
+    """Return whether plain data refer to an array of the document."""
+    if isinstance(value, dict):
+        return "array" in value or any(_names_array(v) for v in value.values())
+    return isinstance(value, list) and any(_names_array(v) for v in value)
 
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:
