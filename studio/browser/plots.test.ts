@@ -81,6 +81,44 @@ test("a plot shows the largest value of a field over time", async () => {
   await button(page, "Pause").click();
 });
 
+test("a plot shows a field over time, also of a moment of the past", async () => {
+  const { page } = studio;
+  await choose(page, "Menu of this plot", "Space-time plot");
+  const map = plot("Space-time plot of u");
+  const canvas = map.locator("canvas.plot-heat");
+  await expect.poll(() => colours(canvas)).toBeGreaterThan(1);
+  await step(300);
+  await expect.poll(() => colours(canvas)).toBeGreaterThan(10);
+  const drawing = map.getByRole("img", { name: "activation of u as colours over time and x" });
+  expect(await colours(drawing), "the colour bar").toBeGreaterThan(50);
+  // 101 samples upwards, time to the right
+  const size = () => canvas.evaluate((element) => (element as HTMLCanvasElement).height);
+  expect(await size()).toBe(101);
+  // Of 2000 ms that fit, 300 have values; the rest is empty.
+  const share = () =>
+    canvas.evaluate((element) => {
+      const { width, height } = element as HTMLCanvasElement;
+      const pixels = (element as HTMLCanvasElement).getContext("2d")?.getImageData(0, 0, width, height).data;
+      return Array.from(pixels ?? []).filter((value, i) => i % 4 === 3 && value > 0).length / width / height;
+    });
+  await expect.poll(share).toBeGreaterThan(0.148);
+  expect(await share()).toBeLessThan(0.153);
+  const before = await drawn(drawing);
+  await button(page, "First frame").click();
+  await expect.poll(() => drawn(drawing)).not.toBe(before);
+  expect(await share(), "what came later stays").toBeGreaterThan(0.148);
+  await button(page, "Live").click();
+  await expect.poll(() => drawn(drawing)).toBe(before);
+
+  await map.locator(".u-over").hover({ position: { x: 20, y: 40 } });
+  await map.getByText(/^t \d.*x \d.*/).waitFor();
+  await beside(page, "Settings of this plot", (settings) => settings.getByText("time down").click());
+  const across = () => canvas.evaluate((element) => (element as HTMLCanvasElement).width);
+  await expect.poll(across).toBe(101);
+  await observer.until(() => panels().includes('"down":true'));
+  await shot(page, "plot-space-time");
+});
+
 test("a plot shows the time courses of a node and of another element", async () => {
   const { page } = studio;
   await reopen(page, observer, "node.json");

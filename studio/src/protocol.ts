@@ -51,13 +51,15 @@ export type Advance = {
 
 // Format of the following frames of a stream: the shape after thinning, and the axes.
 //
-// `folded` lists the axes over which the maximum is taken if the array has more than two dimensions;
-// `channels`: the array is a picture. A time course has the shape [2]: pairs of time and value.
+// `rest` lists the axes of the array that are not drawn, and `folded` the names of those over which the
+// maximum is taken; `channels`: the array is a picture. A time course has the shape [2], pairs of time and
+// value; one of rows has the shape [1 + n], a time and n values.
 export type Announced = {
   type: "announced";
   stream: number;
   shape: number[];
   axes: AxisView[];
+  rest: AxisView[];
   folded: string[];
   channels: boolean;
 };
@@ -1124,6 +1126,7 @@ export type ToServer =
   | RemoveObject
   | Watch
   | WatchTrace
+  | WatchRows
   | Unwatch
   | Drawn;
 
@@ -1179,7 +1182,9 @@ export type UseWorldContent = {
 
 // Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
 //
-// The page chooses the number `stream`. `other`: of the record that the open one is compared with.
+// The page chooses the number `stream`. `other`: of the record that the open one is compared with. `drawn`
+// names the axes to send, at most two (empty: the first ones, or all of a picture); `at` states a position on
+// other axes, by name and in axis units. Over the rest the maximum is taken.
 export type Watch = {
   type: "watch";
   request?: number;
@@ -1187,6 +1192,23 @@ export type Watch = {
   element: string;
   port: string;
   most?: number;
+  other?: boolean;
+  drawn?: string[];
+  at?: Record<string, number>;
+};
+
+// Send the values of a port along one axis over time, thinned to at most `most` samples (0: all).
+//
+// `drawn` names the axis (empty: the first); `at` and `other` as in `watch`.
+export type WatchRows = {
+  type: "rows";
+  request?: number;
+  stream: number;
+  element: string;
+  port: string;
+  most?: number;
+  drawn?: string;
+  at?: Record<string, number>;
   other?: boolean;
 };
 

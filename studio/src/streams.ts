@@ -2,18 +2,26 @@
 // for each picture the browser draws, with the newest frame. Equal requests share one stream.
 
 import type { Frame } from "./frames";
-import type { Announced, Lost, WatchTrace, Watch } from "./protocol";
+import type { Announced, Lost, Watch, WatchRows, WatchTrace } from "./protocol";
 import { History } from "./history";
+import { Rows } from "./rows";
 
-export type Wish = Omit<Watch, "stream" | "request"> | Omit<WatchTrace, "stream" | "request">;
+type Watching = Watch | WatchTrace | WatchRows;
+
+export type Wish =
+  | Omit<Watch, "stream" | "request">
+  | Omit<WatchTrace, "stream" | "request">
+  | Omit<WatchRows, "stream" | "request">;
 
 export type Live = {
   // The format of the stream; null until the server has sent it.
   form: Announced | null;
-  // The newest frame; null until one came. Of a time course use `history`.
+  // The newest frame; null until one came. Of a time course use `history`, of rows `rows`.
   frame: Frame | null;
   // The time course so far, for requests of type "trace".
   history: History;
+  // The rows so far, for requests of type "rows".
+  rows: Rows;
   lost: Lost | null;
 };
 
@@ -27,7 +35,7 @@ type Stream = {
   waiting: Set<Subscriber>;
 };
 
-type SendWish = (message: Watch | WatchTrace | { type: "unwatch"; stream: number }) => void;
+type SendWish = (message: Watching | { type: "unwatch"; stream: number }) => void;
 
 export class Streams {
   private byKey = new Map<string, Stream>();
@@ -43,7 +51,13 @@ export class Streams {
     const key = JSON.stringify(wish);
     let stream = this.byKey.get(key);
     if (stream === undefined) {
-      const live: Live = { form: null, frame: null, history: new History(), lost: null };
+      const live: Live = {
+        form: null,
+        frame: null,
+        history: new History(),
+        rows: new Rows(),
+        lost: null,
+      };
       stream = { number: ++this.last, wish, live, subscribers: new Set(), waiting: new Set() };
       this.byKey.set(key, stream);
       this.byNumber.set(stream.number, stream);
@@ -70,6 +84,7 @@ export class Streams {
       if (forget) {
         stream.live.frame = null;
         stream.live.history.clear();
+        stream.live.rows.clear();
       }
       stream.live.lost = null;
       this.ask(stream);
@@ -98,6 +113,8 @@ export class Streams {
     }
     if (stream.wish.type === "trace") {
       stream.live.history.add(frame);
+    } else if (stream.wish.type === "rows") {
+      stream.live.rows.add(frame, size(stream.live.form.shape) - 1);
     } else if (frame.values.length !== size(stream.live.form.shape)) {
       return; // on its way while the shape changed
     }

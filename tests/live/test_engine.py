@@ -13,6 +13,7 @@ import pytest
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, TimeError
 from deodar.live.engine import Engine, Injection
+from deodar.live.section import Section
 from deodar.live.trace import CAPACITY, Trace, TraceRequest
 from deodar.model import edit
 from deodar.model.unit import unit_seconds
@@ -216,6 +217,25 @@ def test_a_failure_stops_the_run_and_a_reset_ends_it(driven: Driven) -> None:
     driven.do(engine.reset)
     assert engine.failure == ((), ())
     assert m is driven.model
+
+
+def test_a_new_trace_begins_with_the_stored_states(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "activation")
+    driven.do(lambda: engine.show([place], []))
+    driven.until(lambda: engine.published.arrays)
+    for n in (3, 4):
+        driven.do(lambda n=n: engine.step(n))
+        driven.until(lambda n=n: engine.published.tick == {3: 3, 4: 7}[n])
+    stored = engine.ring.states()
+    requests = [TraceRequest(place), TraceRequest(place, section=Section(most=1))]
+    driven.do(lambda: engine.show([place], requests))
+    course, rows = (engine.traces[request].since(0) for request in requests)
+    assert stored[-1].time == 7 and len(stored) >= 2
+    assert course.tolist() == [[s.time, s.arrays[place].max()] for s in stored]
+    assert np.array_equal(rows[:, 1:], [s.arrays[place] for s in stored])
+    missing = TraceRequest((driven.u, "no such port"))
+    driven.do(lambda: engine.show([place], [missing]))
+    assert engine.traces[missing].count == 0
 
 
 def test_a_trace_keeps_the_newest_samples() -> None:

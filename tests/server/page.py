@@ -62,6 +62,7 @@ class Page:
         self.all: list[dict[str, Any]] = []
         self.frames: dict[int, tuple[float, np.ndarray]] = {}
         self.samples: dict[int, list[tuple[float, float]]] = {}
+        self.rows: dict[int, np.ndarray | None] = {}
         self.forms: dict[int, dict[str, Any]] = {}
         self.lost: dict[int, dict[str, Any]] = {}
         self.clocks = 0
@@ -76,7 +77,9 @@ class Page:
         async for message in self.socket:
             if isinstance(message, bytes):
                 stream, _, time, values = frames.unpack(message)
-                if self.forms[stream]["shape"] == [2] and not self.forms[stream]["axes"]:
+                if stream in self.rows:
+                    self._take_rows(stream, time, values)
+                elif self.forms[stream]["shape"] == [2] and not self.forms[stream]["axes"]:
                     self.samples.setdefault(stream, []).extend(
                         (time + a, b) for a, b in values.reshape(-1, 2).tolist()
                     )
@@ -85,6 +88,12 @@ class Page:
             else:
                 await self._take(json.loads(message))
             self._news.set()
+
+    def _take_rows(self, stream: int, time: float, values: np.ndarray) -> None:
+        rows = values.reshape(-1, *self.forms[stream]["shape"]).astype(float)
+        rows[:, 0] += time
+        before = self.rows[stream]
+        self.rows[stream] = rows if before is None else np.concatenate([before, rows])
 
     async def _take(self, m: dict[str, Any]) -> None:
         self.all.append(m)
@@ -107,6 +116,8 @@ class Page:
 
     async def send(self, **message: Any) -> None:
         """Send a message."""
+        if message["type"] == "rows":
+            self.rows[message["stream"]] = None
         await self.socket.send(json.dumps(message))
 
     async def ask(self, type: str, **message: Any) -> dict[str, Any]:

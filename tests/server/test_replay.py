@@ -192,6 +192,11 @@ def test_a_record_opens_with_its_document_and_every_frame(root: Path, name: str)
         course = data["u.activation"].max("x").values
         np.testing.assert_allclose([v for _, v in p.samples[3]], course, rtol=1e-6)
         assert [t for t, _ in p.samples[3]] == list(range(0, 61, 2))
+        await p.do("rows", stream=4, element=p.element("u"), port="activation")
+        await p.until(lambda: p.rows[4] is not None and len(p.rows[4]) == 31)
+        rows = p.rows[4]
+        assert rows is not None and rows[:, 0].tolist() == list(range(0, 61, 2))
+        np.testing.assert_allclose(rows[:, 1:], data["u.activation"], rtol=1e-6)
 
     with studio(root, root / name) as address:
         play(address, scene)

@@ -1,4 +1,4 @@
-"""What a stream shows of an array: planes and pictures are sent as they are, more axes are folded."""
+"""What a stream shows of an array: which arrays are pictures, and how it is thinned."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.live.section import Section
 from deodar.server import stream
 from deodar.worlds.picture import Picture
 
@@ -26,14 +27,14 @@ CHANNEL = Picture.example_axes("picture")[2]
         ((X, Y, Z, CHANNEL), False),
     ],
 )
-def test_axes_beyond_the_second_are_folded_except_the_channels_of_a_picture(
+def test_three_channels_as_the_third_axis_make_a_picture_and_a_section_has_at_most_two_axes(
     axes: tuple[dd.Axis, ...], picture: bool
 ) -> None:
     array = np.random.default_rng(0).normal(size=tuple(a.samples for a in axes))
     assert stream.is_picture(axes) == picture
-    shown = stream.fold(array, axes)
-    if picture or len(axes) <= 2:
-        assert shown is array
+    shown = Section().take(array, axes)
+    if len(axes) <= 2:
+        assert np.array_equal(shown, array)
     else:
         assert np.array_equal(shown, array.reshape(*array.shape[:2], -1).max(axis=-1))
 
@@ -89,3 +90,13 @@ def test_places_without_a_value_hide_no_others() -> None:
     plane[50, 50] = 1.0
     thin = stream.thin(plane, 10, channels=False)
     assert thin[5, 5] == 1.0 and np.isnan(thin).sum() == 99
+
+
+def test_thinned_rows_keep_a_narrow_peak_at_each_time() -> None:
+    rows = np.full((3, 100), -5.0)
+    for k in range(3):
+        rows[k, 10 + 30 * k] = 4
+    assert stream.thin_rows(rows, 0) is rows
+    thin = stream.thin_rows(rows, 20)
+    assert thin.shape == (3, 20)
+    assert thin.argmax(axis=1).tolist() == [2, 8, 14] and thin.max(axis=1).tolist() == [4, 4, 4]

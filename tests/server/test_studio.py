@@ -23,6 +23,38 @@ from deodar.server.state_store import StateStore
 from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 
+AXES = [dd.Axis(name, 0, 10, samples=n) for name, n in (("x", 4), ("y", 5), ("z", 6))]
+
+
+def test_a_page_watches_planes_and_rows_of_a_field_over_three_axes(root: Path) -> None:
+    values = np.random.default_rng(0).normal(size=(4, 5, 6))
+    model = dd.Model("three")
+    model.add(dd.Pattern("s", AXES, values=values))
+    dd.save(model, root / "three.json")
+    whole = values.astype(np.float32)
+
+    async def scene(p: Page) -> None:
+        await p.open("open_file", path="three.json")
+        port = {"element": p.element("s"), "port": "output"}
+        await p.do("watch", stream=1, **port)
+        await p.do("watch", stream=2, **port, drawn=["z", "x"], at={"y": 5.2})
+        await p.do("watch", stream=3, **port, drawn=["y"], at={"x": 0, "z": 10})
+        await p.do("rows", stream=4, **port, drawn="z", at={"x": 10})
+        await p.do("step", n=2)
+        await p.until(lambda: all(k in p.frames and p.frames[k][0] == 2 for k in (1, 2, 3)))
+        assert np.array_equal(p.frames[1][1], whole.max(axis=2))
+        assert np.array_equal(p.frames[2][1], whole[:, 2].T)
+        assert np.array_equal(p.frames[3][1], whole[0, :, 5])
+        said = [[a["name"] for a in p.forms[2][key]] for key in ("axes", "rest")]
+        assert said == [["z", "x"], ["y"]] and p.forms[2]["folded"] == [] and p.forms[1]["folded"] == ["z"]
+        await p.until(lambda: p.rows[4] is not None and p.rows[4][-1, 0] == 2)
+        rows = p.rows[4]
+        assert rows is not None and np.array_equal(rows[-1, 1:], whole[3].max(axis=0))
+        assert p.forms[4]["folded"] == ["y"] and p.forms[4]["shape"] == [7]
+
+    with studio(root) as address:
+        play(address, scene)
+
 
 def test_a_user_opens_a_file_creates_a_peak_removes_it_and_undoes_the_change(root: Path) -> None:
     """Open, run to a peak, lower the resting level until it decays, undo, save, and open the saved file."""

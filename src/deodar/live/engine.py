@@ -8,6 +8,7 @@ exchanges, with the states of all elements that remain.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses as dc
 import queue
 import threading
@@ -238,7 +239,8 @@ class Engine:
     def show(self, places: Iterable[PortKey], requests: Iterable[TraceRequest]) -> None:
         """Set the places that shots contain from now on, and the time courses that are sampled."""
         self._places = frozenset(places)
-        self.traces = {request: self.traces.get(request, Trace()) for request in requests}
+        known = self.traces
+        self.traces = {r: known[r] if r in known else self._trace_so_far(r) for r in requests}
         self._make()
         self._stale = True
 
@@ -323,6 +325,20 @@ class Engine:
         if any(trace.count == 0 for trace in self.traces.values()):
             self._take_samples(session)
             self._stale = True
+
+    def _trace_so_far(self, request: TraceRequest) -> Trace:
+        """Return a new time course with samples of the stored states that contain its port."""
+        trace, session = Trace(), self.session
+        if session is None or request.place[0] not in session.program.plan.row:
+            return trace
+        with contextlib.suppress(KeyError):  # a port that does not exist
+            axes = session.program.axes(session.program.port(*request.place))
+            shape = tuple(a.samples for a in axes)
+            for state in self.ring.states():
+                array = state.arrays.get(request.place)
+                if array is not None and array.shape == shape:
+                    trace.add(state.time, request.value(array, axes))
+        return trace
 
     def _with_injection(
         self, arrays: Mapping[PortKey, np.ndarray], session: Session

@@ -107,6 +107,11 @@ class StateRing:
             k = min(max(max(k, 0) + further, 0), len(self._stored) - 1)
             return k, self._stored[k].state
 
+    def states(self) -> list[PublishedState]:
+        """Return all stored states in order of time."""
+        with self._lock:
+            return [one.state for one in self._stored]
+
     def _sharing(
         self, state: PublishedState, own: Mapping[PortKey, np.ndarray], last: _Stored | None
     ) -> PublishedState:

@@ -1,40 +1,46 @@
-"""Time courses of a running model: one number over time, in a ring buffer of fixed size."""
+"""Time courses of a running model: one number or one row of numbers over time, in a ring buffer."""
 
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Sequence
 
 import numpy as np
 
-from deodar.numerics.axes import Axis
+from deodar.live.section import Section, places
+from deodar.numerics.axes import Axes
 from deodar.session.port_reader import PortKey
 
 CAPACITY = 16384
-"""Number of samples in the buffer (a guess: a minute at the rate at which a page draws)."""
+"""Largest number of samples in the buffer (a guess: a minute at the rate at which a page draws)."""
+
+MOST_VALUES = 2**21
+"""Largest number of values in the buffer: 16 MB in double precision."""
 
 
 @dc.dataclass(frozen=True)
 class TraceRequest:
     """Specification of a time course: a node's value, or an array's maximum, mean or value at a position.
 
-    The position `at` is in axis units; axes without a value there use their middle.
+    The position `at` is in axis units; axes without a value there use their middle. With a `section` a sample
+    is the row of values along its one axis.
     """
 
     place: PortKey
     reduce: str = "max"
     at: tuple[float, ...] = ()
+    section: Section | None = None
 
-    def value(self, array: np.ndarray, axes: Sequence[Axis]) -> float:
-        """Return the number for the present array."""
+    def value(self, array: np.ndarray, axes: Axes) -> float | np.ndarray:
+        """Return the sample for the present array."""
+        if self.section is not None:
+            return self.section.take(array, axes).reshape(-1)
         if array.ndim == 0:
             return float(array)
         if self.reduce == "max":
             return float(array.max())
         if self.reduce == "mean":
             return float(array.mean())
-        places = (*self.at, *(0.5 * (a.lower + a.upper) for a in axes[len(self.at) :]))
-        return float(array[tuple(_nearest(a, x) for a, x in zip(axes, places, strict=False))])
+        return float(array[places(axes, self.at)])
 
 
 class Trace:
@@ -42,18 +48,30 @@ class Trace:
 
     def __init__(self) -> None:
         self.count = 0
+        self._begin = 0
         self._samples = np.zeros((CAPACITY, 2))
 
-    def add(self, time: float, value: float) -> None:
-        """Add a sample."""
-        self._samples[self.count % CAPACITY] = time, value
+    @property
+    def width(self) -> int:
+        """Number of values of a sample, without its time."""
+        return self._samples.shape[1] - 1
+
+    def add(self, time: float, value: float | np.ndarray) -> None:
+        """Add a sample; one with another number of values than the last removes those before it."""
+        width = np.size(value)
+        if width != self.width:
+            self._samples, self._begin = np.zeros((capacity(width), 1 + width)), self.count
+        row = self._samples[self.count % len(self._samples)]
+        row[0], row[1:] = time, value
         self.count += 1
 
     def since(self, count: int) -> np.ndarray:
-        """Return the samples after the first `count`, if in the buffer: (time, value), oldest first."""
-        first = max(count, self.count - CAPACITY)
-        return self._samples[np.arange(first, self.count) % CAPACITY]
+        """Return the samples after the first `count`, if in the buffer: (time, *values), oldest first."""
+        samples, begin = self._samples, self._begin
+        first = max(count, begin, self.count - len(samples))
+        return samples[np.arange(first, self.count) % len(samples)]
 
 
-def _nearest(axis: Axis, place: float) -> int:
-    return int(np.argmin(np.abs(axis.points - place)))
+def capacity(width: int) -> int:
+    """Return the number of samples of `width` values in a buffer."""
+    return min(CAPACITY, max(2, MOST_VALUES // max(1, width)))

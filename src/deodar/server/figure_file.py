@@ -12,6 +12,15 @@ from deodar.server.to_server import SaveFigure
 
 SUFFIX = ".toml"
 
+FIGURES = {
+    "course": "time_course",
+    "curve": "snapshot",
+    "heat": "snapshot",
+    "picture": "snapshot",
+    "space_time": "space_time",
+}
+"""The kind of figure for a kind of plot."""
+
 
 def save(m: SaveFigure, document: Document, record: Path | None, time: float, folder: Path) -> Path:
     """Write the file and return its path: the next unused NAME-figure-001.toml in the folder.
@@ -31,9 +40,7 @@ def save(m: SaveFigure, document: Document, record: Path | None, time: float, fo
     from deodar.figures import FigureFile, FigurePanel
 
     entry, port = find.shown(document, f"{find.entry(document, m.element).path}.{quote(m.port)}")
-    kind = {"course": "time_course", "curve": "snapshot", "heat": "snapshot", "picture": "snapshot"}.get(
-        m.kind
-    )
+    kind = FIGURES.get(m.kind)
     panel = FigurePanel(
         f"{entry.path}.{port}",
         kind=kind,

@@ -17,7 +17,7 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import DeodarError, Problem
 from deodar.live.published import PublishedState
 from deodar.live.ring import TimeSpan
-from deodar.live.trace import CAPACITY, Trace, TraceRequest
+from deodar.live.trace import Trace, TraceRequest, capacity
 from deodar.live.track import MOST, Trail
 from deodar.numerics.axes import Axes
 from deodar.recording.record import about
@@ -29,7 +29,7 @@ from deodar.session.port_reader import PortKey
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene, SceneBody
 
-MOST_SAMPLES = CAPACITY // 2
+MOST_SAMPLES = capacity(1) // 2
 """Largest number of samples of a time course; longer records are sampled at even intervals."""
 
 PLACES = ("pose", "place")
@@ -192,7 +192,9 @@ class RecordFrames:
                 # the stream reports a port without frames, and the frame a chunk that cannot be read
                 with contextlib.suppress(DeodarError):
                     axes = self.record.axes(request.place)
-                    for times, frames in self.record.samples(request.place, copy, MOST_SAMPLES):
+                    drawn = () if request.section is None else request.section.split(axes)[0]
+                    most = min(MOST_SAMPLES, capacity(math.prod(a.samples for a in drawn)))
+                    for times, frames in self.record.samples(request.place, copy, most):
                         if self._traces.get(key) is not trace:
                             return
                         for time, frame in zip(times, frames, strict=True):

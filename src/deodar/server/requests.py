@@ -18,6 +18,7 @@ from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
 from deodar.live.engine import Injection
+from deodar.live.section import Section
 from deodar.live.trace import TraceRequest
 from deodar.model import edit, files, find
 from deodar.model.paths import quote
@@ -420,7 +421,8 @@ async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> No
 @handles(to_server.Watch)
 async def _watch(hub: Hub, page: Page, m: to_server.Watch) -> None:
     _require_room(hub, page, m.stream)
-    page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most, other=m.other)
+    section = Section(tuple(m.drawn), tuple(m.at.items()))
+    page.streams[m.stream] = Stream(m.stream, (m.element, m.port), m.most, other=m.other, section=section)
     hub.watch()
 
 
@@ -431,6 +433,16 @@ async def _trace(hub: Hub, page: Page, m: to_server.WatchTrace) -> None:
     page.streams[m.stream] = Stream(
         m.stream, place, request=TraceRequest(place, m.reduce, tuple(m.at)), other=m.other
     )
+    hub.watch()
+
+
+@handles(to_server.WatchRows)
+async def _rows(hub: Hub, page: Page, m: to_server.WatchRows) -> None:
+    _require_room(hub, page, m.stream)
+    place = (m.element, m.port)
+    section = Section((m.drawn,) if m.drawn else (), tuple(m.at.items()), most=1)
+    request = TraceRequest(place, section=section)
+    page.streams[m.stream] = Stream(m.stream, place, m.most, request, m.other)
     hub.watch()
 
 

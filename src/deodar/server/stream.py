@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from deodar.errors import DeodarError, Problem
 from deodar.live.published import PublishedState
+from deodar.live.section import Section
 from deodar.live.trace import Trace, TraceRequest
 from deodar.numerics.axes import Axes, Axis
 from deodar.server import frames, view
@@ -25,7 +27,13 @@ MOST_MEDIAN = 4096
 class Stream:
     """A port of an element, or with a `request` its time course, under a number that the page chose.
 
-    `other`: of the record that the open one is compared with.
+    Args:
+        number: the number.
+        place: the port.
+        most: largest number of samples along an axis; 0: all.
+        request: the time course; None: the newest array.
+        other: whether the stream is of the record that the open one is compared with.
+        section: the part of the array that the page draws.
     """
 
     def __init__(
@@ -35,8 +43,12 @@ class Stream:
         most: int = 0,
         request: TraceRequest | None = None,
         other: bool = False,
+        section: Section | None = None,
     ) -> None:
         self.number, self.place, self.most, self.request, self.other = number, place, most, request, other
+        rows = None if request is None else request.section
+        self._rows = rows is not None
+        self._section = rows or section or Section()
         self._said: Announced | Lost | None = None
         self._axes: Axes = ()
         self._trace: Trace | None = None
@@ -62,7 +74,8 @@ class Stream:
         array = state.arrays.get(self.place)
         if array is None:
             return None
-        values = thin(fold(array, self._axes), self.most, self._said.channels)
+        shown = array if self._said.channels else self._section.take(array, self._axes)
+        values = thin(shown, self.most, self._said.channels)
         if list(values.shape) != self._said.shape:
             return None  # a state of the previous program
         return frames.pack(self.number, state.number, state.time, values)
@@ -74,8 +87,15 @@ class Stream:
             return None
         samples = trace.since(self._taken)
         self._taken = trace.count
+        if not len(samples):
+            return None
         start = float(samples[0, 0])
-        return frames.pack(self.number, number, start, samples - [start, 0.0])
+        values = samples[:, 1:]
+        if self._rows:
+            values = thin_rows(values, self.most)
+        if not isinstance(self._said, Announced) or self._said.shape != [1 + values.shape[1]]:
+            return None  # samples of the previous program
+        return frames.pack(self.number, number, start, np.column_stack([samples[:, 0] - start, values]))
 
     def _form(self, source: FrameSource, past: PublishedState | None) -> Announced | Lost:
         try:
@@ -86,18 +106,21 @@ class Stream:
             array = past.arrays.get(self.place)
             if array is None or array.shape != tuple(a.samples for a in self._axes):
                 return _lost(self.number, source.absent(self.place))
-        if self.request is not None:
-            return Announced(stream=self.number, shape=[2], axes=[], folded=[], channels=False)
-        channels = is_picture(self._axes)
-        kept = self._axes if channels else self._axes[:2]
-        shape = [_thinned(a.samples, self.most, len(kept)) for a in kept]
+        if self.request is not None and not self._rows:
+            return Announced(stream=self.number, shape=[2], axes=[], rest=[], folded=[], channels=False)
+        channels = is_picture(self._axes) and self._section == Section()
+        kept, rest = (self._axes, ()) if channels else self._section.split(self._axes)
+        shape = [_thinned(a.samples, self.most, 2 if self._rows else len(kept)) for a in kept]
         if channels:
             shape[-1] = CHANNELS[1]
+        if self._rows:
+            shape = [1 + math.prod(shape)]
         return Announced(
             stream=self.number,
             shape=shape,
             axes=[view.axis(a) for a in kept],
-            folded=[a.name for a in self._axes[len(kept) :]],
+            rest=[view.axis(a) for a in rest],
+            folded=[] if channels else [a.name for a in self._section.folded(self._axes)],
             channels=channels,
         )
 
@@ -105,13 +128,6 @@ class Stream:
 def is_picture(axes: Sequence[Axis]) -> bool:
     """Return whether an array over these axes is a picture with three channels."""
     return len(axes) == 3 and (axes[2].name, axes[2].samples) == CHANNELS
-
-
-def fold(array: np.ndarray, axes: Sequence[Axis]) -> np.ndarray:
-    """Return the maximum over all axes beyond the second; a picture is returned unchanged."""
-    if array.ndim <= 2 or is_picture(axes):
-        return array
-    return array.max(axis=tuple(range(2, array.ndim)))
 
 
 def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
@@ -135,6 +151,12 @@ def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
         rows = _means(rows, bins[d]) if channels else _farthest(rows, bins[d], median)
         array = np.moveaxis(rows, 0, d)
     return array
+
+
+def thin_rows(rows: np.ndarray, most: int) -> np.ndarray:
+    """Thin rows, one after another in time, to at most `most` values each, as `thin` does planes."""
+    bins = _thinned(rows.shape[1], most, 2)
+    return rows if bins == rows.shape[1] else _farthest(rows.T, bins, _median(rows)).T
 
 
 def _extremes(array: np.ndarray, bins: int) -> np.ndarray:

@@ -473,13 +473,15 @@ class Bodies(Message, frozen=True, tag="bodies"):
 class Announced(Message, frozen=True, tag="announced"):
     """Format of the following frames of a stream: the shape after thinning, and the axes.
 
-    `folded` lists the axes over which the maximum is taken if the array has more than two dimensions;
-    `channels`: the array is a picture. A time course has the shape [2]: pairs of time and value.
+    `rest` lists the axes of the array that are not drawn, and `folded` the names of those over which the
+    maximum is taken; `channels`: the array is a picture. A time course has the shape [2], pairs of time and
+    value; one of rows has the shape [1 + n], a time and n values.
     """
 
     stream: int
     shape: list[int]
     axes: list[AxisView]
+    rest: list[AxisView]
     folded: list[str]
     channels: bool
 

@@ -614,7 +614,9 @@ class RemoveObject(Request, frozen=True, kw_only=True, tag="remove_object"):
 class Watch(Request, frozen=True, kw_only=True, tag="watch"):
     """Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
 
-    The page chooses the number `stream`. `other`: of the record that the open one is compared with.
+    The page chooses the number `stream`. `other`: of the record that the open one is compared with. `drawn`
+    names the axes to send, at most two (empty: the first ones, or all of a picture); `at` states a position
+    on other axes, by name and in axis units. Over the rest the maximum is taken.
     """
 
     stream: Count
@@ -622,6 +624,8 @@ class Watch(Request, frozen=True, kw_only=True, tag="watch"):
     port: Text
     most: Count = 0
     other: bool = False
+    drawn: list[Text] = []
+    at: dict[Text, float] = {}
 
 
 @MESSAGES.register
@@ -636,6 +640,22 @@ class WatchTrace(Request, frozen=True, kw_only=True, tag="trace"):
     port: Text
     reduce: Literal["at", "max", "mean"] = "max"
     at: list[float] = []
+    other: bool = False
+
+
+@MESSAGES.register
+class WatchRows(Request, frozen=True, kw_only=True, tag="rows"):
+    """Send the values of a port along one axis over time, thinned to at most `most` samples (0: all).
+
+    `drawn` names the axis (empty: the first); `at` and `other` as in `watch`.
+    """
+
+    stream: Count
+    element: Id
+    port: Text
+    most: Count = 0
+    drawn: Text = ""
+    at: dict[Text, float] = {}
     other: bool = False
 
 

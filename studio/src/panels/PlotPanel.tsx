@@ -9,6 +9,7 @@ import { PackagedPlot } from "../plots/PackagedPlot";
 import { Picture } from "../plots/Picture";
 import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
+import { SpaceTime } from "../plots/SpaceTime";
 import { TimeCourse } from "../plots/TimeCourse";
 import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
@@ -19,6 +20,7 @@ const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   curve: FieldCurve,
   heat: HeatMap,
   picture: Picture,
+  space_time: SpaceTime,
 };
 
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {

@@ -78,7 +78,11 @@ export function openTool(tool: Tool): void {
 
 export function plotTitle({ element, kind }: { element: string; kind: PlotKind | null }): string {
   const found = useStudio.getState().elements.get(element);
-  return found === undefined ? "Plot" : kind === "course" ? `${found.name} over time` : found.name;
+  return found === undefined
+    ? "Plot"
+    : kind === "course" || kind === "space_time"
+      ? `${found.name} over time`
+      : found.name;
 }
 
 type Plot = { element: string; kind: PlotKind; port: string };

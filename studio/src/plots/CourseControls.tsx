@@ -7,7 +7,8 @@ import { useStudio } from "../store";
 import { mainPort, portAxes, portsOf } from "./kinds";
 import type { Range } from "./paint";
 import { RangeControl } from "./RangeControl";
-import { type PlotSettings, type TraceSetting, WINDOWS } from "./settings";
+import type { PlotSettings, TraceSetting } from "./settings";
+import { WindowControl } from "./WindowControl";
 
 type Controls = {
   element: string;
@@ -44,22 +45,7 @@ export function CourseControls({ element, traces, settings, shown, set }: Contro
 
   return (
     <>
-      <div>
-        <Text size="xs" fw={500} mb={2}>
-          Newest {document?.time_unit ?? "time units"} shown
-        </Text>
-        <SegmentedControl
-          size="xs"
-          fullWidth
-          aria-label="Displayed duration"
-          data={WINDOWS.map((length) => ({
-            value: String(length),
-            label: length === null ? "all" : String(length),
-          }))}
-          value={String(settings.window)}
-          onChange={(value) => set({ window: value === "null" ? null : Number(value) })}
-        />
-      </div>
+      <WindowControl window={settings.window} set={(window) => set({ window })} />
       <RangeControl range={settings.range} shown={shown} set={(range) => set({ range })} />
       <div className="plot-more">
         <Text size="xs" fw={500}>

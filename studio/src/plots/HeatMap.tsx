@@ -1,22 +1,22 @@
 // An array over two axes as colours; with more axes it is the maximum over the others.
 
-import { NativeSelect } from "@mantine/core";
 import { useMemo, useRef } from "react";
 import type uPlot from "uplot";
 import type { AxisView } from "../protocol";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
-import { centred, type Scale, scale, type ScaleName, SCALES } from "./colors";
+import { ColorControl } from "./ColorControl";
 import { exportPng } from "./exportPng";
 import { attachInjection } from "./injection";
-import { axisLabel, edges, hasLevels, runsDown } from "./kinds";
-import { pushAmplitude, thresholdOf } from "./levels";
+import { axisLabel, cell, edges, runsDown } from "./kinds";
+import { pushAmplitude } from "./levels";
 import { axis, frame, type Look } from "./look";
-import { extent, paintHeat, type Range } from "./paint";
+import { FollowingColors, middleOf, scaleOf } from "./mapColors";
+import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { PushControl } from "./PushControl";
-import { CalmRange, reading } from "./range";
+import { reading } from "./range";
 import { RangeControl } from "./RangeControl";
 import type { Injection } from "./spot";
 import { type ChartOptions, useChart } from "./useChart";
@@ -32,18 +32,11 @@ export function HeatMap(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
   const kind = useStudio((state) => state.kinds.get(element.kind));
   const ports = usePorts(element, port, (axes) => axes.length > 1);
-  const twoSided = settings.scale === "diverging" || (settings.scale === "auto" && hasLevels(kind, port));
-  const name: ScaleName = settings.scale !== "auto" ? settings.scale : twoSided ? "diverging" : "cividis";
+  const { name, twoSided } = scaleOf(settings.scale, kind, port);
 
   const heat = useRef<HTMLCanvasElement | null>(null);
   const newest = useRef<Live | null>(null);
-  const calm = useRef(new CalmRange());
-  const colors = useRef<{ range: Range; middle: number | null; name: ScaleName; table: Scale }>({
-    range: [0, 1],
-    middle: null,
-    name,
-    table: scale(name),
-  });
+  const colors = useRef(new FollowingColors(name));
   const levels = useLevels(element.id, port, () => paint());
   const wishes = useMemo<Wish[]>(
     () => [{ type: "watch", element: element.id, port, most: MOST }],
@@ -57,29 +50,17 @@ export function HeatMap(props: PlotProps) {
   const [x = UNKNOWN, y = UNKNOWN] = form?.axes ?? [];
   const down = useStudio((state) => state.document !== null && runsDown(state.document, y));
 
-  // The colours change only with the range: then the bar is drawn again.
-  const follow = (values: Float32Array) => {
-    const middle = twoSided ? (thresholdOf(levels.current) ?? 0) : null;
-    const range =
-      settings.range ?? calm.current.next(extent(values), middle === null ? [] : [middle], performance.now());
-    const now = colors.current;
-    if (
-      now.range[0] !== range[0] ||
-      now.range[1] !== range[1] ||
-      now.middle !== middle ||
-      now.name !== name
-    ) {
-      const table = middle === null ? scale(name) : centred(scale(name), range[0], range[1], middle);
-      colors.current = { range, middle, name, table };
-      chart.current?.redraw(false, false);
-    }
-  };
   const paint = () => {
     const live = newest.current;
     const [nx, ny] = live?.form?.shape ?? [];
     if (heat.current !== null && live?.frame != null && nx !== undefined && ny !== undefined) {
-      follow(live.frame.values);
-      paintHeat(heat.current, live.frame.values, nx, ny, colors.current.range, colors.current.table, down);
+      const { values } = live.frame;
+      // The bar is drawn again only if the colours changed.
+      if (colors.current.follow(values, name, middleOf(twoSided, levels.current), settings.range)) {
+        chart.current?.redraw(false, false);
+      }
+      const { range, table } = colors.current.now;
+      paintHeat(heat.current, values, nx, ny, range, table, down);
       reread();
     }
   };
@@ -96,10 +77,7 @@ export function HeatMap(props: PlotProps) {
       ],
       series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
       hooks: {
-        draw: [
-          (self) =>
-            drawColorBar(self, look, colors.current.table, colors.current.range, colors.current.middle),
-        ],
+        draw: [(self) => drawColorBar(self, look, colors.current.now)],
       },
     };
   };
@@ -149,19 +127,10 @@ export function HeatMap(props: PlotProps) {
       note={form !== null && form.folded.length > 0 ? `max over ${form.folded.join(", ")}` : ""}
       controls={
         <>
-          <NativeSelect
-            size="xs"
-            label="Colours"
-            data={[
-              { value: "auto", label: "Fitting the port" },
-              ...SCALES.map((other) => ({ value: other.name, label: other.label })),
-            ]}
-            value={settings.scale}
-            onChange={(event) => set({ scale: event.currentTarget.value as ScaleName | "auto" })}
-          />
+          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
           <RangeControl
             range={settings.range}
-            shown={() => colors.current.range}
+            shown={() => colors.current.now.range}
             set={(range) => set({ range })}
           />
           {element.pushable && (
@@ -208,10 +177,4 @@ function readAt(chart: uPlot, live: Live | null, x: AxisView, y: AxisView): stri
   return value === undefined
     ? ""
     : `${x.name} ${reading(at[0])}   ${y.name} ${reading(at[1])}   ${reading(value)}`;
-}
-
-// Which of `count` equal parts of an axis a position is in.
-function cell(axis: AxisView, count: number, position: number): number {
-  const [first, last] = edges(axis);
-  return Math.min(count - 1, Math.max(0, Math.floor(((position - first) / (last - first)) * count)));
 }

@@ -1,9 +1,8 @@
 // A colour bar at the right of a chart, with numbers and a mark where the colours turn.
 
 import type uPlot from "uplot";
-import type { Scale } from "./colors";
 import { font, type Look } from "./look";
-import type { Range } from "./paint";
+import type { MapColors } from "./mapColors";
 import { tick, ticks } from "./range";
 
 // The room it needs, as a padding of the chart.
@@ -13,13 +12,7 @@ const GAP = 12;
 const WIDTH = 12;
 const TICK = 4;
 
-export function drawColorBar(
-  chart: uPlot,
-  look: Look,
-  scale: Scale,
-  range: Range,
-  mark: number | null,
-): void {
+export function drawColorBar(chart: uPlot, look: Look, { table, range, middle: mark }: MapColors): void {
   const { ctx, bbox } = chart;
   const unit = look.unit * devicePixelRatio;
   const left = bbox.left + bbox.width + GAP * unit;
@@ -29,7 +22,7 @@ export function drawColorBar(
   for (let i = 0; i < 256; i++) {
     const bottom = bbox.top + bbox.height * (1 - i / 256);
     const height = bbox.height / 256 + 1;
-    ctx.fillStyle = `rgb(${scale[4 * i]} ${scale[4 * i + 1]} ${scale[4 * i + 2]})`;
+    ctx.fillStyle = `rgb(${table[4 * i]} ${table[4 * i + 1]} ${table[4 * i + 2]})`;
     ctx.fillRect(left, Math.max(bbox.top, bottom - height), width, height);
   }
   ctx.strokeStyle = look.dim;

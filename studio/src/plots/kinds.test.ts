@@ -2,6 +2,8 @@ import { describe, expect, it } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 import {
   axisLabel,
+  cell,
+  edges,
   firstToPlot,
   fits,
   isOwn,
@@ -62,7 +64,7 @@ describe("kinds of plots", () => {
     const [x, y, hue, channel] = AXES as [AxisView, AxisView, AxisView, AxisView];
     expect(plotKinds(null)).toEqual(["course"]);
     expect(plotKinds([])).toEqual(["course"]);
-    expect(plotKinds([x])).toEqual(["curve", "course"]);
+    expect(plotKinds([x])).toEqual(["curve", "course", "space_time"]);
     expect(plotKinds([x, y])).toEqual(["heat", "course"]);
     expect(plotKinds([x, y, hue])).toEqual(["heat", "course"]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
@@ -73,7 +75,7 @@ describe("kinds of plots", () => {
     const [x, y, hue, channel] = AXES as [AxisView, AxisView, AxisView, AxisView];
     const plot = (axes: number, periodic = false) =>
       ({ name: "odd", title: "Odd", axes, periodic }) as PlotView;
-    expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "odd"]);
+    expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "space_time", "odd"]);
     expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course"]);
     expect([[], [x], [x, y], [x, y, hue], [x, y, channel]].map((axes) => fits(plot(2), axes))).toEqual([
       false,
@@ -134,6 +136,11 @@ describe("axes", () => {
     expect([...points(axis("x", 11), 2)]).toEqual([2.25, 7.75]);
     expect([...points(axis("x", 4, { periodic: true, upper: 8 }))]).toEqual([0, 2, 4, 6]);
     expect(stepOf(axis("x", 1, { periodic: true }))).toBe(10);
+  });
+
+  it("have cells around their samples", () => {
+    expect(edges(axis("x", 11))).toEqual([-0.5, 10.5]);
+    expect([-3, 4.4, 4.6, 20].map((value) => cell(axis("x", 11), 11, value))).toEqual([0, 4, 5, 10]);
   });
 
   it("are named with their unit", () => {

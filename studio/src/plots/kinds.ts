@@ -2,7 +2,7 @@
 
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 
-export type OwnPlot = "course" | "curve" | "heat" | "picture";
+export type OwnPlot = "course" | "curve" | "heat" | "picture" | "space_time";
 
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;
@@ -12,6 +12,7 @@ export const PLOT_TITLES: Record<OwnPlot, string> = {
   curve: "Curves",
   heat: "Heat map",
   picture: "Picture",
+  space_time: "Space-time plot",
 };
 
 const CHANNELS = 3;
@@ -31,6 +32,7 @@ export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = []): P
   return [
     axes.length === 1 ? "curve" : isPicture(axes) ? "picture" : "heat",
     "course",
+    ...(axes.length === 1 ? ["space_time"] : []),
     ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
   ];
 }
@@ -131,6 +133,12 @@ export function edges(axis: AxisView): [number, number] {
 export function stepOf(axis: AxisView): number {
   const steps = axis.periodic ? axis.samples : axis.samples - 1;
   return steps > 0 ? (axis.upper - axis.lower) / steps : axis.upper - axis.lower;
+}
+
+// Which of `count` equal parts of an axis a position is in.
+export function cell(axis: AxisView, count: number, position: number): number {
+  const [first, last] = edges(axis);
+  return Math.min(count - 1, Math.max(0, Math.floor(((position - first) / (last - first)) * count)));
 }
 
 export function axisLabel(axis: AxisView): string {

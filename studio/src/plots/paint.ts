@@ -21,7 +21,7 @@ const images = new WeakMap<HTMLCanvasElement, Surface>();
 const words = new WeakMap<Scale, Uint32Array>();
 
 // A heat map: one pixel for each sample, the canvas is stretched by its style. C order: index = ix * ny + iy;
-// x to the right, y up or down.
+// x to the right, y up or down. NaN is transparent.
 export function paintHeat(
   canvas: HTMLCanvasElement,
   values: Float32Array,
@@ -41,7 +41,9 @@ export function paintHeat(
     const row = (down ? iy : ny - 1 - iy) * nx;
     for (let ix = 0, at = iy; ix < nx; ix++, at += ny) {
       const level = ((values[at] as number) - range[0]) * factor + 0.5;
-      target.words[row + ix] = colors[level < 0 ? 0 : level > 255 ? 255 : level | 0] as number;
+      target.words[row + ix] = Number.isNaN(level)
+        ? 0
+        : (colors[level < 0 ? 0 : level > 255 ? 255 : level | 0] as number);
     }
   }
   target.ctx.putImageData(target.image, 0, 0);

@@ -24,6 +24,7 @@ it("invalid settings are replaced by the defaults", () => {
     scale: "auto",
     traces: [],
     window: 2000,
+    down: false,
     amplitude: null,
     width: 0.05,
   });
@@ -46,6 +47,7 @@ it("valid settings are kept", () => {
     shown: ["output"],
     range: [-1, 2],
     scale: "gray",
+    down: true,
     traces: [trace],
     window: null,
     amplitude: -3,

@@ -17,6 +17,8 @@ export type PlotSettings = {
   traces: TraceSetting[];
   // The newest time that is shown, in time units; null: all.
   window: number | null;
+  // Whether time runs downwards, not to the right.
+  down: boolean;
   // What a right-click injects: null is a first guess; the width (sigma) is a share of the axis.
   amplitude: number | null;
   width: number;
@@ -49,6 +51,7 @@ export function readSettings(given: Record<string, unknown>): PlotSettings {
     scale: SCALES.find((scale) => scale.name === given["scale"])?.name ?? "auto",
     traces: Array.isArray(given["traces"]) ? given["traces"].filter(isTrace) : [],
     window: WINDOWS.includes(given["window"] as number | null) ? (given["window"] as number | null) : 2000,
+    down: given["down"] === true,
     amplitude: finite(given["amplitude"]),
     width: Math.min(1, Math.max(0.001, finite(given["width"]) ?? 0.05)),
   };

@@ -1,0 +1,214 @@
+// An array over one axis as colours over time: time to the right or down, the newest samples or those around
+// a moment of the past.
+
+import { SegmentedControl } from "@mantine/core";
+import { useEffect, useMemo, useRef } from "react";
+import type uPlot from "uplot";
+import type { AxisView } from "../protocol";
+import { isRecord } from "../replay/replay";
+import { Rows } from "../rows";
+import { useStudio } from "../store";
+import type { Wish } from "../streams";
+import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { ColorControl } from "./ColorControl";
+import { exportPng } from "./exportPng";
+import { axisLabel, cell, edges } from "./kinds";
+import { axis, frame, type Look } from "./look";
+import { FollowingColors, middleOf, scaleOf } from "./mapColors";
+import { drawMoment } from "./momentLine";
+import { paintHeat } from "./paint";
+import { PlotFrame, type PlotProps } from "./PlotFrame";
+import { reading } from "./range";
+import { RangeControl } from "./RangeControl";
+import { timeRange } from "./traces";
+import { type ChartOptions, useChart } from "./useChart";
+import { useLatest } from "./useLatest";
+import { useLevels } from "./useLevels";
+import { usePorts } from "./usePorts";
+import { useStreams } from "./useStreams";
+import { WindowControl } from "./WindowControl";
+
+const MOST = 128;
+const MOST_COLUMNS = 800;
+const UNKNOWN: AxisView = { key: "", name: "", lower: 0, upper: 1, samples: 2, periodic: false, unit: "" };
+
+export function SpaceTime(props: PlotProps) {
+  const { element, port, settings, visible, set } = props;
+  const { down } = settings;
+  const kind = useStudio((state) => state.kinds.get(element.kind));
+  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  const ports = usePorts(element, port, (axes) => axes.length === 1);
+  const { name, twoSided } = scaleOf(settings.scale, kind, port);
+  // A line marks the moment of the past that the page shows.
+  const moment = useStudio((state) => state.clock?.timeline?.time ?? null);
+  const marked = useLatest(moment);
+
+  const map = useRef<HTMLCanvasElement | null>(null);
+  const rows = useRef(new Rows());
+  const span = useRef<[number, number]>([0, settings.window ?? 1]);
+  const colors = useRef(new FollowingColors(name));
+  const levels = useLevels(element.id, port, () => draw());
+  const wishes = useMemo<Wish[]>(
+    () => [{ type: "rows", element: element.id, port, most: MOST }],
+    [element.id, port],
+  );
+  const draw = () => {
+    const { times, width } = rows.current;
+    const [first, last] = [times[0], times[times.length - 1]];
+    if (map.current === null || chart.current === null || first === undefined || last === undefined) {
+      return;
+    }
+    span.current = timeRange(
+      first,
+      last,
+      // a record shorter than the window has no more to come
+      isRecord() && settings.window !== null && last - first < settings.window ? null : settings.window,
+      moment,
+    );
+    const { clientWidth, clientHeight } = chart.current.over;
+    const columns = Math.max(1, Math.min(MOST_COLUMNS, down ? clientHeight : clientWidth));
+    const values = rows.current.spread(span.current, columns);
+    colors.current.follow(values, name, middleOf(twoSided, levels.current), settings.range);
+    const { range, table } = colors.current.now;
+    if (down) {
+      paintHeat(map.current, turned(values, columns, width), width, columns, range, table, true);
+    } else {
+      paintHeat(map.current, values, columns, width, range, table);
+    }
+    chart.current.setData(data());
+    reread();
+  };
+  // Rows are gathered while the panel is hidden; only the drawing waits.
+  const streaming = useStreams(wishes, true, ([live]) => {
+    rows.current = live?.rows ?? new Rows();
+    if (visible) {
+      draw();
+    }
+  });
+  const form = streaming.forms[0] ?? null;
+  const [x = UNKNOWN] = form?.axes ?? [];
+  useEffect(draw, [visible, settings.window, settings.range, moment, name]);
+
+  const data = (): uPlot.AlignedData => (down ? [edges(x), span.current] : [span.current, edges(x)]);
+  const options = (look: Look): ChartOptions => {
+    const base = frame(look);
+    const time = timeUnit === "" ? "time" : `time (${timeUnit})`;
+    const [across, up] = down ? [axisLabel(x), time] : [time, axisLabel(x)];
+    return {
+      ...base,
+      cursor: { ...base.cursor, y: true, points: { show: false } },
+      padding: [10 * look.unit, BAR_ROOM * look.unit, 0, 4 * look.unit],
+      scales: {
+        x: { time: false, range: () => (down ? edges(x) : span.current) },
+        y: { range: () => (down ? span.current : edges(x)), dir: down ? -1 : 1 },
+      },
+      axes: [
+        axis(look, { scale: "x", side: 2, label: across, grid: false }),
+        axis(look, { scale: "y", side: 3, label: up, grid: false }),
+      ],
+      series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
+      hooks: {
+        draw: [
+          (self) => {
+            drawMoment(self, marked.current, look, down);
+            drawColorBar(self, look, colors.current.now);
+          },
+        ],
+      },
+    };
+  };
+  const redraw = useLatest(draw);
+  const { host, chart, reread } = useChart(
+    {
+      options,
+      data,
+      label: `${port} of ${element.path} as colours over time and ${x.name}`,
+      read: (self) => readAt(self, rows.current, x, down),
+      attach: (self) => {
+        const canvas = document.createElement("canvas");
+        canvas.className = "plot-heat";
+        self.under.append(canvas);
+        map.current = canvas;
+        // The chart is known after this call.
+        queueMicrotask(() => redraw.current());
+        return () => {
+          map.current = null;
+        };
+      },
+    },
+    JSON.stringify([element.id, port, x, down, timeUnit]),
+  );
+
+  return (
+    <PlotFrame
+      {...props}
+      kind="space_time"
+      ports={ports}
+      streaming={streaming}
+      controls={
+        <>
+          <WindowControl window={settings.window} set={(window) => set({ window })} />
+          <SegmentedControl
+            size="xs"
+            fullWidth
+            aria-label="Direction of time"
+            data={[
+              { value: "right", label: "time to the right" },
+              { value: "down", label: "time down" },
+            ]}
+            value={down ? "down" : "right"}
+            onChange={(value) => set({ down: value === "down" })}
+          />
+          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
+          <RangeControl
+            range={settings.range}
+            shown={() => colors.current.now.range}
+            set={(range) => set({ range })}
+          />
+        </>
+      }
+      exportAs={() => {
+        if (chart.current !== null && map.current !== null) {
+          const { width, height } = chart.current;
+          void exportPng({
+            title: `${element.path} ${port} over time`,
+            width,
+            height,
+            options,
+            data: data(),
+            image: map.current,
+          });
+        }
+      }}
+    >
+      <div
+        ref={host}
+        className="plot-host"
+        tabIndex={0}
+        role="group"
+        aria-label={`Drawing of ${element.path} over time`}
+      />
+    </PlotFrame>
+  );
+}
+
+// The values with the two axes exchanged.
+function turned(values: Float32Array, columns: number, width: number): Float32Array {
+  const out = new Float32Array(values.length);
+  for (let i = 0; i < columns; i++) {
+    for (let j = 0; j < width; j++) {
+      out[j * columns + i] = values[i * width + j] as number;
+    }
+  }
+  return out;
+}
+
+function readAt(chart: uPlot, rows: Rows, x: AxisView, down: boolean): string {
+  const across = chart.posToVal(chart.cursor.left ?? 0, "x");
+  const up = chart.posToVal(chart.cursor.top ?? 0, "y");
+  const [time, place] = down ? [up, across] : [across, up];
+  const row = rows.at(time);
+  const value = row?.values[cell(x, rows.width, place)];
+  const where = `t ${reading(time)}   ${x.name} ${reading(place)}`;
+  return value === undefined ? where : `${where}   ${reading(value)}`;
+}

@@ -1,0 +1,66 @@
+"""Sections of arrays against NumPy's indices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.live.section import Section
+from deodar.live.trace import CAPACITY, Trace, TraceRequest, capacity
+
+X, Y, Z = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyz", (4, 5, 6), strict=True))
+HUE = dd.Axis("hue", 0, 360, samples=8, periodic=True)
+AXES = (X, Y, Z, HUE)
+ARRAY = np.random.default_rng(0).normal(size=(4, 5, 6, 8))
+
+
+@pytest.mark.parametrize(
+    ("section", "expected"),
+    [
+        (Section(), ARRAY.max(axis=(2, 3))),
+        (Section(("z", "x")), ARRAY.max(axis=(1, 3)).T),
+        (Section(("hue",)), ARRAY.max(axis=(0, 1, 2))),
+        (Section(("y", "z"), (("x", 10.0), ("hue", 90.0))), ARRAY[3, :, :, 2]),
+        (Section((), (("z", 2.1),)), ARRAY[:, :, 1].max(axis=-1)),
+        (Section(("x",), (("hue", -500.0),), most=1), ARRAY[..., 0].max(axis=(1, 2))),
+    ],
+)
+def test_a_section_cuts_at_positions_and_takes_the_maximum_over_the_rest(
+    section: Section, expected: np.ndarray
+) -> None:
+    assert np.array_equal(section.take(ARRAY, AXES), expected)
+    assert section.take(ARRAY, AXES).shape == tuple(a.samples for a in section.split(AXES)[0])
+
+
+def test_a_section_names_the_axes_that_are_drawn_and_those_with_a_maximum() -> None:
+    section = Section(("z", "x"), (("y", 3.0), ("x", 5.0)))
+    assert section.split(AXES) == ((Z, X), (Y, HUE))
+    assert section.folded(AXES) == (HUE,)
+
+
+def test_a_section_ignores_axes_that_the_array_does_not_have() -> None:
+    assert Section(("lost", "y", "y"), (("gone", 1.0),)).split((X, Y)) == ((Y,), (X,))
+    assert Section(("lost",)).split((X, Y)) == ((X, Y), ())
+    assert Section(("x",)).take(np.array(3.0), ()) == 3.0
+
+
+def test_a_time_course_of_rows_keeps_the_newest_within_its_memory() -> None:
+    request = TraceRequest(("u", "activation"), section=Section(("y",), (("x", 0.0),), most=1))
+    trace = Trace()
+    for k in range(3):
+        value = request.value(np.full((4, 5), float(k)) + np.arange(5), (X, Y))
+        trace.add(10.0 * k, value)
+    assert trace.width == 5
+    assert trace.since(1).tolist() == [[10, 1, 2, 3, 4, 5], [20, 2, 3, 4, 5, 6]]
+    assert capacity(1) == capacity(5) == CAPACITY and capacity(10**9) == 2
+    assert capacity(4096) * 4096 * 8 == 16 * 2**20
+
+
+def test_rows_of_another_length_replace_those_before() -> None:
+    trace = Trace()
+    for k in range(4):
+        trace.add(k, np.zeros(5))
+    trace.add(4, np.ones(3))
+    assert trace.count == 5
+    assert trace.since(0).tolist() == [[4, 1, 1, 1]]
