@@ -1,6 +1,7 @@
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
+import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
 import { box, button, choose, drag, number, panel, select, slider, type } from "./hands";
@@ -84,6 +85,69 @@ test("a page reports a lost connection, reconnects by itself and shows the prese
     .getByRole("region", { name: "Curves of u" })
     .getByText("Press play")
     .waitFor({ state: "detached" });
+});
+
+/** Where the curve in a box lies on the live layer, as shares of the height of its place in the box. */
+const curve = (page: Page, path: string) =>
+  box(page, path)
+    .locator(".graph-live")
+    .evaluate((slot) => {
+      const layer = document.querySelector(".graph-live-layer") as HTMLCanvasElement;
+      const [base, at] = [layer.getBoundingClientRect(), slot.getBoundingClientRect()];
+      const scale = layer.width / base.width;
+      const [left, width] = [(at.left - base.left) * scale, at.width * scale];
+      const data = layer.getContext("2d")?.getImageData(left, 0, width, layer.height);
+      const rows: number[] = [];
+      (data?.data ?? []).forEach((value, i, all) => {
+        if (i % 4 === 0 && (all[i + 3] ?? 0) > 128 && value - (all[i + 2] ?? 0) > 60)
+          rows.push(base.top + Math.floor(i / 4 / (data?.width ?? 1)) / scale);
+      });
+      const near = rows.filter((row) => row > at.top - 20 && row < at.bottom + 20);
+      const share = (row: number) => Math.round((33 * (row - at.top)) / at.height) / 33;
+      return [share(Math.min(...near)), share(Math.max(...near))];
+    });
+
+test("without a connection controls are disabled and typed values restored", async () => {
+  const { page, server, observe } = await start({ expected: GONE });
+  const observer = await observe();
+  await observer.runs();
+  await button(page, "Play").click();
+  await observer.until(() => observer.max("left", "output") > 4);
+  await button(page, "Pause").click();
+  await observer.until(() => !observer.running);
+  await select(page, "u");
+  await number(page, "tau").fill("77");
+  await shot(page, "connected");
+  observer.close();
+  await server.stop("SIGKILL");
+  await page.getByText("Connection lost, trying again").waitFor();
+  for (const name of ["Play", "Reset", "Step", "File menu", "Run settings", "First frame"])
+    await expect.poll(() => button(page, name).isDisabled(), { message: name }).toBe(true);
+  expect(await number(page, "tau").isDisabled()).toBe(true);
+  expect(await number(page, "tau").inputValue()).toBe("20");
+  expect(await slider(page, "tau").count(), "a slider without a thumb").toBe(0);
+  await page.getByRole("timer", { name: "Simulated time" }).getByText("not connected").waitFor();
+  for (const name of ["Zoom in", "Help and keys"])
+    expect(await button(page, name).isDisabled(), name).toBe(false);
+  await shot(page, "not-connected");
+});
+
+test("live pictures follow their boxes when a bar moves them", async () => {
+  const { page, server, observe } = await start({ expected: GONE });
+  const observer = await observe();
+  await observer.runs();
+  await observer.ask({ type: "step", n: 200 });
+  await observer.until(() => observer.max("left", "output") > 4);
+  await expect.poll(async () => (await curve(page, "left"))[0]).toBeLessThan(0.3);
+  const before = await curve(page, "left");
+  const there = await box(page, "left").boundingBox();
+  observer.close();
+  await server.stop("SIGKILL");
+  await page.getByText("Connection lost, trying again").waitFor();
+  await expect.poll(async () => (await box(page, "left").boundingBox())?.y).not.toBe(there?.y);
+  await page.waitForTimeout(1000);
+  await shot(page, "live-layer");
+  expect(await curve(page, "left")).toEqual(before);
 });
 
 test("unsaved edits are offered after a crash", async () => {

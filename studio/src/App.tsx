@@ -8,6 +8,7 @@ import { DropArea } from "./pages/DropArea";
 import { GalleryPage } from "./pages/GalleryPage";
 import { Header } from "./pages/Header";
 import { LostBanner } from "./pages/LostBanner";
+import { NeedsServer } from "./pages/NeedsServer";
 import { Notices } from "./pages/Notices";
 import { ProblemsPage } from "./pages/ProblemsPage";
 import { RecoveryBar } from "./pages/RecoveryBar";
@@ -47,19 +48,29 @@ function Page() {
     return <Splash />;
   }
   if (fileProblems !== null) {
-    return <ProblemsPage fileProblems={fileProblems} />;
+    return (
+      <NeedsServer>
+        <ProblemsPage fileProblems={fileProblems} />
+      </NeedsServer>
+    );
   }
   if (!open || gallery) {
-    return <GalleryPage />;
+    return (
+      <NeedsServer>
+        <GalleryPage />
+      </NeedsServer>
+    );
   }
   return (
     <div className={classes.studio}>
       <Header />
-      <RecoveryBar />
-      <Timeline />
-      <RecordNotes />
-      <ComparisonBar />
-      <FailureBar />
+      <NeedsServer>
+        <RecoveryBar />
+        <Timeline />
+        <RecordNotes />
+        <ComparisonBar />
+        <FailureBar />
+      </NeedsServer>
       <main className={classes.dock}>
         <Dock />
       </main>

@@ -28,6 +28,8 @@ export type Notice = { id: number; problem: ListedProblem; level: "error" | "inf
 
 export type Studio = {
   connection: Connection;
+  // How often the connection was lost.
+  losses: number;
   welcome: Welcome | null;
   kinds: Map<string, Kind>;
   gallery: Gallery | null;
@@ -55,6 +57,7 @@ let lastNotice = 0;
 
 export const useStudio = create<Studio>((set) => ({
   connection: "connecting",
+  losses: 0,
   welcome: null,
   kinds: new Map(),
   gallery: null,
@@ -69,7 +72,11 @@ export const useStudio = create<Studio>((set) => ({
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
-  connect: (connection) => set({ connection }),
+  connect: (connection) =>
+    set((state) => ({
+      connection,
+      losses: state.losses + (state.connection === "open" && connection !== "open" ? 1 : 0),
+    })),
   select: (selected) => set({ selected }),
   notify: (problem, level = "error", offer) =>
     set((state) => ({

@@ -4,12 +4,14 @@ import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconMaximize, IconMinus, IconPlus, IconSearch, IconSitemap } from "@tabler/icons-react";
 import { useReactFlow, type FitViewOptions } from "@xyflow/react";
 import type { ReactNode } from "react";
+import { useOffline } from "../pages/NeedsServer";
 import { glide } from "./glide";
 
 type Props = { onSearch: () => void; onTidy: () => void };
 
 export function Controls({ onSearch, onTidy }: Props) {
   const { zoomIn, zoomOut, fitView } = useReactFlow();
+  const offline = useOffline();
   return (
     <div className="graph-controls" role="toolbar" aria-label="Canvas">
       <Control label="Search ( / )" onClick={onSearch}>
@@ -24,7 +26,7 @@ export function Controls({ onSearch, onTidy }: Props) {
       <Control label="Show everything" onClick={() => void fitView({ ...FIT, duration: glide(GLIDE_MS) })}>
         <IconMaximize size={16} />
       </Control>
-      <Control label="Tidy: compute a new layout" onClick={onTidy}>
+      <Control label="Tidy: compute a new layout" disabled={offline} onClick={onTidy}>
         <IconSitemap size={16} style={{ transform: "rotate(-90deg)" }} />
       </Control>
     </div>
@@ -38,10 +40,12 @@ export const FIT: FitViewOptions = {
 };
 export const GLIDE_MS = 200;
 
-function Control({ label, onClick, children }: { label: string; onClick: () => void; children: ReactNode }) {
+type ControlProps = { label: string; disabled?: boolean; onClick: () => void; children: ReactNode };
+
+function Control({ label, disabled, onClick, children }: ControlProps) {
   return (
     <Tooltip label={label} position="right">
-      <ActionIcon size="md" aria-label={label} onClick={onClick}>
+      <ActionIcon size="md" aria-label={label} disabled={disabled} onClick={onClick}>
         {children}
       </ActionIcon>
     </Tooltip>

@@ -3,6 +3,7 @@
 import { Slider } from "@mantine/core";
 import type { KeyboardEvent } from "react";
 
+import { useOffline } from "../pages/NeedsServer";
 import { numberText } from "./number";
 import { nudged, snapped, type SliderRange } from "./range";
 
@@ -22,6 +23,8 @@ const DOWN = ["ArrowLeft", "ArrowDown", "PageDown"];
 const FINE = 1e4;
 
 export function ValueSlider({ label, value, range, disabled, onMove, onEnd, onNudge }: ValueSliderProps) {
+  const offline = useOffline();
+  const fixed = disabled === true || offline;
   const { lower, upper, logarithmic } = range;
   const at = (v: number) => (logarithmic ? Math.log10(Math.max(v, lower)) : v);
   const from = (position: number) => (logarithmic ? 10 ** position : position);
@@ -42,7 +45,7 @@ export function ValueSlider({ label, value, range, disabled, onMove, onEnd, onNu
     if (next !== null && !event.ctrlKey && !event.metaKey && !event.altKey) {
       event.preventDefault();
       event.stopPropagation();
-      if (disabled !== true) {
+      if (!fixed) {
         onNudge(next);
       }
     }
@@ -63,7 +66,7 @@ export function ValueSlider({ label, value, range, disabled, onMove, onEnd, onNu
         scale={logarithmic ? from : undefined}
         startPointValue={!logarithmic && lower < 0 && upper > 0 ? 0 : undefined}
         value={at(inside)}
-        disabled={disabled}
+        disabled={fixed}
         onChange={(position) => onMove(snapped(from(position), range))}
         onChangeEnd={onEnd}
       />

@@ -2,7 +2,10 @@
 
 import { Modal } from "@mantine/core";
 
+import { useEffect } from "react";
+
 import { ChooseDialog } from "./ChooseDialog";
+import { useOffline } from "./NeedsServer";
 import { NotesDialog } from "./NotesDialog";
 import { ReplaceDialog } from "./ReplaceDialog";
 import { SaveAsDialog } from "./SaveAsDialog";
@@ -13,6 +16,12 @@ import { type Asked, useDialogs } from "./dialogs";
 
 export function Dialogs() {
   const { asked, cancel } = useDialogs();
+  const offline = useOffline();
+  useEffect(() => {
+    if (offline && asked !== null && asked.name !== "notes" && asked.name !== "shortcuts") {
+      cancel();
+    }
+  }, [offline, asked, cancel]);
   return (
     <Modal
       opened={asked !== null}

@@ -7,6 +7,7 @@ import { PanelMenu } from "../panels/PanelMenu";
 import { Transport } from "../transport/Transport";
 import { DocumentName } from "./DocumentName";
 import { FileMenu } from "./FileMenu";
+import { NeedsServer } from "./NeedsServer";
 import { ProblemsMenu } from "./ProblemsMenu";
 import { SchemeToggle } from "./SchemeToggle";
 import { UndoButtons } from "./UndoButtons";
@@ -17,11 +18,15 @@ export function Header() {
   return (
     <header className={classes.header}>
       <div className={classes.left}>
-        <FileMenu />
-        <DocumentName />
-        <UndoButtons />
+        <NeedsServer>
+          <FileMenu />
+          <DocumentName />
+          <UndoButtons />
+        </NeedsServer>
       </div>
-      <Transport />
+      <NeedsServer>
+        <Transport />
+      </NeedsServer>
       <div className={classes.right}>
         <ProblemsMenu />
         <PanelMenu />

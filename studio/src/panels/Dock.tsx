@@ -7,6 +7,7 @@ import { useEffect, useRef, useState, useSyncExternalStore } from "react";
 import { Costs } from "../costs/Costs";
 import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
+import { NeedsServer } from "../pages/NeedsServer";
 import { Pins } from "../pins/Pins";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -20,10 +21,26 @@ import "./dock.css";
 
 const COMPONENTS = {
   graph: () => <Graph />,
-  inspector: () => <Inspector />,
-  pins: () => <Pins />,
-  costs: () => <Costs />,
-  world: () => <World />,
+  inspector: () => (
+    <NeedsServer>
+      <Inspector />
+    </NeedsServer>
+  ),
+  pins: () => (
+    <NeedsServer>
+      <Pins />
+    </NeedsServer>
+  ),
+  costs: () => (
+    <NeedsServer>
+      <Costs />
+    </NeedsServer>
+  ),
+  world: () => (
+    <NeedsServer>
+      <World />
+    </NeedsServer>
+  ),
   plot: PlotPanel,
 };
 

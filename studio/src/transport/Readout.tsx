@@ -2,6 +2,7 @@
 
 import { Tooltip } from "@mantine/core";
 
+import { useOffline } from "../pages/NeedsServer";
 import { type Studio, useStudio } from "../store";
 import { countText, factorText, timeText, unitText } from "./format";
 import { lateText, meterLines } from "./meter";
@@ -16,6 +17,7 @@ export function Readout() {
   const running = useStudio((state) => state.clock?.running ?? false);
   const record = useStudio((state) => state.document?.record != null);
   const past = clock?.timeline?.time ?? null;
+  const offline = useOffline();
   const time =
     clock === null
       ? "–"
@@ -23,12 +25,14 @@ export function Readout() {
   const tick =
     clock === null
       ? ""
-      : past !== null
-        ? record
-          ? "in the record"
-          : "in the past"
-        : `step ${countText(clock.tick)}`;
-  const factor = clock === null || !running ? "×–" : factorText(clock.factor);
+      : offline
+        ? "not connected"
+        : past !== null
+          ? record
+            ? "in the record"
+            : "in the past"
+          : `step ${countText(clock.tick)}`;
+  const factor = clock === null || !running || offline ? "×–" : factorText(clock.factor);
   const dt =
     clock === null
       ? ""
@@ -39,7 +43,7 @@ export function Readout() {
       : "Simulated time over real time, measured";
   const late = clock === null ? "" : lateText(clock);
   return (
-    <div className={`${classes.readout} numbers`}>
+    <div className={`${classes.readout} numbers`} data-offline={offline || undefined}>
       <Tooltip label={dt}>
         <div className={classes.time} role="timer" aria-label="Simulated time">
           <div className={classes.number}>{time}</div>
@@ -51,13 +55,13 @@ export function Readout() {
       <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>
         <div
           className={classes.factor}
-          data-still={!running || undefined}
+          data-still={!running || offline || undefined}
           role="group"
           aria-label="Speed measured"
         >
           <div className={classes.number}>{factor}</div>
-          <div className={classes.under} data-late={late !== "" || undefined}>
-            {late || "real time"}
+          <div className={classes.under} data-late={(!offline && late !== "") || undefined}>
+            {(!offline && late) || "real time"}
           </div>
         </div>
       </Tooltip>
