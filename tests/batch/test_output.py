@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -16,6 +17,7 @@ from deodar.cli import main
 from deodar.errors import Interrupted, NotFinite, OutputExists, RecordError
 from deodar.recording import files
 from deodar.recording.record import about
+from deodar.session import checkpoint
 from tests.recording.models import model
 from tests.worlds.test_recording import driving
 
@@ -53,6 +55,22 @@ def test_a_record_in_a_file_equals_the_one_in_memory(case: str, tmp_path: Path) 
     there = dd.simulate(model(), 40, out=tmp_path / "run", **given)
     assert files.load_record(tmp_path / "run").identical(here) and there.load().identical(here)
     assert dd.load(tmp_path / "run" / "model.json").document == model().document
+
+
+def test_a_wall_clock_that_is_set_back_delays_no_state(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    back = itertools.count(1_700_000_000.0, -3600.0)
+    monkeypatch.setattr("time.time", lambda: next(back))
+    monkeypatch.setattr(output, "CHECKPOINT_SECONDS", 1e-9)
+    stored: list[int] = []
+
+    def note(done: int) -> None:
+        state = tmp_path / "run" / "record.zarr" / output.CHECKPOINT
+        stored.append(checkpoint.read(state)[0]["steps"] if state.exists() else 0)
+
+    dd.simulate(model(), 20, record="u", every=5, seed=3, out=tmp_path / "run", progress=note)
+    assert len(stored) > 3 and stored == sorted(set(stored)) and stored[-1] > 0
 
 
 @pytest.mark.parametrize("case", [case for case in CASES if case != "workers"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import itertools
 import json
 import os
 import shutil
@@ -61,6 +62,34 @@ def test_samples_are_committed_without_a_call(whole: xarray.Dataset, tmp_path: P
         pytest.fail("the samples were not written within 5 s")
     writer.close(False)
     assert about(dd.open_record(tmp_path / "r.zarr"))["complete"] is False
+
+
+def test_a_wall_clock_that_is_set_back_delays_no_sample(
+    whole: xarray.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each call of the wall clock returns an earlier time than the last one; `monotonic` runs on."""
+    back = itertools.count(1_700_000_000.0, -3600.0)
+    monkeypatch.setattr("time.time", lambda: next(back))
+    monkeypatch.setattr(growing, "METADATA_SECONDS", 0.1)
+    writer = begin(whole, tmp_path / "r.zarr")
+    metadata = tmp_path / "r.zarr" / "u.activation" / "zarr.json"
+    for stop in (5, 9):
+        put(writer, whole, 0 if stop == 5 else 5, stop)
+        for _ in range(100):
+            writer._thread.join(0.05)
+            if json.loads(metadata.read_text())["shape"][0] == stop:
+                break
+        else:
+            pytest.fail("the samples were not written within 5 s")
+        assert dd.open_record(tmp_path / "r.zarr").sizes["time"] == stop
+    writer.close(False)
+
+
+def test_waiting_samples_hold_no_buffer_that_is_much_larger() -> None:
+    buffer = np.zeros((100, 11), np.float32)
+    small, large = growing._held(buffer[:49]), growing._held(buffer[:50])
+    assert not np.shares_memory(small, buffer) and np.shares_memory(large, buffer)
+    assert growing._held(buffer) is buffer
 
 
 def test_chunks_end_in_the_middle_of_samples(
@@ -122,7 +151,7 @@ def test_a_full_disk_is_an_error_of_the_next_call_and_keeps_what_was_committed(
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     with monkeypatch.context() as full:
-        full.setattr("zarr.Array.__setitem__", refuse)
+        full.setattr(output, "replace", refuse)
         put(writer, whole, 6, 9)
         with pytest.raises(OutputError, match="No space left"):
             writer.commit()

@@ -263,7 +263,7 @@ class OutputPart:
         n = seen[0].shape[lead]
         copies = self._copies(sizes)
         values = {
-            name: np.array(a[tuple(map(slice, copies))]).reshape(*sizes, *a.shape[lead:])
+            name: a[tuple(map(slice, copies))].reshape(*sizes, *a.shape[lead:])
             for name, a in zip(self.names, seen, strict=True)
         }
         writer = self.out.begin(self._empty)

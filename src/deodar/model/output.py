@@ -100,6 +100,28 @@ def write(
         beside.unlink(missing_ok=True)
 
 
+def replace(path: Path, content: bytes) -> None:
+    """Write a file beside its final path and rename it, without waiting for the disk.
+
+    For files that a process writes many times a second, into a folder that no other one writes. The name
+    beside is the same each time, so that a process that is killed leaves at most one.
+
+    Raises:
+        OSError: the system refused; an existing file is unchanged.
+    """
+    beside = path.with_name(f".{path.name}.partial")
+    try:
+        with beside.open("wb", buffering=0) as file:
+            rest = memoryview(content)
+            while rest:
+                rest = rest[file.write(rest) :]
+        beside.replace(path)
+    except OSError:
+        with contextlib.suppress(OSError):
+            beside.unlink()
+        raise
+
+
 def append(path: Path, content: bytes) -> None:
     """Append to a file or create it; the content is on the disk when this returns.
 

@@ -1,10 +1,10 @@
 """A Zarr record that is written during a run.
 
 The files are those of every Zarr record of deodar; the arrays grow along their dimensions of time. Chunks are
-written first, each beside its final name and then renamed. One file commits them: `zarr.json` of the group,
-which states the length of every array (Zarr's consolidated metadata) and is replaced as a whole. So a reader
-finds all arrays up to one moment at any time, also after the writer was killed. Each chunk has a checksum
-(CRC-32C).
+written first (`chunks.py`), each beside its final name and then renamed. One file commits them: `zarr.json`
+of the group, which states the length of every array (Zarr's consolidated metadata) and is replaced as a
+whole. So a reader finds all arrays up to one moment at any time, also after the writer was killed. Each chunk
+has a checksum (CRC-32C).
 
 A thread writes, twice a second. The last chunk of an array, which is not full yet, is written again each
 time; the samples behind the end of the array are NaN.
@@ -16,6 +16,7 @@ import contextlib
 import math
 import os
 import threading
+import time
 import warnings
 from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
@@ -24,12 +25,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray
 import zarr
-import zarr.codecs
 
 from deodar import codec
 from deodar.errors import DeodarError, OutputError, Problem, RecordError
 from deodar.model import output
 from deodar.recording import places, portable
+from deodar.recording.chunks import COMPRESSORS, ChunkedArray, ChunkError
 from deodar.recording.provenance import KEY
 
 FLUSH_SECONDS = 0.4
@@ -39,6 +40,12 @@ CHUNK_BYTES = 2**20
 """Bytes of a chunk before compression.
 
 A guess: small enough to read one frame, large enough for few files.
+"""
+
+METADATA_SECONDS = 5.0
+"""Time between two updates of the metadata of single arrays, in seconds.
+
+Only readers that ignore the metadata of the group need them: a guess.
 """
 
 LONGEST_CHUNK = 8192
@@ -62,57 +69,74 @@ class _Samples(NamedTuple):
 
 
 class _Tail:
-    """The last chunk of an array in one region, as far as it is known."""
+    """The last chunks of an array in one region, as far as they are known."""
 
-    def __init__(self, array: Any, axis: int, region: Region, known: Callable[[], int]) -> None:
-        self.array, self.axis, self.region, self.known = array, axis, region, known
-        self.frames = int(array.chunks[axis])
+    def __init__(self, array: ChunkedArray, axis: int, region: Region, known: Callable[[], int]) -> None:
+        self.array, self.axis, self.known = array, axis, known
+        self.frames = array.chunks[axis]
         self.start = -1
-        lead = [len(range(*part.indices(n))) for part, n in zip(region, array.shape, strict=False)]
-        self.shape = [*lead, self.frames, *array.shape[axis + 1 :]]
+        bounds = [part.indices(n)[:2] for part, n in zip(region, array.shape, strict=False)]
+        self.lead = [first for first, _ in bounds]
+        self.shape = [*(stop - first for first, stop in bounds), self.frames, *array.shape[axis + 1 :]]
         self.values = np.empty(0)
         self.dirty = False
 
     def add(self, first: int, values: np.ndarray) -> None:
         """Add samples from number `first` on; chunks that are full are written."""
-        taken, count = 0, values.shape[self.axis]
+        taken, count, lead = 0, values.shape[self.axis], (slice(None),) * self.axis
         while taken < count:
             chunk = (first + taken) // self.frames * self.frames
-            if chunk != self.start:
-                self.write()
-                self._begin(chunk)
             inside = first + taken - chunk
             n = min(self.frames - inside, count - taken)
-            lead = (slice(None),) * self.axis
-            self.values[*lead, inside : inside + n] = values[*lead, taken : taken + n]
-            self.dirty, taken = True, taken + n
+            part = values[*lead, taken : taken + n]
+            if n == self.frames:
+                if chunk != self.start:
+                    self.write()
+                self._store(chunk, part)
+                self.start, self.dirty = -1, False
+            else:
+                if chunk != self.start:
+                    self.write()
+                    self._begin(chunk)
+                self.values[*lead, inside : inside + n] = part
+                self.dirty = True
+            taken += n
 
     def write(self) -> None:
-        """Write the chunk."""
+        """Write the chunks."""
         if self.dirty:
-            place = slice(self.start, self.start + self.frames)
-            self.array[*self.region, place] = self.values
+            self._store(self.start, self.values)
             self.dirty = False
 
+    def _store(self, chunk: int, values: np.ndarray) -> None:
+        start = [*self.lead, chunk, *[0] * (len(self.shape) - self.axis - 1)]
+        try:
+            self.array.store(start, values)
+        except ChunkError as error:
+            raise self._damaged(chunk, error) from None
+
     def _begin(self, chunk: int) -> None:
-        """Begin a chunk; the samples that the file has of it are read."""
+        """Begin chunks; the samples that the files have of them are read."""
         self.start = chunk
-        self.values = np.full(self.shape, np.nan if self.array.dtype.kind == "f" else 0, self.array.dtype)
-        if self.array.shape[self.axis] < chunk + self.frames:
-            shape = list(self.array.shape)
-            shape[self.axis] = chunk + self.frames
-            self.array.resize(tuple(shape))
+        if not self.values.size:
+            self.values = np.empty(self.shape, self.array.dtype)
+        self.values.fill(self.array.fill)
         there = min(self.known(), chunk + self.frames) - chunk
         if there > 0:
             lead = (slice(None),) * self.axis
+            start = [*self.lead, chunk, *[0] * (len(self.shape) - self.axis - 1)]
+            shape = [*self.shape[: self.axis], there, *self.shape[self.axis + 1 :]]
             try:
-                self.values[*lead, :there] = self.array[*self.region, chunk : chunk + there]
-            except (ValueError, RuntimeError) as error:
-                raise RecordError(
-                    f"is damaged: samples {chunk} to {chunk + there} of {self.array.name} cannot be read"
-                    f" ({error})",
-                    fix="Run it again",
-                ) from None
+                self.values[*lead, :there] = self.array.load(start, shape)
+            except ChunkError as error:
+                raise self._damaged(chunk, error) from None
+
+    def _damaged(self, chunk: int, error: ChunkError) -> RecordError:
+        return RecordError(
+            f"is damaged: samples {chunk} to {chunk + self.frames} of {self.array.name} cannot be read"
+            f" ({error})",
+            fix="Run it again",
+        )
 
 
 class GrowingRecord:
@@ -190,15 +214,13 @@ class GrowingRecord:
         layout = codec.parse(self._group["attributes"][portable.KEY])
         stored = {old: new for new, old in layout["names"].items()}
         self._names = stored
-        self._arrays: dict[str, Any] = {}
+        self._arrays: dict[str, ChunkedArray] = {}
         self._axis: dict[str, int] = {}
         self._dimension: dict[str, str] = {}
         members = self._group["consolidated_metadata"]["metadata"]
         for name, about in layout["variables"].items():
             if dimension := about.get("grows"):
-                # a chunk that is NaN is a chunk, not a missing one; `open_array` ignores such settings
-                array = zarr.open_array(path / name, mode="r+")
-                self._arrays[name] = array.with_config({"write_empty_chunks": True})
+                self._arrays[name] = ChunkedArray(path / name, members[name])
                 self._dimension[name] = dimension
                 dims = [layout["names"].get(d, d) for d in members[name]["dimension_names"]]
                 self._axis[name] = dims.index(dimension)
@@ -208,6 +230,7 @@ class GrowingRecord:
             for name, dimension in self._dimension.items()
         }
         self._inode = (path / "zarr.json").stat().st_ino
+        self._updated = time.monotonic()
 
     def _unlock(self) -> None:
         if self._lock is not None:
@@ -234,13 +257,15 @@ class GrowingRecord:
         Args:
             dimension: the growing dimension.
             times: times of the samples.
-            arrays: values by name of the variable: the copies of the region, the samples, the axes.
+            arrays: values by name of the variable: the copies of the region, the samples, the axes. They are
+                written later, so they may not be changed.
             first: number of the first sample; None: they follow the last ones.
             region: the copies that the values belong to.
 
         Raises:
             OutputError: an earlier sample could not be written. What was committed stays readable.
         """
+        arrays = {name: _held(array) for name, array in arrays.items()}
         with self._changed:
             self._changed.wait_for(lambda: self._bytes < PENDING_BYTES or self._error is not None)
             self._require()
@@ -290,10 +315,7 @@ class GrowingRecord:
                 self._settle({**(settings or {}), "complete": complete})
                 if complete:  # what an earlier run had written beyond is dropped
                     self.known = dict(self.lengths)
-                for name, array in self._arrays.items():
-                    shape, dimension = list(array.shape), self._dimension[name]
-                    shape[self._axis[name]] = max(self.lengths[dimension], self.known[dimension])
-                    array.resize(tuple(shape))
+                self._resize()
                 if more is not None:
                     self._add(more)
                 self._commit(self.lengths)
@@ -324,8 +346,27 @@ class GrowingRecord:
         """Set all values of one copy to NaN; called after `commit`."""
         with _writing(self.path):
             for name, array in self._arrays.items():
-                if self._axis[name]:  # not the times
-                    array[*copy, : self.lengths[self._dimension[name]]] = np.nan
+                if axis := self._axis[name]:  # not the times
+                    length = self.lengths[self._dimension[name]]
+                    shape = [*[1] * axis, length, *array.shape[axis + 1 :]]
+                    start = [*copy, *[0] * (len(shape) - axis)]
+                    array.store(start, np.broadcast_to(array.dtype.type(np.nan), shape))
+
+    def _resize(self) -> None:
+        """Write the lengths into the metadata of each array, and remove the chunks behind its end."""
+        self._update_arrays()
+        for name, dimension in self._dimension.items():
+            array: Any = zarr.open_array(self.path / name, mode="r+")
+            shape = list(array.shape)
+            shape[self._axis[name]] = max(self.lengths[dimension], self.known[dimension])
+            array.resize(tuple(shape))
+
+    def _update_arrays(self) -> None:
+        """Write the metadata of each array, with the lengths of the last commit."""
+        for name in self._dimension:
+            member = self._group["consolidated_metadata"]["metadata"][name]
+            output.replace(self.path / name / "zarr.json", codec.line(member).encode())
+        self._updated = time.monotonic()
 
     def _add(self, more: xarray.Dataset) -> None:
         """Write further coordinates, and attributes, into the folder and the metadata of the group."""
@@ -412,6 +453,8 @@ class GrowingRecord:
         place = self.path / "zarr.json"
         output.write(place, codec.line(self._group).encode(), durable=False)
         self._inode = place.stat().st_ino
+        if time.monotonic() - self._updated >= METADATA_SECONDS:
+            self._update_arrays()
 
     def _require_present(self) -> None:
         """Refuse to write into a folder that was removed or replaced: Zarr would create it again."""
@@ -440,7 +483,7 @@ def _create(path: Path, empty: xarray.Dataset, growing: Sequence[str], piece: Ma
             about["grows"] = dimension
             encoding[name] = {
                 "chunks": frame_chunks(stored[name], dims, dimension, piece),
-                "compressors": [zarr.codecs.ZstdCodec(level=1), zarr.codecs.Crc32cCodec()],
+                "compressors": COMPRESSORS,
                 "fill_value": np.nan if stored[name].dtype.kind == "f" else 0,
             }
     stored.attrs[portable.KEY] = codec.line(layout, ascii=True)
@@ -460,6 +503,12 @@ def frame_chunks(
     frame = math.prod(chunks[:axis]) * math.prod(chunks[axis + 1 :]) * variable.dtype.itemsize
     chunks[axis] = max(1, min(LONGEST_CHUNK, CHUNK_BYTES // max(1, frame)))
     return tuple(map(int, chunks))
+
+
+def _held(array: np.ndarray) -> np.ndarray:
+    """Return values that may wait: a copy if they are less than half of the memory that they would hold."""
+    whole = array.base
+    return array.copy() if isinstance(whole, np.ndarray) and whole.nbytes > 2 * array.nbytes else array
 
 
 def _locked(path: Path) -> int | None:

@@ -187,11 +187,13 @@ class Selector:
         """
         for one in self.found:
             skipped = -first % one.stride
-            place = np.arange(skipped, len(times), one.stride)
+            # a slice copies nothing
+            place: slice | np.ndarray = slice(skipped, None, one.stride)
             number: int | None = (first + skipped) // one.stride
             if one.when is not None:
-                place, number = self._met(one, place, values[one.names[0]]), None
-            if place.size:
+                every = np.arange(skipped, len(times), one.stride)
+                place, number = self._met(one, every, values[one.names[0]]), None
+            if times[place].size:
                 lead = (slice(None),) * axis
                 chosen = {name: values[name][*lead, place] for name in one.names}
                 yield Chosen(one.dimension, number, times[place], chosen)

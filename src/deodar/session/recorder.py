@@ -133,7 +133,7 @@ class Recorder:
 
         def collect(k: int, seen: tuple[np.ndarray, ...]) -> None:
             ticks = clock.tick + due + (k + np.arange(len(seen[0]))) * self._gap
-            self._put(clock.t0 + (ticks - clock.tick0) * clock.dt, [np.array(values) for values in seen])
+            self._put(clock.t0 + (ticks - clock.tick0) * clock.dt, seen)
 
         try:
             run.record(steps, self._ports(run.program), due, self._gap, collect, most=MOST_RECORDS)

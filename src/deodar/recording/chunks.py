@@ -1,0 +1,177 @@
+"""The chunks of an array in a Zarr record, written and read as files.
+
+Zarr's own functions need about a millisecond of Python for a chunk. A run that records fills hundreds of
+chunks a second, and would share its cores with them. The files are those that Zarr reads and writes: the
+values in C order, compressed, followed by the checksum of the compressed bytes (CRC-32C).
+"""
+
+from __future__ import annotations
+
+import itertools
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import google_crc32c
+import numcodecs
+import numpy as np
+import zarr.codecs
+
+from deodar.errors import RecordError
+from deodar.model import output
+from deodar.recording.slabs import Slab
+
+Place = tuple[int, ...]
+"""Number of a chunk along each axis."""
+
+COMPRESSORS = (zarr.codecs.BloscCodec(cname="lz4", clevel=1, shuffle="shuffle"), zarr.codecs.Crc32cCodec())
+"""What new arrays are written with.
+
+The bytes of equal significance of all values stand together, since the first of them hardly change. Of noisy
+fields the files are 0.6 to 0.8 of the values; zstd at its first level needs 2 to 10 times as long and leaves
+more.
+"""
+
+SHUFFLES = ("noshuffle", "shuffle", "bitshuffle")
+
+
+class ChunkError(ValueError):
+    """A chunk cannot be read: it was cut, changed, or is of another array."""
+
+
+class ChunkedArray:
+    """An array of a record, without its length along the dimension that grows.
+
+    Args:
+        folder: the folder of the array.
+        about: its metadata, as Zarr (version 3) states them.
+
+    Attributes:
+        shape: its shape when it was opened.
+        chunks: shape of a chunk.
+        dtype: type of the values, in the order of bytes of the files.
+        fill: value of a place that no chunk has.
+
+    Raises:
+        RecordError: its chunks are encoded in a way that this version does not know.
+    """
+
+    def __init__(self, folder: Path, about: Mapping[str, Any]) -> None:
+        self.folder, self.name = folder, folder.name
+        self.shape = tuple(map(int, about["shape"]))
+        self.chunks = tuple(map(int, about["chunk_grid"]["configuration"]["chunk_shape"]))
+        self.dtype = np.dtype(str(about["data_type"])).newbyteorder("<")
+        self.fill = np.nan if self.dtype.kind == "f" else 0
+        key, self._codecs = about["chunk_key_encoding"], list[Any]()
+        named = [(one["name"], one.get("configuration", {})) for one in about["codecs"]]
+        names = [name for name, _ in named]
+        known = names in (["bytes", "blosc", "crc32c"], ["bytes", "zstd", "crc32c"])
+        little = known and named[0][1].get("endian", "little") == "little"
+        if not little or key != {"name": "default", "configuration": {"separator": "/"}}:
+            raise RecordError(
+                f"has chunks that were encoded by {', '.join(names)}, which this version cannot continue",
+                where=folder.name,
+            )
+        settings = named[1][1]
+        if names[1] == "zstd":
+            self._codec: Any = numcodecs.Zstd(int(settings["level"]), bool(settings.get("checksum", False)))
+        else:
+            self._codec = numcodecs.Blosc(
+                str(settings["cname"]),
+                int(settings["clevel"]),
+                SHUFFLES.index(settings["shuffle"]),
+                int(settings["blocksize"]),
+            )
+
+    def store(self, start: Sequence[int], values: np.ndarray) -> None:
+        """Write the chunks that contain `values`, whose first value is at `start`.
+
+        Values of these chunks beside them stay; beyond the end of the array they are the fill value.
+
+        Raises:
+            ChunkError: a chunk that is partly overwritten cannot be read.
+            OSError: the system refused.
+        """
+        for place, inner, outer in self._parts(start, values.shape):
+            part = values[*outer]
+            if part.shape == self.chunks:
+                self.write(place, part)
+                continue
+            whole = self.empty() if self._covers(place, inner) else self.read(place)
+            whole[*inner] = part
+            self.write(place, whole)
+
+    def load(self, start: Sequence[int], shape: Sequence[int]) -> np.ndarray:
+        """Return a block of this shape whose first value is at `start`; what no chunk has is the fill value.
+
+        Raises:
+            ChunkError: a chunk is damaged.
+        """
+        found = np.empty(shape, self.dtype)
+        for place, inner, outer in self._parts(start, shape):
+            found[*outer] = self.read(place)[*inner]
+        return found
+
+    def _parts(self, start: Sequence[int], shape: Sequence[int]) -> Iterator[tuple[Place, Slab, Slab]]:
+        """Yield the chunks of a block, with the part of each chunk and where it is in the block."""
+        stop = [first + n for first, n in zip(start, shape, strict=True)]
+        ranges = [range(a // c, -(-b // c)) for a, b, c in zip(start, stop, self.chunks, strict=True)]
+        for place in itertools.product(*ranges):
+            origin = [k * c for k, c in zip(place, self.chunks, strict=True)]
+            low = [max(a, o) for a, o in zip(start, origin, strict=True)]
+            high = [min(b, o + c) for b, o, c in zip(stop, origin, self.chunks, strict=True)]
+            inner = (slice(a - o, b - o) for a, b, o in zip(low, high, origin, strict=True))
+            outer = (slice(a - s, b - s) for a, b, s in zip(low, high, start, strict=True))
+            yield place, tuple(inner), tuple(outer)
+
+    def _covers(self, place: Place, inner: Slab) -> bool:
+        """Return whether a part of a chunk is all that the array has of it."""
+        ends = (min(c, n - k * c) for k, c, n in zip(place, self.chunks, self.shape, strict=True))
+        return all(
+            part.start == 0 and part.stop in (end, c)
+            for part, end, c in zip(inner, ends, self.chunks, strict=True)
+        )
+
+    def write(self, place: Place, values: np.ndarray) -> None:
+        """Write a chunk beside its final path, and rename it.
+
+        Raises:
+            OSError: the system refused.
+        """
+        content = self._codec.encode(np.ascontiguousarray(values, self.dtype))
+        content += struct.pack("<I", google_crc32c.value(content))
+        path = self.path(place)
+        try:
+            output.replace(path, content)
+        except FileNotFoundError:  # the folders of the array are not removed while it is written
+            for parent in reversed(path.relative_to(self.folder).parents[:-1]):
+                self.folder.joinpath(parent).mkdir(exist_ok=True)
+            output.replace(path, content)
+
+    def read(self, place: Place) -> np.ndarray:
+        """Return a chunk that may be changed: fill values if there is none.
+
+        Raises:
+            ChunkError: it is damaged.
+        """
+        try:
+            content = self.path(place).read_bytes()
+        except FileNotFoundError:
+            return self.empty()
+        if content[-4:] != struct.pack("<I", google_crc32c.value(content[:-4])):
+            raise ChunkError("its checksum is that of other values")
+        found = self.empty()
+        try:
+            self._codec.decode(content[:-4], found)
+        except (ValueError, RuntimeError) as error:
+            raise ChunkError(str(error)) from None
+        return found
+
+    def empty(self) -> np.ndarray:
+        """Return a chunk of fill values."""
+        return np.full(self.chunks, self.fill, self.dtype)
+
+    def path(self, place: Place) -> Path:
+        """Return the file of a chunk."""
+        return self.folder.joinpath("c", *map(str, place))
