@@ -10,6 +10,9 @@ from typing import Any, ClassVar, Literal
 
 Cost = Literal["live", "rebuild", "recompile"]
 Role = Literal["", "time constant", "time scale", "rate", "speed", "moment", "duration"]
+Names = Literal["", "port", "element", "parameter", "event"]
+"""What in a model or an experiment a text names."""
+
 TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "rate", "speed", "moment", "duration")
 """The roles of parameters whose unit contains time: see `Declaration`."""
 
@@ -47,6 +50,8 @@ class Declaration:
         off: whether the neutral value switches the effect off, instead of being the limit of small values.
         role: role of a parameter whose unit contains time, see above.
         exact: whether it keeps the digits of float64 in a program of single precision.
+        names: what a text names, for forms that list the valid names: the path of a port, an element or a
+            parameter, or the name of an event of the experiment; empty: anything.
     """
 
     unit: str = ""
@@ -58,6 +63,7 @@ class Declaration:
     off: bool = False
     role: Role = dc.field(default="", kw_only=True)
     exact: bool = dc.field(default=False, kw_only=True)
+    names: Names = dc.field(default="", kw_only=True)
     cost: ClassVar[Cost] = "recompile"
 
 

@@ -26,7 +26,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from deodar import renamed
-from deodar.declarations import TIME_ROLES, Cost, Declaration, Needed, Recompile, Role
+from deodar.declarations import TIME_ROLES, Cost, Declaration, Names, Needed, Recompile, Role
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
@@ -101,6 +101,7 @@ ValueForm = Literal[
     "array",
     "numbers",
     "pairs",
+    "value",
 ]
 
 
@@ -123,6 +124,7 @@ class Parameter:
     off: bool = False
     role: Role = ""
     exact: bool = False
+    names: Names = ""
 
     @property
     def traced(self) -> bool:
@@ -276,6 +278,7 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
         d.off,
         d.role,
         exact,
+        d.names,
     )
 
 
@@ -295,6 +298,8 @@ def _form(hint: Any) -> tuple[ValueForm, type[Any] | None, bool]:
             return form, of, True
     if form := _SIMPLE.get(hint):
         return form, None, False
+    if hint is object:
+        return "value", object, False
     if origin in (collections.abc.Mapping, dict):
         return ("pairs" if args[1] is str else "numbers"), None, False
     if origin in (collections.abc.Sequence, tuple, list):
@@ -474,6 +479,7 @@ _NORMAL: dict[ValueForm, Callable[[Parameter, Any], Any]] = {
     "array": _array,
     "numbers": _numbers,
     "pairs": _pairs,
+    "value": _declared,
 }
 
 

@@ -209,6 +209,12 @@ export type Close = {
   discard?: boolean;
 };
 
+// Close the experiment.
+export type CloseExperiment = {
+  type: "close_experiment";
+  request?: number;
+};
+
 // Add, change or remove a comment on the graph; the answer has the id of a new one in `made`.
 //
 // An empty `comment` adds one. None leaves text, position or size (width, height) unchanged. Comments are in
@@ -380,6 +386,14 @@ export type Drawn = {
   frame: number;
 };
 
+// Replace the plain data of the experiment of that version.
+export type EditExperiment = {
+  type: "edit_experiment";
+  request?: number;
+  data: Record<string, unknown>;
+  version: number;
+};
+
 // An element of the document.
 //
 // `axes` lists for each port the keys of its axes, if they are known.
@@ -418,6 +432,34 @@ export type ExampleView = {
   title: string;
   sentence: string;
   picture: string;
+};
+
+// Descriptions of all that an experiment is made of, for the forms of its cards.
+//
+// `design` has the parameters of the experiment itself. `usual` is the kind of a measure that does not state
+// one.
+export type ExperimentForms = {
+  design: ParameterForm[];
+  conditions: Kind[];
+  actions: Kind[];
+  measures: Kind[];
+  usual: string;
+};
+
+// The open experiment; `data` is None without one.
+//
+// `data` is what its file contains, without the version and the model; `version` grows with each change.
+// `problems` prevent a run, which has `trials` trials. `repeated` is the trial whose record is open.
+export type ExperimentView = {
+  type: "experiment";
+  data: Record<string, unknown> | null;
+  version: number;
+  file: string;
+  unsaved: boolean;
+  problems: ListedProblem[];
+  trials: number;
+  repeated: number | null;
+  run: RunView | null;
 };
 
 // A file that could not be opened, with all its problems; an empty list clears an earlier message.
@@ -505,6 +547,13 @@ export type Kind = {
   levels: Record<string, Record<string, string>>;
   example: unknown;
   opens: string[];
+};
+
+// Open the model of the experiment again, after the record of a trial.
+export type LeaveTrial = {
+  type: "leave_trial";
+  request?: number;
+  session?: number;
 };
 
 // Let the step grow up to `longest` (document time) if the machine is too slow.
@@ -611,6 +660,12 @@ export type NewDocument = {
   discard?: boolean;
 };
 
+// Open a new experiment whose model is the open document.
+export type NewExperiment = {
+  type: "new_experiment";
+  request?: number;
+};
+
 // A coupling that can stand between two ports whose axes differ: `add_element` with these values.
 //
 // `note` states what it loses; it is empty if every position is kept.
@@ -626,6 +681,15 @@ export type OpenExample = {
   request?: number;
   session?: number;
   name: string;
+  discard?: boolean;
+};
+
+// Open an experiment below the root, and its model. `discard` allows unsaved edits to be lost.
+export type OpenExperimentFile = {
+  type: "open_experiment";
+  request?: number;
+  session?: number;
+  path: string;
   discard?: boolean;
 };
 
@@ -678,7 +742,8 @@ export type Opened = {
 
 // Description of a parameter for its input form.
 //
-// `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX.
+// `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX;
+// `names` is what a text names, so that the form can list the names.
 export type ParameterForm = {
   name: string;
   form:
@@ -694,7 +759,8 @@ export type ParameterForm = {
     | "parts"
     | "per_axis"
     | "text"
-    | "texts";
+    | "texts"
+    | "value";
   cost: "live" | "rebuild" | "recompile";
   meaning: string;
   description: string;
@@ -706,6 +772,7 @@ export type ParameterForm = {
   optional: boolean;
   choices: string[];
   of: string[];
+  names?: "" | "element" | "event" | "parameter" | "port";
 };
 
 // Add the content of a document, given as text, to a group; the answer has the new ids in `made`.
@@ -880,6 +947,14 @@ export type Rename = {
   group?: string[];
 };
 
+// Run a trial of the experiment again, and open its record. `discard` allows unsaved edits to be lost.
+export type RepeatTrial = {
+  type: "repeat_trial";
+  request?: number;
+  trial: number;
+  discard?: boolean;
+};
+
 // Reset state, time and noise to the start, with another seed if one is given. Parameters stay.
 export type ResetRun = {
   type: "reset";
@@ -923,6 +998,25 @@ export type RunClock = {
   recording: RecordingView | null;
 };
 
+// Run the experiment in worker processes; a run that was stopped continues.
+export type RunExperiment = {
+  type: "run_experiment";
+  request?: number;
+};
+
+// The run of an experiment: how many rows of how many trials there are, and the remaining time in s.
+//
+// `number` changes with each run; `folder` is below the root.
+export type RunView = {
+  number: number;
+  folder: string;
+  state: "complete" | "failed" | "running" | "stopped";
+  rows: number;
+  trials: number;
+  left: number | null;
+  problems: ListedProblem[];
+};
+
 // Write the document to `path`, or to its own file if `path` is empty.
 //
 // `replace` allows another file, or a file that changed on disk since it was read, to be overwritten.
@@ -930,6 +1024,16 @@ export type Save = {
   type: "save";
   request?: number;
   session?: number;
+  path?: string;
+  replace?: boolean;
+};
+
+// Write the experiment to `path`, or to its own file if `path` is empty.
+//
+// A model without a file is written beside it. `replace` allows another file to be overwritten.
+export type SaveExperiment = {
+  type: "save_experiment";
+  request?: number;
   path?: string;
   replace?: boolean;
 };
@@ -1011,6 +1115,12 @@ export type StartRecord = {
   every?: number | null;
 };
 
+// Stop the run of the experiment; its rows are kept.
+export type StopExperiment = {
+  type: "stop_experiment";
+  request?: number;
+};
+
 // Complete the record that is being written.
 export type StopRecord = {
   type: "stop_record";
@@ -1055,6 +1165,8 @@ export type ToPage =
   | Costs
   | WorldScene
   | Bodies
+  | ExperimentView
+  | TrialRows
   | Announced
   | Lost
   | Folder
@@ -1128,7 +1240,24 @@ export type ToServer =
   | WatchTrace
   | WatchRows
   | Unwatch
-  | Drawn;
+  | Drawn
+  | NewExperiment
+  | OpenExperimentFile
+  | EditExperiment
+  | SaveExperiment
+  | CloseExperiment
+  | RunExperiment
+  | StopExperiment
+  | RepeatTrial
+  | LeaveTrial;
+
+// Further rows of a run: those from number `first` on, as `trials.jsonl` contains them.
+export type TrialRows = {
+  type: "rows";
+  run: number;
+  first: number;
+  rows: (Record<string, unknown>)[];
+};
 
 // Undo the last change.
 export type Undo = {
@@ -1239,6 +1368,7 @@ export type Welcome = {
   version: string;
   root: string;
   kinds: Kind[];
+  experiment: ExperimentForms;
   examples: ExampleView[];
   templates: TemplateView[];
   plots: PlotView[];

@@ -444,3 +444,12 @@ def test_duplicate_names_of_columns_are_refused():
         choice(conditions=[Appears("outcome", "u")], measures=[])
     with pytest.raises(ParameterError, match="'a' is the name of two columns"):
         choice(conditions=[Appears("a", "u")], measures=[Measure("a", "u")])
+
+
+def test_a_whole_number_of_an_open_parameter_is_written_in_one_way():
+    def written(*levels):
+        actions, factors = [Set(1, "u.tau", levels[0])], [Factor("f", levels, "u.tau")]
+        return json.dumps(Experiment("e", "m.json", 1, actions=actions, factors=factors).to_data())
+
+    assert written(1.0, 2.5) == written(1, 2.5)
+    assert '"levels": [1, 2.5]' in written(1.0, 2.5) and '"value": 1}' in written(1.0, 2.5)

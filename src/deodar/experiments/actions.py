@@ -21,7 +21,7 @@ AT = Recompile(
     lower=0.0,
     meaning="document time of the action; with `when` the time after that event",
 )
-WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own")
+WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own", names="event")
 
 
 class Action(Part):
@@ -157,7 +157,7 @@ class Set(Action):
     """
 
     at: Annotated[float, AT]
-    path: Annotated[str, Recompile(meaning="the parameter")]
+    path: Annotated[str, Recompile(meaning="the parameter", names="parameter")]
     value: Annotated[object, Recompile(meaning="new value of the parameter")]
     when: Annotated[str, WHEN] = ""
 
@@ -183,7 +183,7 @@ class Ramp(Action):
     """
 
     at: Annotated[float, AT]
-    path: Annotated[str, Recompile(meaning="the parameter")]
+    path: Annotated[str, Recompile(meaning="the parameter", names="parameter")]
     end: Annotated[float, Recompile(meaning="its value at the end")]
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="how long it takes")]
     start: Annotated[
@@ -220,7 +220,7 @@ class Push(Action):
     """
 
     at: Annotated[float, AT]
-    element: Annotated[str, Recompile(meaning="path of the field or node")]
+    element: Annotated[str, Recompile(meaning="path of the field or node", names="element")]
     amount: Annotated[float, Recompile("activation", meaning="value added to its input")]
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="for how long")]
     when: Annotated[str, WHEN] = ""
@@ -269,7 +269,7 @@ class Snapshot(Action):
 
     at: Annotated[float, AT]
     label: Annotated[str, Recompile(meaning="name in the record")]
-    of: Annotated[Sequence[str], Recompile(meaning="paths of the ports")]
+    of: Annotated[Sequence[str], Recompile(meaning="paths of the ports", names="port")]
     when: Annotated[str, WHEN] = ""
 
     def ports(self) -> Iterator[str]:

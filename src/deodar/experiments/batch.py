@@ -60,6 +60,7 @@ def run_batch(
     values: Mapping[str, Sequence[float]] | None = None,
     measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
+    watched: Sequence[int] | None = None,
 ) -> list[Trial]:
     """Run trials in one batch; the result of each equals that of `run_trial` up to rounding.
 
@@ -88,6 +89,7 @@ def run_batch(
         values: for parameter paths the value of each trial; not together with a world.
         measures: the measures of each trial.
         tolerant: return the results although all trials diverge, and do not warn.
+        watched: the trials whose values of `watch` are returned; none: all.
 
     Returns:
         The result of each trial. One that diverges before it ends has the outcome `diverged` and an `error`
@@ -107,7 +109,7 @@ def run_batch(
         raise ParameterError(f"expected trial numbers, each of them once, not {list(trials)}")
     observed = Observations(events, measures, len(numbers))
     views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
-    watched = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
+    ports = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
         raise WorldError(
             f"the world {type(world).__name__} cannot be computed for a batch of copies",
@@ -120,7 +122,7 @@ def run_batch(
         )
     read, at = with_readers(doc, views)
     places = {view: at.get(view) or _place(doc, view) for view in views}
-    order = list(dict.fromkeys([*watched, *places.values()])) or [_anything(doc)]
+    order = list(dict.fromkeys([*ports, *places.values()])) or [_anything(doc)]
     swept = {path: np.asarray(v, float) for path, v in (values or {}).items()}
     leaves = [driven(doc, path) for path in swept]
     copies = _RunningCopies(
@@ -128,6 +130,7 @@ def run_batch(
     )
     axes = {p: copies.batch.program.axes(copies.batch.program.port(*p)) for p in order}
     kept: list[list[Sequence[np.ndarray]]] = [[] for _ in numbers]
+    wanted = [row for row, number in enumerate(numbers) if watched is None or number in watched]
     looks = np.zeros(len(numbers), int)
     times: list[float] = []
 
@@ -142,16 +145,16 @@ def run_batch(
         counts = observed.take(copies.rows, np.asarray(new), seen, ticks[-1] == steps, good)
         looks[copies.rows] += counts
         for k, n in enumerate(counts):
-            if watched and n:
-                kept[copies.rows[k]].append([np.array(by[p][k, :n]) for p in watched])
+            if ports and n and copies.rows[k] in wanted:
+                kept[copies.rows[k]].append([np.array(by[p][k, :n]) for p in ports])
 
     ahead = 0
     while True:
         begun = copies.batch.clock.tick
-        ports = [copies.batch.program.port(*p) for p in order]
+        read_ports = [copies.batch.program.port(*p) for p in order]
         first = min(gap, ahead)
         copies.batch.record(
-            ahead, ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen)
+            ahead, read_ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen)
         )
         running = [k for k, row in enumerate(copies.rows) if not observed.outcome[row]]
         if between is not None:
@@ -165,7 +168,10 @@ def run_batch(
     for row, n in enumerate(looks):
         found = np.asarray(times[:n])
         error = copies.errors[row] if observed.outcome[row] == DIVERGED else None
-        whole_ = {name: np.concatenate([part[i] for part in kept[row]]) for i, name in enumerate(watch)}
+        whole_ = {
+            name: np.concatenate([part[i] for part in kept[row]])
+            for i, name in enumerate(watch if row in wanted else ())
+        }
         whole_ = (
             whole_
             if error is None

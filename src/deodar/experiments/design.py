@@ -63,7 +63,9 @@ class Design(Part):
     every: Annotated[
         float | None, Recompile("time", role="duration", meaning="time between samples; none: each step")
     ] = dc.field(default=None, kw_only=True)
-    record: Annotated[Sequence[str], Recompile(meaning="recorded ports")] = dc.field(default=(), kw_only=True)
+    record: Annotated[Sequence[str], Recompile(meaning="recorded ports", names="port")] = dc.field(
+        default=(), kw_only=True
+    )
     world: Annotated[object, Recompile(meaning="world that sensors read and motors move")] = dc.field(
         default=None, kw_only=True
     )

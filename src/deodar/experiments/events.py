@@ -89,7 +89,7 @@ class Crosses(Event):
     """
 
     name: Annotated[str, Recompile(meaning="name in the rows")]
-    of: Annotated[str, Recompile(meaning="path of the port, or name of a sensor of the world")]
+    of: Annotated[str, Recompile(meaning="path of the port, or name of a sensor of the world", names="port")]
     level: Annotated[float, Recompile(meaning="the value")] = 0.0
     side: Annotated[str, Recompile(choices=tuple(COMPARES), meaning="side of the value")] = "above"
     reduce: Annotated[
@@ -141,7 +141,7 @@ class Appears(Event):
     """
 
     name: Annotated[str, Recompile(meaning="name in the rows")]
-    field: Annotated[str, Recompile(meaning="path of the field")]
+    field: Annotated[str, Recompile(meaning="path of the field", names="element")]
     threshold: Annotated[float, Recompile("activation", meaning="of the activation")] = 0.0
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: anywhere")] = None
     radius: Annotated[
@@ -207,8 +207,12 @@ class Within(Event):
 
     name: Annotated[str, Recompile(meaning="name in the rows")]
     radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
-    of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
-    goal: Annotated[str, Recompile(meaning="sensor or port whose first two values are the goal")] = "goal"
+    of: Annotated[
+        str, Recompile(meaning="sensor or port whose first two values are the place", names="port")
+    ] = "pose"
+    goal: Annotated[
+        str, Recompile(meaning="sensor or port whose first two values are the goal", names="port")
+    ] = "goal"
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 
@@ -236,7 +240,9 @@ class Leaves(Event):
 
     name: Annotated[str, Recompile(meaning="name in the rows")]
     radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
-    of: Annotated[str, Recompile(meaning="sensor or port whose first two values are the place")] = "pose"
+    of: Annotated[
+        str, Recompile(meaning="sensor or port whose first two values are the place", names="port")
+    ] = "pose"
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = False
 
@@ -264,7 +270,7 @@ class All(Event):
     """
 
     name: Annotated[str, Recompile(meaning="name in the rows")]
-    of: Annotated[Sequence[str], Recompile(meaning="names of other events")]
+    of: Annotated[Sequence[str], Recompile(meaning="names of other events", names="event")]
     times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
     ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
 

@@ -34,7 +34,9 @@ class Factor(Part):
         object,
         Recompile(meaning="values of one parameter, or for each level its name and the values of parameters"),
     ]
-    path: Annotated[str, Recompile(meaning="the parameter whose values the levels are")] = ""
+    path: Annotated[
+        str, Recompile(meaning="the parameter whose values the levels are", names="parameter")
+    ] = ""
 
     def validate(self) -> Iterator[tuple[str, str]]:
         levels: Any = self.levels

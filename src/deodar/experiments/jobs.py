@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from deodar import renamed
 from deodar.batch.pool import Pool
-from deodar.experiments.rows import Row, Rows
+from deodar.experiments.rows import KEY, Row, Rows
 from deodar.session.interrupt import stoppable
 
 
@@ -45,12 +45,14 @@ class Progress:
         of: number of all trials.
         share: share of the work that is done, by its cost.
         left: estimated remaining time in s, at the speed of this run; None before the first job is done.
+        new: the rows that were stored since the last call; at the first call those that existed before.
     """
 
     rows: int
     of: int
     share: float
     left: float | None
+    new: Sequence[Row] = ()
 
 
 def run_jobs(
@@ -58,6 +60,7 @@ def run_jobs(
     rows: Rows,
     progress: Callable[[Progress], None] | None = None,
     workers: int | None = None,
+    stopped: Callable[[], bool] | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
 
@@ -69,9 +72,12 @@ def run_jobs(
         progress: function that is called with a `Progress` after each job.
         workers: number of processes of one core each; none: this process, one job after another. A script
             that calls this with workers must do so below `if __name__ == "__main__":`.
+        stopped: function that is called several times a second while workers run; once it returns true, the
+            running jobs are ended, and their rows are not stored.
 
     Raises:
-        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored.
+        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `stopped`
+            returned true.
         WorkerError: a worker process has died.
     """
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
@@ -81,22 +87,27 @@ def run_jobs(
     )
     began, done = time.monotonic(), 0.0
 
-    def tell() -> None:
+    def tell(new: Sequence[Row]) -> None:
         seconds = time.monotonic() - began
         left = seconds / done * (total - before - done) if done else None
         kept = sum(key in rows.found for job in jobs for key in job.keys)
         if progress is not None:
             progress(
                 Progress(
-                    kept, sum(len(job.keys) for job in jobs), (before + done) / total if total else 1.0, left
+                    kept,
+                    sum(len(job.keys) for job in jobs),
+                    (before + done) / total if total else 1.0,
+                    left,
+                    new,
                 )
             )
 
-    tell()
-    for job, found in _in_workers(missing, workers) if workers else _here(missing):
+    tell([rows.found[key] for job in jobs for key in job.keys if key in rows.found])
+    for job, found in _in_workers(missing, workers, stopped) if workers else _here(missing):
+        new = [row for row in found if row[KEY] not in rows.found]
         rows.append(found)
         done += job.cost
-        tell()
+        tell([rows.found[row[KEY]] for row in new])
 
 
 def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
@@ -107,8 +118,10 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
         check()
 
 
-def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequence[Row]]]:
-    running, stopped = dict[tuple[str, ...], Job](), False
+def _in_workers(
+    jobs: Sequence[Job], workers: int, stopped: Callable[[], bool] | None
+) -> Iterator[tuple[Job, Sequence[Row]]]:
+    running, interrupted = dict[tuple[str, ...], Job](), False
     with stoppable() as check, Pool(min(workers, max(1, len(jobs))), main=True) as pool:
         waiting = list(reversed(jobs))
         while waiting or pool.busy:
@@ -118,12 +131,14 @@ def _in_workers(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Sequen
                 running[job.keys] = job
             for keys, rows in pool.wait(0.2):
                 yield running.pop(keys), rows
+            if stopped is not None and stopped():
+                raise KeyboardInterrupt
             try:
                 check()
             except KeyboardInterrupt:
-                stopped = True
+                interrupted = True
                 waiting.clear()
-    if stopped:
+    if interrupted:
         raise KeyboardInterrupt
 
 

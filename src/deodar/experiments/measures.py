@@ -67,11 +67,13 @@ class Measure(BaseMeasure):
     """
 
     name: Annotated[str, Recompile(meaning="name in the rows")]
-    of: Annotated[str, Recompile(meaning="path of a port, or name of a sensor of the world")]
+    of: Annotated[str, Recompile(meaning="path of a port, or name of a sensor of the world", names="port")]
     reduce: Annotated[
         str, Recompile(choices=(*REDUCES, PLACE), meaning="number that an array is reduced to")
     ] = "max"
-    when: Annotated[str, Recompile(meaning="event at which it is measured; empty: at the end")] = ""
+    when: Annotated[
+        str, Recompile(meaning="event at which it is measured; empty: at the end", names="event")
+    ] = ""
     near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: all samples")] = None
     radius: Annotated[
         float, Recompile("axis", lower=0.0, meaning="radius around that place, along every axis")

@@ -47,6 +47,11 @@ def work(handed: PackedExperiment, trials: Sequence[int], records: Path | None) 
     return _opened(handed).rows(trials, records)
 
 
+def repeat(handed: PackedExperiment, trial: int, watch: Sequence[str], path: Path) -> Row:
+    """Run a trial again in a worker, write its record, and return its row."""
+    return _opened(handed).repeat(trial, watch, path)
+
+
 # the next piece of the same experiment finds the compiled programs that a model keeps
 @functools.lru_cache(maxsize=1)
 def _opened(handed: PackedExperiment) -> Setup:

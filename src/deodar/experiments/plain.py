@@ -14,6 +14,9 @@ from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.model.parts import schema as schema_of
 from deodar.parameters import Part, an, parameters, show
 
+WHOLE = 2.0**53
+"""Whole numbers below it are the same in float64 and as an integer."""
+
 
 def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -> JsonObject:
     """Return plain data of a part: its kind, and every parameter that differs from its default.
@@ -28,7 +31,7 @@ def to_data(part: Part, kind: bool = True, without: Sequence[str] = ("name",)) -
             and value is not None
             and (p.name not in _defaults(type(part)) or value != p.default)
         ):
-            out[p.name] = _plain(value, f"{type(part).__name__}.{p.name}")
+            out[p.name] = _plain(value, f"{type(part).__name__}.{p.name}", p.of is object)
     return out
 
 
@@ -118,13 +121,20 @@ def _defaults(cls: type[Part]) -> set[str]:
     }
 
 
-def _plain(value: Any, where: str) -> Any:
+def _plain(value: Any, where: str, open: bool) -> Any:
+    """Return plain data of a value; `open`: of a parameter that is declared for any value.
+
+    Such a number is written in one way, without a decimal point if it is whole: other writers of JSON, such
+    as a page, do not distinguish 1.0 from 1.
+    """
     if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
+        return _plain(value.tolist(), where, open)
     if isinstance(value, (list, tuple)):
-        return [_plain(v, where) for v in cast("list[Any]", value)]
+        return [_plain(v, where, open) for v in cast("list[Any]", value)]
     if isinstance(value, Mapping):
-        return {str(k): _plain(v, where) for k, v in cast("Mapping[Any, Any]", value).items()}
+        return {str(k): _plain(v, where, open) for k, v in cast("Mapping[Any, Any]", value).items()}
+    if isinstance(value, float) and open and value.is_integer() and abs(value) < WHOLE:
+        return int(value)
     if isinstance(value, (bool, int, float, str)):
         return value
     raise ParameterError(

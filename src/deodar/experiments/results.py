@@ -47,6 +47,7 @@ def run_trials(
     out: str | Path | None,
     workers: int | None = None,
     progress: Callable[[Progress], None] | None = None,
+    stopped: Callable[[], bool] | None = None,
 ) -> xarray.Dataset:
     """Run the trials without a row, write the table, and return it.
 
@@ -55,17 +56,22 @@ def run_trials(
         out: the folder; None: results are not stored.
         workers: number of processes of one core each; none: this process.
         progress: function that is called with a `Progress` after each piece.
+        stopped: function that ends the workers once it returns true (see `run_jobs`).
     """
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _run_trials(setup, Path(folder), workers, progress)
+            return _run_trials(setup, Path(folder), workers, progress, stopped)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
-    return _run_trials(setup, folder, workers, progress)
+    return _run_trials(setup, folder, workers, progress, stopped)
 
 
 def _run_trials(
-    setup: Setup, out: Path, workers: int | None, progress: Callable[[Progress], None] | None
+    setup: Setup,
+    out: Path,
+    workers: int | None,
+    progress: Callable[[Progress], None] | None,
+    stopped: Callable[[], bool] | None,
 ) -> xarray.Dataset:
     about = _about(setup, workers, out)
     rows = Rows(out / ROWS, about, read=lambda made: _of_today(made, about, setup.model.document))
@@ -78,7 +84,7 @@ def _run_trials(
         if setup.experiment.record or any(type(a).__name__ == "Snapshot" for a in setup.experiment.actions)
         else None
     )
-    run_jobs(list(_jobs(setup, workers, records)), rows, progress, workers)
+    run_jobs(list(_jobs(setup, workers, records)), rows, progress, workers, stopped)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
@@ -145,6 +151,15 @@ def _plan(setup: Setup) -> JsonObject:
 # -------------------------------------------------------------------------------------------------- the table
 
 
+def stored_rows(folder: Path) -> list[Row]:
+    """Return the rows in the folder of an experiment; an incomplete last line is left out.
+
+    Raises:
+        RecordError: it is not the folder of an experiment.
+    """
+    return _stored(folder)[1]
+
+
 def load_results(path: str | Path) -> xarray.Dataset:
     """Read the table of an experiment from its folder; of an incomplete experiment the existing trials.
 
@@ -152,15 +167,28 @@ def load_results(path: str | Path) -> xarray.Dataset:
         RecordError: it is not the folder of an experiment.
     """
     folder = output.location(path)
+    about, rows = _stored(folder)
+    try:
+        return dataset(rows, about)
+    except (ValueError, LookupError, TypeError):
+        raise _no_results(folder) from None
+
+
+def _stored(folder: Path) -> tuple[JsonObject, list[Row]]:
+    """Return the identity of the experiment of a folder, and its rows."""
     try:
         lines = [codec.parse(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
-        return dataset(lines[1:], lines[0][ABOUT])
+        return lines[0][ABOUT], lines[1:]
     except (OSError, ValueError, LookupError, TypeError):
-        raise RecordError(
-            "is not the folder of an experiment",
-            where=str(folder),
-            fix="Name a folder that deodar experiment wrote",
-        ) from None
+        raise _no_results(folder) from None
+
+
+def _no_results(folder: Path) -> RecordError:
+    return RecordError(
+        "is not the folder of an experiment",
+        where=str(folder),
+        fix="Name a folder that deodar experiment wrote",
+    )
 
 
 def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:

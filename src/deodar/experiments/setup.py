@@ -22,11 +22,12 @@ from deodar.experiments.pushes import with_pushes
 from deodar.experiments.rows import KEY, Row
 from deodar.experiments.run import run_trial
 from deodar.experiments.trial import Trial
-from deodar.experiments.writing import write_records
+from deodar.experiments.writing import write_record, write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
+from deodar.recording import provenance
 from deodar.recording.opened import named
 from deodar.session import memory
 from deodar.session.exchange import embodied
@@ -144,24 +145,14 @@ class Setup:
     def rows(self, trials: Sequence[int], records: Path | None = None) -> list[Row]:
         """Run some trials and return their rows; `records`: the folder of their records."""
         out: list[Row] = []
-        for k, result, model in self._results(trials, records is not None):
-            levels = {
-                f.name: f.labels[n] for f, n in zip(self.experiment.factors, self.cells[k], strict=True)
-            }
-            awaited = [c.name for c in self.experiment.conditions if c.ends and result.events[c.name] is None]
-            row: Row = {KEY: f"{k:06}", "trial": k, "levels": levels, "outcome": result.outcome}
-            row |= {
-                "awaited": ", ".join(awaited) if result.outcome == TIME else "",
-                "duration": result.duration,
-            }
-            row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
-            row |= {"events": dict(result.events), "measures": dict(result.measures)}
+        for k, result, model in self._results(trials, () if records is None else self.experiment.record):
+            row = self._row(k, result)
             if records is not None:
                 about = {
                     "experiment": self.experiment.name,
                     "trial": k,
                     "seed": self.experiment.seed,
-                    "levels": levels,
+                    "levels": row["levels"],
                     "outcome": result.outcome,
                 }
                 about |= {DIVERGED: row[DIVERGED]} if DIVERGED in row else {}
@@ -169,9 +160,41 @@ class Setup:
             out.append(row)
         return out
 
-    def _results(self, trials: Sequence[int], keep: bool) -> list[tuple[int, Trial, Model]]:
+    def _row(self, trial: int, result: Trial) -> Row:
         e = self.experiment
-        watch = e.record if keep else ()
+        levels = {f.name: f.labels[n] for f, n in zip(e.factors, self.cells[trial], strict=True)}
+        awaited = [c.name for c in e.conditions if c.ends and result.events[c.name] is None]
+        row: Row = {KEY: f"{trial:06}", "trial": trial, "levels": levels, "outcome": result.outcome}
+        row |= {
+            "awaited": ", ".join(awaited) if result.outcome == TIME else "",
+            "duration": result.duration,
+        }
+        row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
+        return row | {"events": dict(result.events), "measures": dict(result.measures)}
+
+    def repeat(self, trial: int, watch: Sequence[str], path: Path) -> Row:
+        """Run a trial again as it ran in the experiment, in its piece, write its record, and return its row.
+
+        Args:
+            trial: number of the trial.
+            watch: paths of the recorded ports.
+            path: the file of the record; an existing one is replaced.
+        """
+        piece = next(piece for piece in self.pieces() if trial in piece)
+        found = self._results(piece, watch, [trial])
+        k, result, _ = next(one for one in found if one[0] == trial)
+        row = self._row(k, result)
+        doc = self._with(self.changes(k)).document
+        about = {"experiment": self.experiment.name, "trial": k, "seed": self.experiment.seed}
+        about |= {"levels": row["levels"], "outcome": result.outcome, "dt": self.dt}
+        about |= {"world": provenance.described(self.world)} | provenance.stored(doc)
+        write_record(path, doc, watch, result, about)
+        return row
+
+    def _results(
+        self, trials: Sequence[int], watch: Sequence[str], watched: Sequence[int] | None = None
+    ) -> list[tuple[int, Trial, Model]]:
+        e = self.experiment
         given: dict[str, Any] = {
             "seed": e.seed,
             "every": e.every,
@@ -193,7 +216,7 @@ class Setup:
             path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept
         }
         staged, _ = with_pushes(model, e.actions)
-        results = run_batch(staged, e.limit, trials, values=values, **given)
+        results = run_batch(staged, e.limit, trials, values=values, watched=watched, **given)
         return [(k, result, model) for k, result in zip(trials, results, strict=True)]
 
     def _with(self, changes: Mapping[str, Any]) -> Model:

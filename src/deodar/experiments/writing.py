@@ -39,6 +39,13 @@ def write_records(
         )
 
 
+def write_record(
+    path: Path, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
+) -> None:
+    """Write the record of a trial to a file; an existing one is replaced."""
+    _write(path, doc, record, result.recorded, result.values, about)
+
+
 def _write(
     path: Path,
     doc: Document,

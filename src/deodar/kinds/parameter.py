@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from deodar.codec import Json
-from deodar.declarations import Cost, Needed, range_text
+from deodar.declarations import Cost, Names, Needed, range_text
 from deodar.kinds.symbols import NAME, is_letter, symbol
 from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
@@ -40,6 +40,7 @@ class ParameterDescription:
         optional: whether it may be None.
         choices: the allowed texts; empty: any.
         of: names of the kinds that its value may have, where it is a part or a list of parts.
+        names: what a text names: a port, an element, a parameter, an event; "" anything.
     """
 
     name: str
@@ -56,6 +57,7 @@ class ParameterDescription:
     optional: bool
     choices: tuple[str, ...]
     of: tuple[str, ...]
+    names: Names
 
     @property
     def range(self) -> str:
@@ -89,6 +91,7 @@ def describe_parameter(
         optional=p.optional,
         choices=p.choices,
         of=tuple(name for name, cls in known.items() if p.of is not None and _holds(p, p.of, cls)),
+        names=p.names,
     )
 
 

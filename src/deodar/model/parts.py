@@ -76,6 +76,8 @@ def _schema_form(p: Parameter, reference: Callable[[type[Any]], Any]) -> dict[st
             return {"type": "object", "additionalProperties": number}
         case "pairs":
             return {"type": "object", "additionalProperties": {"type": "string"}}
+        case "value":
+            return {"description": "any value"}
 
 
 def to_json(

@@ -30,17 +30,21 @@ def described(world: World | None) -> dict[str, Json] | None:
 
 def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
     """Return everything that is needed to repeat a run, and everything that determines its bits."""
-    data, arrays = files.to_data(doc)
-    packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
     return {
-        "document": data,
-        "arrays": packed,
+        **stored(doc),
         "dt": run.clock.dt,
         "precision": run.program.precision,
         "world": described(run.world),
         **settings,
         "made_by": made_by(run.program.device, run.program.precision),
     }
+
+
+def stored(doc: Document) -> JsonObject:
+    """Return a document as records contain it; `document` reads it."""
+    data, arrays = files.to_data(doc)
+    packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
+    return {"document": data, "arrays": packed}
 
 
 def made_by(device: Any, precision: str = "float32") -> dict[str, str]:

@@ -31,6 +31,7 @@ from deodar.server.to_page import (
     Checked,
     Comparison,
     Costs,
+    ExperimentView,
     FileProblems,
     Fits,
     Folder,
@@ -67,6 +68,7 @@ class PageConnection:
         self._known: dict[str, Any] = {}
         self._timeline: TimelineView | None = None
         self._session, self._version = -1, -1
+        self._rows = (0, 0)  # the run whose rows the page has, and how many
         self._malformed = 0
         self._decoder = msgspec.json.Decoder(union(MESSAGES))
 
@@ -282,6 +284,11 @@ class PageConnection:
             self._new("checked", project.checker.found, out)
         self._new("costs", self._hub.costs(), out)
         self._new("comparison", project.compared(), out)
+        self._new("experiment", self._hub.experiment.view(), out)
+        rows = self._hub.experiment.rows_after(*self._rows)
+        if rows is not None:
+            self._rows = rows.run, rows.first + len(rows.rows)
+            out.append(rows)
         return out
 
     def _news_of_world(self, state: PublishedState) -> list[Message]:
@@ -293,7 +300,14 @@ class PageConnection:
     def _new(
         self,
         what: str,
-        message: Gallery | FileProblems | Checked | RunClock | Costs | Comparison | WorldScene,
+        message: Gallery
+        | FileProblems
+        | Checked
+        | RunClock
+        | Costs
+        | Comparison
+        | ExperimentView
+        | WorldScene,
         out: list[Message],
     ) -> None:
         if self._known.get(what) != message:

@@ -13,6 +13,7 @@ from deodar.live.engine import Engine
 from deodar.server import gallery, plots, templates, view
 from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import try_in_file_thread
+from deodar.server.open_experiment import OpenExperiment
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
 from deodar.server.record_frames import RecordFrames
@@ -52,10 +53,12 @@ class Hub:
         self.project = OpenProject(
             self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
         )
+        self.experiment = OpenExperiment(self.project, self.workspace, self.from_thread)
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),
             kinds=view.kinds(),
+            experiment=view.experiment_forms(),
             examples=gallery.examples(),
             templates=templates.listed(),
             plots=plots.views(),
@@ -210,10 +213,12 @@ class Hub:
             await asyncio.sleep(FOLLOW_SECONDS)
             if await self.project.refresh():
                 self.notify()
+            await self.experiment.check()
 
     async def close(self) -> None:
         """Store unsaved edits and stop the engine."""
         self._keeping.cancel()
         self._following.cancel()
         await self.project.keep()
+        await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.engine.close)

@@ -226,6 +226,13 @@ class OpenProject:
         await self._open(lambda: content.read(text, title), None, title, discard)
         return "" if opening.tool_for(text.encode()) is None else self._reported()
 
+    async def open_model(
+        self, read: Callable[[], Document], file: Path | None, title: str, discard: bool
+    ) -> None:
+        """Open the model of an experiment, which has that file, unless this file is open already."""
+        if file is None or file != self.file or self.record is not None:
+            await self._open(read, file, title, discard)
+
     async def recover(self, name: str, discard: bool) -> None:
         """Open stored unsaved edits."""
         self._ask_unsaved(discard)

@@ -1,6 +1,6 @@
 """Handlers of requests: one function for each message of `to_server`, registered by `handles`.
 
-Those that build a document are in `build_requests`.
+Those that build a document are in `build_requests`, those about an experiment in `experiment_requests`.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from deodar.numerics.axes import Axes
 from deodar.recording import places
 from deodar.server import build_requests as build_requests  # registers its handlers
 from deodar.server import content, figure_file, gallery, to_server
+from deodar.server import experiment_requests as experiment_requests  # registers its handlers
 from deodar.server.file_thread import in_file_thread
 from deodar.server.handlers import HANDLERS, handles
 from deodar.server.hub import Hub

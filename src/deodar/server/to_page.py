@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from deodar.declarations import Cost
+from deodar.declarations import Cost, Names
 from deodar.family import Family
 from deodar.parameters import ValueForm
 from deodar.server.message import Data, Id, Message
@@ -29,7 +29,8 @@ class ListedProblem(Data, frozen=True):
 class ParameterForm(Data, frozen=True):
     """Description of a parameter for its input form.
 
-    `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX.
+    `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX;
+    `names` is what a text names, so that the form can list the names.
     """
 
     name: str
@@ -45,6 +46,7 @@ class ParameterForm(Data, frozen=True):
     optional: bool
     choices: list[str]
     of: list[str]
+    names: Names = ""
 
 
 class Kind(Data, frozen=True):
@@ -65,6 +67,20 @@ class Kind(Data, frozen=True):
     levels: dict[str, dict[str, str]]
     example: Any
     opens: list[str]
+
+
+class ExperimentForms(Data, frozen=True):
+    """Descriptions of all that an experiment is made of, for the forms of its cards.
+
+    `design` has the parameters of the experiment itself. `usual` is the kind of a measure that does not state
+    one.
+    """
+
+    design: list[ParameterForm]
+    conditions: list[Kind]
+    actions: list[Kind]
+    measures: list[Kind]
+    usual: str
 
 
 class AxisView(Data, frozen=True):
@@ -222,6 +238,7 @@ class Welcome(Message, frozen=True, tag="welcome"):
     version: str
     root: str
     kinds: list[Kind]
+    experiment: ExperimentForms
     examples: list[ExampleView]
     templates: list[TemplateView]
     plots: list[PlotView]
@@ -467,6 +484,48 @@ class Bodies(Message, frozen=True, tag="bodies"):
     bodies: list[BodyView]
     fresh: bool
     path: list[list[float]]
+
+
+class RunView(Data, frozen=True):
+    """The run of an experiment: how many rows of how many trials there are, and the remaining time in s.
+
+    `number` changes with each run; `folder` is below the root.
+    """
+
+    number: int
+    folder: str
+    state: Literal["running", "complete", "stopped", "failed"]
+    rows: int
+    trials: int
+    left: float | None
+    problems: list[ListedProblem]
+
+
+@MESSAGES.register
+class ExperimentView(Message, frozen=True, tag="experiment"):
+    """The open experiment; `data` is None without one.
+
+    `data` is what its file contains, without the version and the model; `version` grows with each change.
+    `problems` prevent a run, which has `trials` trials. `repeated` is the trial whose record is open.
+    """
+
+    data: dict[str, Any] | None
+    version: int
+    file: str
+    unsaved: bool
+    problems: list[ListedProblem]
+    trials: int
+    repeated: int | None
+    run: RunView | None
+
+
+@MESSAGES.register
+class TrialRows(Message, frozen=True, tag="rows"):
+    """Further rows of a run: those from number `first` on, as `trials.jsonl` contains them."""
+
+    run: int
+    first: int
+    rows: list[dict[str, Any]]
 
 
 @MESSAGES.register

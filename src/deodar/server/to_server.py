@@ -671,3 +671,63 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
     """Confirm that the page has drawn the frames up to the clock of this number; the next ones follow."""
 
     frame: Count
+
+
+@MESSAGES.register
+class NewExperiment(Request, frozen=True, kw_only=True, tag="new_experiment"):
+    """Open a new experiment whose model is the open document."""
+
+
+@MESSAGES.register
+class OpenExperimentFile(DocumentRequest, frozen=True, kw_only=True, tag="open_experiment"):
+    """Open an experiment below the root, and its model. `discard` allows unsaved edits to be lost."""
+
+    path: Text
+    discard: bool = False
+
+
+@MESSAGES.register
+class EditExperiment(Request, frozen=True, kw_only=True, tag="edit_experiment"):
+    """Replace the plain data of the experiment of that version."""
+
+    data: dict[str, Any]
+    version: Count
+
+
+@MESSAGES.register
+class SaveExperiment(Request, frozen=True, kw_only=True, tag="save_experiment"):
+    """Write the experiment to `path`, or to its own file if `path` is empty.
+
+    A model without a file is written beside it. `replace` allows another file to be overwritten.
+    """
+
+    path: Text = ""
+    replace: bool = False
+
+
+@MESSAGES.register
+class CloseExperiment(Request, frozen=True, kw_only=True, tag="close_experiment"):
+    """Close the experiment."""
+
+
+@MESSAGES.register
+class RunExperiment(Request, frozen=True, kw_only=True, tag="run_experiment"):
+    """Run the experiment in worker processes; a run that was stopped continues."""
+
+
+@MESSAGES.register
+class StopExperiment(Request, frozen=True, kw_only=True, tag="stop_experiment"):
+    """Stop the run of the experiment; its rows are kept."""
+
+
+@MESSAGES.register
+class RepeatTrial(Request, frozen=True, kw_only=True, tag="repeat_trial"):
+    """Run a trial of the experiment again, and open its record. `discard` allows unsaved edits to be lost."""
+
+    trial: Count
+    discard: bool = False
+
+
+@MESSAGES.register
+class LeaveTrial(DocumentRequest, frozen=True, kw_only=True, tag="leave_trial"):
+    """Open the model of the experiment again, after the record of a trial."""

@@ -11,7 +11,8 @@ import msgspec
 
 from deodar.element import Element
 from deodar.errors import Problem as Wrong
-from deodar.kinds.description import descriptions
+from deodar.experiments.design import KINDS, USUAL, Design
+from deodar.kinds.description import describe, descriptions
 from deodar.model import files, find, starting
 from deodar.model.check import check
 from deodar.model.document import Document, Entry
@@ -19,7 +20,7 @@ from deodar.model.fits import Fit, FittingKind
 from deodar.model.parts import value_from_json
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import Axis
-from deodar.parameters import FrozenArray
+from deodar.parameters import FrozenArray, Part
 from deodar.recording.first_difference import FirstDifference
 from deodar.recording.replay import RecordReader
 from deodar.server.comparison import RecordComparison
@@ -32,6 +33,7 @@ from deodar.server.to_page import (
     DocumentParameterView,
     DocumentView,
     ElementView,
+    ExperimentForms,
     Fits,
     FittingKindView,
     FitView,
@@ -54,6 +56,23 @@ LOOKS = ("panels", "folded")
 def kinds() -> list[Kind]:
     """Return the description of every registered kind as a message."""
     return [msgspec.convert(kind, Kind, from_attributes=True) for kind in descriptions()]
+
+
+def experiment_forms() -> ExperimentForms:
+    """Return the descriptions of the parts of an experiment, those of packages included."""
+
+    def forms(family: Mapping[str, type[Part]]) -> list[Kind]:
+        return [msgspec.convert(describe(cls, {}), Kind, from_attributes=True) for cls in family.values()]
+
+    [design] = forms({"": Design})
+    kept = [form for form in design.parameters if form.name not in ("model", *KINDS)]
+    return ExperimentForms(
+        design=kept,
+        conditions=forms(KINDS["conditions"]),
+        actions=forms(KINDS["actions"]),
+        measures=forms(KINDS["measures"]),
+        usual=USUAL["measures"],
+    )
 
 
 def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:

@@ -17,6 +17,7 @@ import { PerAxisForm } from "./PerAxisForm";
 import type { FormProps } from "./props";
 import { TextForm } from "./TextForm";
 import { TextsForm } from "./TextsForm";
+import { ValueForm } from "./ValueForm";
 
 export const FORMS: Record<ParameterForm["form"], ComponentType<FormProps>> = {
   array: ArrayForm,
@@ -32,4 +33,5 @@ export const FORMS: Record<ParameterForm["form"], ComponentType<FormProps>> = {
   per_axis: PerAxisForm,
   text: TextForm,
   texts: TextsForm,
+  value: ValueForm,
 };

@@ -1,0 +1,338 @@
+"""The open experiment: its plain data, which pages edit, its file, and its run."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses as dc
+import math
+import os
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from deodar import codec
+from deodar.codec import JsonObject
+from deodar.errors import DeodarError, DocumentError, Problem
+from deodar.experiments.design import EXAMPLE, VERSION
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.results import EXPERIMENT, ROWS, stored_rows
+from deodar.experiments.setup import Setup
+from deodar.model.document import Document
+from deodar.model.files import MOST_BYTES
+from deodar.model.model import Model
+from deodar.recording import places
+from deodar.server import content, gallery, view
+from deodar.server.experiment_run import ExperimentRun
+from deodar.server.file_thread import in_file_thread
+from deodar.server.project import ConfirmationRequired, OpenProject
+from deodar.server.to_page import ExperimentView, RunView, TrialRows
+from deodar.server.workspace import Workspace
+
+LIMIT, TRIALS = 1000.0, 20
+"""Longest duration of a trial, in document time, and number of trials of a new experiment."""
+
+MOST_TRIALS = 100_000
+"""Most trials of one run: pages receive every row (a guess)."""
+
+MOST_ROWS = 1000
+"""Most rows in one message."""
+
+APART = ("experiment", "model", "packages")
+"""Keys of a file that pages do not edit."""
+
+
+class OpenExperiment:
+    """The open experiment, if any; its model is the open document.
+
+    While the record of one of its trials is open, its model is the document that was open before.
+
+    Attributes:
+        data: the plain data without its version and model; None: no experiment is open.
+        version: number of changes that pages must receive.
+        file: the file of the experiment.
+        problems: what prevents its run.
+        trials: number of trials of a run.
+        run: the latest run, or the results beside its file.
+        number: counter of runs.
+        repeated: the trial whose record is open.
+    """
+
+    def __init__(self, project: OpenProject, workspace: Workspace, changed: Callable[[], None]) -> None:
+        self._project, self._workspace, self._changed = project, workspace, changed
+        self.data: JsonObject | None = None
+        self.version = 0
+        self.file: Path | None = None
+        self.problems: Sequence[Problem] = ()
+        self.trials = 0
+        self.run: ExperimentRun | None = None
+        self.number = 0
+        self.repeated: int | None = None
+        self._saved: JsonObject | None = None
+        self._home: tuple[Document, Path | None] | None = None
+        self._shown = Path()
+        self._checked: tuple[int, Document | None] = (0, None)
+
+    # ------------------------------------------------------------------------------------------------ looking
+
+    def view(self) -> ExperimentView:
+        """Return the experiment as a message."""
+        run = self.run
+        shown = None
+        if run is not None:
+            progress = run.progress
+            shown = RunView(
+                number=self.number,
+                folder=self._workspace.shown(run.folder),
+                state=run.state,
+                rows=len(run.rows),
+                trials=run.setup.trials,
+                left=None if progress is None else progress.left,
+                problems=view.problems(run.problems),
+            )
+        return ExperimentView(
+            data=self.data,
+            version=self.version,
+            file="" if self.file is None else self._workspace.shown(self.file),
+            unsaved=self.data is not None and self.data != self._saved,
+            problems=view.problems(self.problems),
+            trials=self.trials,
+            repeated=self.repeated,
+            run=shown,
+        )
+
+    def rows_after(self, number: int, count: int) -> TrialRows | None:
+        """Return rows that a page lacks, which has the first `count` rows of a run; None: it has all."""
+        run = self.run
+        first = count if number == self.number else 0
+        rows = [] if run is None else run.rows[first : first + MOST_ROWS]
+        return TrialRows(run=self.number, first=first, rows=rows) if rows else None
+
+    def _document(self) -> Document:
+        """Return the model of the experiment, without positions of panels."""
+        if self._home is not None:
+            return view.plain(self._home[0])
+        if self._project.model is None or self._project.record is not None:
+            raise DocumentError("no document is open", fix="Open the model of the experiment first")
+        return view.plain(self._project.model.document)
+
+    def _experiment(self, model: object) -> Experiment:
+        """Return the experiment of the plain data."""
+        if self.data is None:
+            raise DocumentError("no experiment is open")
+        found = Experiment.from_data({**self.data, "experiment": VERSION, "model": "the open document"})
+        return dc.replace(found, model=model)
+
+    def _setup(self) -> Setup:
+        trust = self._project.trust
+        found = self._experiment(Model(document=self._document(), trusted=trust))
+        count = found.trials * (
+            1 if found.design == "random" else math.prod(len(f.sets) for f in found.factors)
+        )
+        if count > MOST_TRIALS:
+            fix = f"The command deodar experiment runs more than {MOST_TRIALS} trials"
+            raise DocumentError(f"has {count} trials", where="trials", fix=fix)
+        return dc.replace(found, world=self._world(str(found.world))).setup(trust)
+
+    def _world(self, named: str) -> str:
+        """Return the name of a world with the path of its file, which is below the root.
+
+        Raises:
+            DocumentError: the file lies outside the root.
+        """
+        kind, sign, argument = named.partition(":")
+        folder = self._workspace.root if self.file is None else self.file.parent
+        place = self._workspace.inside(str(folder / argument))
+        if argument and place.exists():
+            return f"{kind}{sign}{place}"
+        if argument and Path(argument).exists():
+            raise DocumentError("lies outside the folder of the studio", where=f"world: {argument}")
+        return named
+
+    async def check(self) -> None:
+        """Find the problems of the experiment, if it or its model changed since the last check."""
+        record = self._project.record
+        if self._home is not None and (record is None or record.path != self._shown):
+            self._home, self.repeated = None, None  # the record of the trial was closed
+        try:
+            now = self.version, None if self.data is None else self._document()
+        except DeodarError:
+            now = self.version, None
+        if now == self._checked:
+            return
+        self._checked = now
+
+        def find() -> tuple[Sequence[Problem], int]:
+            try:
+                return (), self._setup().trials
+            except DeodarError as error:
+                return error.problems, 0
+
+        found = await asyncio.to_thread(find) if self.data is not None else ((), 0)
+        if now == self._checked:
+            self.problems, self.trials = found
+            self._changed()
+
+    # ------------------------------------------------------------------------------------ opening and closing
+
+    def new(self) -> None:
+        """Open a new experiment with the open document."""
+        self._require_end()
+        name = self._document().name
+        self._take({"name": name, "limit": LIMIT, "trials": TRIALS}, None, None)
+
+    async def open(self, place: Path, discard: bool) -> None:
+        """Open an experiment and its model; the rows beside its file are those of its run."""
+        self._require_end()
+
+        def read() -> Experiment:
+            with self._workspace.folder(place) as folder:
+                data = codec.read(folder.read(place.name, MOST_BYTES))
+            return Experiment.from_data(
+                data, None, lambda name: Model(document=self._model(place, name)[0]())
+            )
+
+        try:
+            found = await in_file_thread(read, str(place))
+        except FileNotFoundError:
+            raise DocumentError("there is no such file", where=self._workspace.shown(place)) from None
+        document, file = self._model(place, str(found.model))
+        await self._project.open_model(document, file, str(found.model), discard)
+        if self._project.model is None:
+            return
+        data: Any = codec.parse(codec.line(found.to_data()))
+        self._take({key: value for key, value in data.items() if key not in APART}, place, None)
+        self._saved = self.data
+        if place.name == EXPERIMENT and (place.parent / ROWS).is_file():
+            rows = await in_file_thread(lambda: stored_rows(place.parent), str(place))
+            run = ExperimentRun(await asyncio.to_thread(self._setup), place.parent, self._changed)
+            run.rows.extend(rows)
+            run.state = "complete" if len(rows) == run.setup.trials else "stopped"
+            self.run = run
+            self.number += 1
+
+    def _model(self, place: Path, name: str) -> tuple[Callable[[], Document], Path | None]:
+        """Return a function that reads the model of an experiment, and the file of this model."""
+        if name.startswith(EXAMPLE):
+            example = gallery.example_file(name.removeprefix(EXAMPLE))
+            return lambda: content.load(self._workspace, example), None
+        beside = self._workspace.inside(str(place.parent / name))
+        return lambda: content.load(self._workspace, beside), beside
+
+    def _take(self, data: JsonObject, file: Path | None, saved: JsonObject | None) -> None:
+        self.data, self.file, self._saved = data, file, saved
+        self.run, self.repeated, self._home = None, None, None
+        self.version += 1
+        self._changed()
+
+    def close(self) -> None:
+        """Close the experiment."""
+        self._require_end()
+        self.data, self.file, self.run, self.repeated = None, None, None, None
+        self.problems, self.trials = (), 0
+        self.version += 1
+        self._changed()
+
+    def end(self) -> None:
+        """End all processes, when the studio ends."""
+        if self.run is not None:
+            self.run.close()
+
+    def _require_end(self) -> None:
+        if self.run is not None and self.run.state == "running":
+            raise DocumentError("its experiment is running", fix="Stop the experiment first")
+        if self.run is not None:
+            self.run.close()
+
+    # ------------------------------------------------------------------------------------- editing and saving
+
+    def edit(self, data: JsonObject, version: int) -> None:
+        """Replace the plain data; `version` is the version that the page has changed."""
+        if self.data is None or version != self.version:
+            raise DocumentError("the experiment was changed on another page", fix="Repeat the change")
+        self.data = data
+        self.version += 1
+        self._changed()
+
+    async def save(self, path: str, replace: bool) -> Path:
+        """Write the experiment to a path, or to its own file; a model without a file is written beside it.
+
+        Raises:
+            ConfirmationRequired: without `replace`, if the path is another file that exists.
+            DocumentError: the experiment has problems that a file cannot have.
+        """
+        place = self._workspace.target(path) if path else self.file
+        if place is None:
+            raise DocumentError("the experiment has no file yet", fix="Save it under a name")
+        own = self._project.file if self._home is None else self._home[1]
+        model = Model(document=self._document()) if own is None else os.path.relpath(own, place.parent)
+        experiment = self._experiment(model)
+
+        def write() -> None:
+            with (
+                tempfile.TemporaryDirectory(prefix="deodar-") as private,
+                self._workspace.folder(place) as to,
+            ):
+                experiment.save(Path(private) / place.name)
+                made = {file.name: file.read_bytes() for file in Path(private).iterdir()}
+                # the experiment last, because it refers to the model
+                for name in sorted(made, key=lambda name: name == place.name):
+                    to.write(name, made[name])
+
+        exists = await in_file_thread(place.exists, str(place))
+        if exists and place != self.file and not replace:
+            raise ConfirmationRequired("replace")
+        await in_file_thread(write, str(place))
+        self.file, self._saved = place, self.data
+        self._changed()
+        return place
+
+    # --------------------------------------------------------------------------------------------- the trials
+
+    async def start(self) -> None:
+        """Run the experiment; a run of the same experiment that was stopped continues."""
+        if self.run is not None and self.run.state == "running":
+            raise DocumentError("the experiment runs already")
+        setup = await asyncio.to_thread(self._setup)
+        before = self.run
+        if before is None or before.state == "complete" or not _same(before.setup, setup):
+            if before is not None:
+                await asyncio.to_thread(before.close)
+            folder = places.free(self._workspace.root, setup.experiment.name)
+            self.run = ExperimentRun(setup, folder, self._changed)
+            self.number += 1
+        assert self.run is not None
+        self.run.start()
+        self._changed()
+
+    def stop(self) -> None:
+        """Stop the run; rows that exist are kept."""
+        if self.run is not None:
+            self.run.stop()
+
+    async def repeat(self, trial: int, discard: bool) -> None:
+        """Run a trial again and open its record; documents can be edited until it is ready."""
+        run, project = self.run, self._project
+        if run is None:
+            raise DocumentError("the experiment has no rows")
+        if project.unsaved and not discard:
+            raise ConfirmationRequired("unsaved")
+        home = self._home
+        if home is None and project.model is not None and project.record is None:
+            home = project.model.document, project.file
+        path = await asyncio.to_thread(run.repeat, trial)
+        await project.queue.run(lambda: project.open_file(path, discard))
+        if project.record is not None:
+            self._home, self.repeated, self._shown = home, trial, project.record.path
+            self._changed()
+
+    async def leave_trial(self) -> None:
+        """Open the model of the experiment again, after the record of a trial."""
+        home, self._home, self.repeated = self._home, None, None
+        if home is not None:
+            await self._project.open_model(lambda: home[0], home[1], home[0].name, True)
+        self._changed()
+
+
+def _same(a: Setup, b: Setup) -> bool:
+    return a.model.document == b.model.document and a.experiment.to_data() == b.experiment.to_data()

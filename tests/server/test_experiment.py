@@ -1,0 +1,244 @@
+"""A page opens, edits, runs and saves an experiment, over a real socket."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.experiments.results import stored_rows
+from tests.server.page import Page, play, studio
+
+
+def two_targets() -> dd.Experiment:
+    """The experiment of the manual."""
+    x = dd.Axis("x", 0, 100, samples=101)
+    model = dd.Model("two targets")
+    u = model.add(
+        dd.Field(
+            "u",
+            [x],
+            tau=20,
+            resting_level=-5,
+            kernel=[dd.Gaussian(1.2, 5)],
+            global_inhibition=0.6,
+            noise=1.0,
+        )
+    )
+    for name in ("left", "right"):
+        model.add(dd.GaussianStimulus(name, [x], sigma=5, amplitude=5, windows=[(100, 600)])) >> u
+    model.add(dd.GaussianStimulus("preshape", [x], sigma=5, amplitude=1)) >> u
+    near = {"left.center": 46, "right.center": 54, "preshape.center": 46}
+    far = {"left.center": 35, "right.center": 65, "preshape.center": 35}
+    return dd.Experiment(
+        "two targets",
+        model,
+        limit=600,
+        trials=25,
+        conditions=[dd.Appears("detected", "u")],
+        factors=[
+            dd.Factor("distance", {"near": near, "far": far}),
+            dd.Factor("preshape", [0.0, 1.0], "preshape.amplitude"),
+        ],
+        measures=[dd.Measure("place", "u.activation", "place", threshold=-2.5)],
+    )
+
+
+def few(trials: int = 3, **given: Any) -> dd.Experiment:
+    """The same with few trials, which end soon."""
+    return dc.replace(two_targets(), trials=trials, limit=150, **given)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    root = tmp_path / "root"
+    root.mkdir()
+    return root
+
+
+def experiment(p: Page) -> dict[str, Any]:
+    return p.said["experiment"]
+
+
+def rows(p: Page) -> list[dict[str, Any]]:
+    """The rows of the present run that the page has received."""
+    number = experiment(p)["run"]["number"]
+    return [row for m in p.all if m["type"] == "rows" and m["run"] == number for row in m["rows"]]
+
+
+async def ended(p: Page) -> None:
+    await p.until(lambda: (experiment(p)["run"] or {}).get("state") not in (None, "running"))
+    await p.until(lambda: len(rows(p)) == experiment(p)["run"]["rows"])
+
+
+def test_an_experiment_file_opens_with_its_model_and_runs_in_a_worker(folder: Path) -> None:
+    few().save(folder / "two-targets.json")
+
+    async def scene(p: Page) -> None:
+        await p.open("open_experiment", path="two-targets.json")
+        assert p.document["title"] == "two targets" and p.document["file"] == "two-targets.model.json"
+        view = experiment(p)
+        assert view["file"] == "two-targets.json" and not view["unsaved"] and not view["problems"]
+        assert view["trials"] == 12 and list(view["data"]["conditions"]) == ["detected"]
+        await p.do("run_experiment")
+        await ended(p)
+        run = experiment(p)["run"]
+        assert (run["state"], run["rows"], run["folder"]) == ("complete", 12, "two_targets-001")
+        assert rows(p) == stored_rows(folder / "two_targets-001")
+
+    with studio(folder) as address:
+        play(address, scene)
+    table = dd.load_results(folder / "two_targets-001")
+    expected = few().run(folder / "by script", workers=1)
+    assert table.sizes["trial"] == 12
+    assert np.array_equal(table["place"], expected["place"], equal_nan=True)
+
+
+def test_the_example_of_the_manual_built_by_messages_is_written_as_python_writes_it(
+    folder: Path, tmp_path: Path
+) -> None:
+    expected = tmp_path / "python"
+    expected.mkdir()
+    two_targets().save(expected / "two-targets.json")
+    model = (expected / "two-targets.model.json").read_text(encoding="utf-8")
+
+    async def scene(p: Page) -> None:
+        await p.open("open_text", name="two targets.json", text=model)
+        await p.do("new_experiment")
+        data: dict[str, Any] = experiment(p)["data"]
+        assert data["name"] == "two targets"
+
+        async def edit(**changes: Any) -> None:
+            data.update(changes)
+            await p.do("edit_experiment", data=data, version=experiment(p)["version"])
+
+        # a page does not write 0.0, and adds keys in the order of the clicks
+        await edit(measures={"place": {"kind": "Measure", "of": "u.activation"}})
+        await edit(trials=25, limit=600)
+        near = {"left.center": 46, "right.center": 54, "preshape.center": 46}
+        far = {"left.center": 35, "right.center": 65, "preshape.center": 35}
+        await edit(factors={"distance": {"levels": {"near": near, "far": far}}})
+        await edit(factors={**data["factors"], "preshape": {"path": "preshape.amplitude", "levels": [0, 1]}})
+        await edit(conditions={"detected": {"kind": "Appears"}})
+        [problem] = experiment(p)["problems"]
+        assert (problem["where"], "'field'" in problem["what"]) == ("conditions.detected", True)
+        await edit(conditions={"detected": {"kind": "Appears", "field": "u", "threshold": 0}})
+        place = {"kind": "Measure", "threshold": -2.5, "reduce": "place", "of": "u.activation"}
+        await edit(measures={"place": place})
+        assert experiment(p)["problems"] == [] and experiment(p)["trials"] == 100
+        assert experiment(p)["unsaved"]
+        answer = await p.do("save_experiment", path="two-targets.json")
+        assert answer["file"] == "two-targets.json" and not experiment(p)["unsaved"]
+
+    with studio(folder) as address:
+        play(address, scene)
+    for name in ("two-targets.json", "two-targets.model.json"):
+        assert (folder / name).read_bytes() == (expected / name).read_bytes()
+
+
+def test_a_stopped_run_continues_and_so_does_one_of_a_studio_that_ended(folder: Path) -> None:
+    # actions: trials run one by one
+    slow = few(6, actions=[dd.Set(50, "u.resting_level", -5.5)])
+    slow.save(folder / "slow.json")
+    done: list[int] = []
+
+    async def begin(p: Page) -> None:
+        await p.open("open_experiment", path="slow.json")
+        await p.do("run_experiment")
+        await p.until(lambda: experiment(p)["run"]["rows"] >= 2)
+        await p.do("stop_experiment")
+        await ended(p)
+        assert experiment(p)["run"]["state"] == "stopped"
+        done.append(experiment(p)["run"]["rows"])
+        await p.do("run_experiment")
+        await p.until(lambda: experiment(p)["run"]["rows"] > done[0])
+        assert experiment(p)["run"]["folder"] == "two_targets-001"
+
+    async def resume(p: Page) -> None:
+        await p.open("open_experiment", path="two_targets-001/experiment.json")
+        before = experiment(p)["run"]
+        assert before["state"] == "stopped" and done[0] < before["rows"] < 24
+        await p.until(lambda: len(rows(p)) == before["rows"])
+        await p.do("run_experiment")
+        await ended(p)
+        assert (experiment(p)["run"]["state"], len(rows(p))) == ("complete", 24)
+
+    with studio(folder) as address:
+        play(address, begin)
+    with studio(folder) as address:
+        play(address, resume)
+    expected = slow.run(folder / "by script", workers=1)
+    assert np.array_equal(dd.load_results(folder / "two_targets-001")["duration"], expected["duration"])
+
+
+@pytest.mark.parametrize("actions", [[], [dd.Set(50, "u.resting_level", -4.5)]], ids=["batch", "one by one"])
+def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
+    folder: Path, actions: list[dd.Set]
+) -> None:
+    few(2, actions=actions).save(folder / "two-targets.json")
+
+    async def scene(p: Page) -> None:
+        await p.open("open_experiment", path="two-targets.json")
+        await p.do("run_experiment")
+        await ended(p)
+        await p.do("repeat_trial", trial=5)
+        record = p.document["record"]
+        assert record["path"] == "two_targets-001/repeats/000005.nc"
+        assert experiment(p)["repeated"] == 5 and experiment(p)["problems"] == []
+        found = dd.open_record(folder / record["path"])
+        row = next(row for row in rows(p) if row["trial"] == 5)
+        shown = np.argmax(found["u.activation"].values.max(axis=1) > 0)
+        if row["events"]["detected"] is not None:
+            assert found["time"].values[shown] == row["events"]["detected"]
+        assert float(found["time"][-1]) == row["duration"]
+        assert json.loads(found.attrs["deodar"])["levels"] == row["levels"]
+        center = p.document["elements"][1]["values"]["center"]
+        assert p.document["elements"][1]["path"] == "left"
+        assert center == {"near": 46, "far": 35}[row["levels"]["distance"]]
+        await p.do("leave_trial")
+        await p.runs()
+        assert "record" not in p.document or p.document["record"] is None
+        assert p.document["file"] == "two-targets.model.json" and experiment(p)["repeated"] is None
+
+    with studio(folder) as address:
+        play(address, scene)
+
+
+def test_what_cannot_be_done_is_refused(folder: Path, tmp_path: Path) -> None:
+    few().save(folder / "two-targets.json")
+    (tmp_path / "outside.json").write_text((folder / "two-targets.json").read_text())
+    (folder / "leaves.json").write_text(
+        json.dumps({"experiment": 3, "name": "a", "model": "../outside.json", "limit": 1})
+    )
+
+    async def problem(p: Page, type: str, **message: Any) -> str:
+        answer = await p.ask(type, **message)
+        return " ".join(f"{q['where']} {q['what']}" for q in answer["problems"])
+
+    async def scene(p: Page) -> None:
+        assert "no document is open" in await problem(p, "new_experiment")
+        assert "no rows" in await problem(p, "repeat_trial", trial=1)
+        assert "lies outside" in await problem(p, "open_experiment", path="../outside.json")
+        assert "lies outside" in await problem(p, "open_experiment", path="leaves.json")
+        assert "is a model" in await problem(p, "open_experiment", path="two-targets.model.json")
+        assert "no such file" in await problem(p, "open_experiment", path="nothing.json")
+        await p.open("open_experiment", path="two-targets.json")
+        view = experiment(p)
+        assert "another page" in await problem(p, "edit_experiment", data={}, version=view["version"] + 1)
+        wrong = view["data"] | {"world": f"arena:{tmp_path / 'outside.json'}"}
+        await p.do("edit_experiment", data=wrong, version=view["version"])
+        assert "lies outside" in experiment(p)["problems"][0]["what"]
+        many = view["data"] | {"trials": 10**12}
+        await p.do("edit_experiment", data=many, version=experiment(p)["version"])
+        assert "4000000000000 trials" in experiment(p)["problems"][0]["what"]
+        assert "4000000000000 trials" in await problem(p, "run_experiment")
+        (folder / "other.json").write_text("{}")
+        assert (await p.ask("save_experiment", path="other.json"))["ask"] == "replace"
+
+    with studio(folder) as address:
+        play(address, scene)
