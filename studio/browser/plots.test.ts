@@ -155,6 +155,46 @@ test("a field over two dimensions is a heat map with a scale; a sensor shows its
   await shot(page, "plot-heat");
 });
 
+test("a field over three axes is cut at a position, and any two axes are drawn", async () => {
+  const { page } = studio;
+  await reopen(page, observer, "saliency.json");
+  await choose(page, "Open panels and plots", "perceptual");
+  const map = plot("Heat map of perceptual");
+  const canvas = map.locator("canvas.plot-heat");
+  await step(3);
+  await expect.poll(() => colours(canvas)).toBeGreaterThan(5);
+  const whole = await drawn(canvas);
+  const thumb = map.getByRole("slider", { name: "Position on hue" });
+  const highest = map.getByRole("button", { name: "Maximum over hue" });
+  expect(await highest.getAttribute("aria-pressed")).toBe("true");
+  await thumb.press("ArrowRight");
+  await expect.poll(() => highest.getAttribute("aria-pressed")).toBe("false");
+  await expect.poll(() => drawn(canvas)).not.toBe(whole);
+  await observer.until(() => panels().includes('"at":{"hue":'));
+  const cut = await drawn(canvas);
+  await thumb.press("Home");
+  await expect.poll(() => drawn(canvas)).not.toBe(cut);
+  await shot(page, "plot-section");
+  const end = await drawn(canvas);
+  await highest.click();
+  await expect.poll(() => drawn(canvas)).not.toBe(end);
+  await observer.until(() => panels().includes('"at":{}'));
+
+  await map.getByRole("button", { name: "Settings of this plot" }).click();
+  const settings = page.getByRole("dialog");
+  await settings.getByRole("combobox", { name: "To the right" }).selectOption("hue");
+  await page.keyboard.press("Escape");
+  await map.getByRole("img", { name: "activation of perceptual as colours over hue and y" }).waitFor();
+  await map.getByRole("slider", { name: "Position on x" }).waitFor();
+  await map.getByRole("button", { name: "Menu of this plot" }).click();
+  await page.getByRole("menuitem", { name: "Curves", exact: true }).click();
+  const curves = plot("Curves of perceptual");
+  await curves.getByRole("img", { name: "activation, output of perceptual over hue" }).waitFor();
+  await curves.getByRole("slider", { name: "Position on y" }).press("Home");
+  await observer.until(() => panels().includes('"at":{"y":'));
+  await shot(page, "plot-section-curve");
+});
+
 test("the arrangement of panels is kept in a reload and in the file", async () => {
   const { page, folder } = studio;
   const original = readFileSync(join(folder, "selection.json"), "utf8");

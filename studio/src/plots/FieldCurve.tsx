@@ -1,4 +1,4 @@
-// An array over one axis: activation, output, input and interaction as curves, levels as lines.
+// An array along one axis: activation, output, input and interaction as curves, levels as lines.
 
 import { useComputedColorScheme } from "@mantine/core";
 import { useMemo, useRef } from "react";
@@ -6,6 +6,7 @@ import type uPlot from "uplot";
 import type { AxisView } from "../protocol";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
+import { AxisControl } from "./AxisControl";
 import { Chip } from "./Chip";
 import { inOrder, portColor } from "./colors";
 import { exportPng } from "./exportPng";
@@ -18,6 +19,8 @@ import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { PushControl } from "./PushControl";
 import { CalmRange, reading, union } from "./range";
 import { RangeControl } from "./RangeControl";
+import { allAxes } from "./section";
+import { SectionStrip } from "./SectionStrip";
 import type { Injection } from "./spot";
 import { type ChartOptions, useChart } from "./useChart";
 import { useLatest } from "./useLatest";
@@ -41,19 +44,34 @@ export function FieldCurve(props: PlotProps) {
   const curves = ports.filter((other) => shown.includes(other));
   const withLevels = names.length > 0 && shown.includes(LEVELS);
 
+  const { drawn, at } = settings;
+  const first = useStudio(({ document }) =>
+    document === null ? "" : (portAxes(document, element, port)?.[0]?.name ?? ""),
+  );
+
   const calm = useRef(new CalmRange(ROOM));
   const data = useRef<uPlot.AlignedData>([[]]);
   const levels = useLevels(element.id, level, () => chart.current?.setData(data.current));
   const wishes = useMemo<Wish[]>(
-    () => curves.map((other) => ({ type: "watch", element: element.id, port: other, most: MOST })),
-    [element.id, curves.join()],
+    () =>
+      curves.map((other) => ({
+        type: "watch",
+        element: element.id,
+        port: other,
+        most: MOST,
+        // a curve has one axis, also of an array with more
+        drawn: [drawn[0] ?? first],
+        at,
+      })),
+    [element.id, curves.join(), drawn, at, first],
   );
   const draw = (lives: Live[]) => {
     data.current = columns(lives);
     chart.current?.setData(data.current);
   };
   const streaming = useStreams(wishes, visible, draw);
-  const x = streaming.forms.find((form) => form !== null)?.axes[0] ?? documentAxis(element.id, port);
+  const form = streaming.forms.find((other) => other !== null) ?? null;
+  const x = form?.axes[0] ?? documentAxis(element.id, port, drawn[0]);
   const onRight = (other: string) =>
     names.length > 0 && other === "output" && other !== level && curves.some((curve) => curve !== other);
 
@@ -114,6 +132,7 @@ export function FieldCurve(props: PlotProps) {
           shown: [x],
           amplitude: settings.amplitude ?? pushAmplitude(levels.current),
           width: settings.width,
+          at,
         }
       : null;
   };
@@ -164,8 +183,10 @@ export function FieldCurve(props: PlotProps) {
           )}
         </>
       }
+      strip={<SectionStrip rest={form?.rest ?? []} at={at} set={set} />}
       controls={
         <>
+          <AxisControl axes={allAxes(form)} labels={["Axis"]} set={set} />
           <RangeControl
             range={settings.range}
             shown={() => rangeOf(chart.current)}
@@ -253,8 +274,9 @@ function readAt(chart: uPlot, x: AxisView | null, curves: string[]): string {
   return [`${x.name} ${reading(place)}`, ...values].join("   ");
 }
 
-function documentAxis(element: string, port: string): AxisView | null {
+function documentAxis(element: string, port: string, drawn = ""): AxisView | null {
   const { document, elements } = useStudio.getState();
   const found = elements.get(element);
-  return document === null || found === undefined ? null : (portAxes(document, found, port)?.[0] ?? null);
+  const axes = document === null || found === undefined ? null : portAxes(document, found, port);
+  return axes?.find(({ name }) => name === drawn) ?? axes?.[0] ?? null;
 }

@@ -1,4 +1,5 @@
-// An array over two axes as colours; with more axes it is the maximum over the others.
+// An array over two axes as colours; with more axes a section at positions on the others, or the maximum over
+// them.
 
 import { useMemo, useRef } from "react";
 import type uPlot from "uplot";
@@ -6,6 +7,7 @@ import type { AxisView } from "../protocol";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
 import { exportPng } from "./exportPng";
 import { attachInjection } from "./injection";
@@ -18,6 +20,8 @@ import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { PushControl } from "./PushControl";
 import { reading } from "./range";
 import { RangeControl } from "./RangeControl";
+import { allAxes } from "./section";
+import { SectionStrip } from "./SectionStrip";
 import type { Injection } from "./spot";
 import { type ChartOptions, useChart } from "./useChart";
 import { useLatest } from "./useLatest";
@@ -30,6 +34,7 @@ const UNKNOWN: AxisView = { key: "", name: "", lower: 0, upper: 1, samples: 2, p
 
 export function HeatMap(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
+  const { drawn, at } = settings;
   const kind = useStudio((state) => state.kinds.get(element.kind));
   const ports = usePorts(element, port, (axes) => axes.length > 1);
   const { name, twoSided } = scaleOf(settings.scale, kind, port);
@@ -39,8 +44,8 @@ export function HeatMap(props: PlotProps) {
   const colors = useRef(new FollowingColors(name));
   const levels = useLevels(element.id, port, () => paint());
   const wishes = useMemo<Wish[]>(
-    () => [{ type: "watch", element: element.id, port, most: MOST }],
-    [element.id, port],
+    () => [{ type: "watch", element: element.id, port, most: MOST, drawn, at }],
+    [element.id, port, drawn, at],
   );
   const streaming = useStreams(wishes, visible, ([live]) => {
     newest.current = live ?? null;
@@ -91,6 +96,7 @@ export function HeatMap(props: PlotProps) {
           shown: [x, y],
           amplitude: settings.amplitude ?? pushAmplitude(levels.current),
           width: settings.width,
+          at,
         }
       : null;
   });
@@ -124,9 +130,10 @@ export function HeatMap(props: PlotProps) {
       kind="heat"
       ports={ports}
       streaming={streaming}
-      note={form !== null && form.folded.length > 0 ? `max over ${form.folded.join(", ")}` : ""}
+      strip={<SectionStrip rest={form?.rest ?? []} at={at} set={set} />}
       controls={
         <>
+          <AxisControl axes={allAxes(form)} labels={["To the right", "Upwards"]} set={set} />
           <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
           <RangeControl
             range={settings.range}

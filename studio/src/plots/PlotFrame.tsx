@@ -30,6 +30,8 @@ type PlotFrameProps = PlotProps & {
   ports?: string[];
   legend?: ReactNode;
   note?: string;
+  // Below the name: the axes that are not drawn.
+  strip?: ReactNode;
   controls?: ReactNode;
   streaming: Streaming;
   exportAs: () => void;
@@ -37,8 +39,21 @@ type PlotFrameProps = PlotProps & {
 };
 
 export function PlotFrame(props: PlotFrameProps) {
-  const { element, port, kinds, kind, ports, legend, note, controls, streaming, change, exportAs, children } =
-    props;
+  const {
+    element,
+    port,
+    kinds,
+    kind,
+    ports,
+    legend,
+    note,
+    strip,
+    controls,
+    streaming,
+    change,
+    exportAs,
+    children,
+  } = props;
   const range = props.settings.range === null ? null : [...props.settings.range];
   const running = useStudio((state) => state.clock?.running ?? false);
   const record = useStudio((state) => state.document?.record != null);
@@ -104,6 +119,7 @@ export function PlotFrame(props: PlotFrameProps) {
           </Menu.Dropdown>
         </Menu>
       </header>
+      {strip}
       <div className="plot-body">
         {children}
         {!seen && (

@@ -1,5 +1,5 @@
-// An array over one axis as colours over time: time to the right or down, the newest samples or those around
-// a moment of the past.
+// An array along one of its axes as colours over time: time to the right or down, the newest samples or those
+// around a moment of the past.
 
 import { SegmentedControl } from "@mantine/core";
 import { useEffect, useMemo, useRef } from "react";
@@ -10,9 +10,10 @@ import { Rows } from "../rows";
 import { useStudio } from "../store";
 import type { Wish } from "../streams";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
 import { exportPng } from "./exportPng";
-import { axisLabel, cell, edges } from "./kinds";
+import { axisLabel, cell, edges, isPicture } from "./kinds";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { drawMoment } from "./momentLine";
@@ -20,6 +21,8 @@ import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { reading } from "./range";
 import { RangeControl } from "./RangeControl";
+import { allAxes } from "./section";
+import { SectionStrip } from "./SectionStrip";
 import { timeRange } from "./traces";
 import { type ChartOptions, useChart } from "./useChart";
 import { useLatest } from "./useLatest";
@@ -34,10 +37,10 @@ const UNKNOWN: AxisView = { key: "", name: "", lower: 0, upper: 1, samples: 2, p
 
 export function SpaceTime(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
-  const { down } = settings;
+  const { down, drawn, at } = settings;
   const kind = useStudio((state) => state.kinds.get(element.kind));
   const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
-  const ports = usePorts(element, port, (axes) => axes.length === 1);
+  const ports = usePorts(element, port, (axes) => axes.length > 0 && !isPicture(axes));
   const { name, twoSided } = scaleOf(settings.scale, kind, port);
   // A line marks the moment of the past that the page shows.
   const moment = useStudio((state) => state.clock?.timeline?.time ?? null);
@@ -49,8 +52,8 @@ export function SpaceTime(props: PlotProps) {
   const colors = useRef(new FollowingColors(name));
   const levels = useLevels(element.id, port, () => draw());
   const wishes = useMemo<Wish[]>(
-    () => [{ type: "rows", element: element.id, port, most: MOST }],
-    [element.id, port],
+    () => [{ type: "rows", element: element.id, port, most: MOST, drawn: drawn[0] ?? "", at }],
+    [element.id, port, drawn, at],
   );
   const draw = () => {
     const { times, width } = rows.current;
@@ -145,8 +148,10 @@ export function SpaceTime(props: PlotProps) {
       kind="space_time"
       ports={ports}
       streaming={streaming}
+      strip={<SectionStrip rest={form?.rest ?? []} at={at} set={set} />}
       controls={
         <>
+          <AxisControl axes={allAxes(form)} labels={["Axis over time"]} set={set} />
           <WindowControl window={settings.window} set={(window) => set({ window })} />
           <SegmentedControl
             size="xs"

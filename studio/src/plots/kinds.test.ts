@@ -65,8 +65,8 @@ describe("kinds of plots", () => {
     expect(plotKinds(null)).toEqual(["course"]);
     expect(plotKinds([])).toEqual(["course"]);
     expect(plotKinds([x])).toEqual(["curve", "course", "space_time"]);
-    expect(plotKinds([x, y])).toEqual(["heat", "course"]);
-    expect(plotKinds([x, y, hue])).toEqual(["heat", "course"]);
+    expect(plotKinds([x, y])).toEqual(["heat", "course", "curve", "space_time"]);
+    expect(plotKinds([x, y, hue])).toEqual(["heat", "course", "curve", "space_time"]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
   });
@@ -76,7 +76,7 @@ describe("kinds of plots", () => {
     const plot = (axes: number, periodic = false) =>
       ({ name: "odd", title: "Odd", axes, periodic }) as PlotView;
     expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "space_time", "odd"]);
-    expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course"]);
+    expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course", "curve", "space_time"]);
     expect([[], [x], [x, y], [x, y, hue], [x, y, channel]].map((axes) => fits(plot(2), axes))).toEqual([
       false,
       false,

@@ -29,12 +29,12 @@ export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = []): P
   if (axes === null || axes.length === 0) {
     return ["course"];
   }
-  return [
-    axes.length === 1 ? "curve" : isPicture(axes) ? "picture" : "heat",
-    "course",
-    ...(axes.length === 1 ? ["space_time"] : []),
-    ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
-  ];
+  const own = isPicture(axes)
+    ? ["picture", "course"]
+    : axes.length === 1
+      ? ["curve", "course", "space_time"]
+      : ["heat", "course", "curve", "space_time"];
+  return [...own, ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name)];
 }
 
 // Whether a plot of a package can show an array over these axes.

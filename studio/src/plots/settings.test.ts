@@ -25,6 +25,8 @@ it("invalid settings are replaced by the defaults", () => {
     traces: [],
     window: 2000,
     down: false,
+    drawn: [],
+    at: {},
     amplitude: null,
     width: 0.05,
   });
@@ -34,6 +36,8 @@ it("invalid settings are replaced by the defaults", () => {
     scale: "rainbow",
     traces: [{ element: "a" }, 1],
     window: 3,
+    drawn: "x",
+    at: { x: "left", y: null },
     amplitude: "5",
     width: "wide",
   };
@@ -48,6 +52,8 @@ it("valid settings are kept", () => {
     range: [-1, 2],
     scale: "gray",
     down: true,
+    drawn: ["z", "x"],
+    at: { y: -1.5 },
     traces: [trace],
     window: null,
     amplitude: -3,

@@ -19,6 +19,9 @@ export type PlotSettings = {
   window: number | null;
   // Whether time runs downwards, not to the right.
   down: boolean;
+  // The names of the axes that are drawn (none: the first ones), and positions on others.
+  drawn: string[];
+  at: Record<string, number>;
   // What a right-click injects: null is a first guess; the width (sigma) is a share of the axis.
   amplitude: number | null;
   width: number;
@@ -52,6 +55,12 @@ export function readSettings(given: Record<string, unknown>): PlotSettings {
     traces: Array.isArray(given["traces"]) ? given["traces"].filter(isTrace) : [],
     window: WINDOWS.includes(given["window"] as number | null) ? (given["window"] as number | null) : 2000,
     down: given["down"] === true,
+    drawn: isTexts(given["drawn"]) ? given["drawn"] : [],
+    at: isRecord(given["at"])
+      ? Object.fromEntries(
+          Object.entries(given["at"]).filter((pair): pair is [string, number] => finite(pair[1]) !== null),
+        )
+      : {},
     amplitude: finite(given["amplitude"]),
     width: Math.min(1, Math.max(0.001, finite(given["width"]) ?? 0.05)),
   };

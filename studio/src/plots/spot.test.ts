@@ -26,6 +26,14 @@ it("the centre has the order of the element's axes; axes that are not drawn are 
   expect(spot(how, [4, 30])).toEqual({ center: [20, 4, 180], sigma: [2, 1, 36_000], amplitude: 5 });
 });
 
+it("an injection into a section has its position", () => {
+  expect(spot({ ...how, at: { hue: 90, x: 1 } }, [4, 30])).toEqual({
+    center: [20, 4, 90],
+    sigma: [2, 1, 36],
+    amplitude: 5,
+  });
+});
+
 it("a uniform injection has no centre", () => {
   expect(spot(how, null)).toEqual({ center: null, sigma: null, amplitude: 5 });
 });

@@ -12,14 +12,16 @@ export type Injection = {
   amplitude: number;
   // sigma as a share of each axis.
   width: number;
+  // Positions on axes that are not drawn, by name.
+  at?: Record<string, number>;
 };
 
 // So wide that it is the same everywhere: for axes that are not drawn.
 const FLAT = 100;
 
-// The place on all axes of the element, in its order; axes that are not drawn get everything.
+// The place on all axes of the element, in its order; axes that are neither drawn nor cut get everything.
 export function spot(
-  { element, document, shown, amplitude, width }: Injection,
+  { element, document, shown, amplitude, width, at: cut = {} }: Injection,
   place: number[] | null,
 ): Spot {
   if (place === null) {
@@ -34,12 +36,13 @@ export function spot(
   for (const axis of axes) {
     const at = shown.findIndex((other) => other.name === axis.name);
     const range = axis.upper - axis.lower;
+    const position = cut[axis.name];
     center.push(
       at < 0
-        ? (axis.lower + axis.upper) / 2
+        ? (position ?? (axis.lower + axis.upper) / 2)
         : Math.min(axis.upper, Math.max(axis.lower, place[at] ?? axis.lower)),
     );
-    sigma.push(range * (at < 0 ? FLAT : width));
+    sigma.push(range * (at < 0 && position === undefined ? FLAT : width));
   }
   return { center, sigma, amplitude };
 }

@@ -46,7 +46,8 @@ export function useStreams(wishes: Wish[], on: boolean, draw: (lives: Live[]) =>
         next.forms.some((form, i) => form !== known.forms[i])
       ) {
         known = next;
-        setStreaming(next);
+        // The values of another section follow at once: until then the last ones stay.
+        setStreaming((shown) => (shown.seen && !next.seen && next.lost === null ? shown : next));
       }
       if (lives.every((live) => live !== null)) {
         drawing.current(lives as Live[]);
@@ -67,7 +68,8 @@ export function useStreams(wishes: Wish[], on: boolean, draw: (lives: Live[]) =>
     );
     return () => {
       ended = true;
-      ends.forEach((end) => end());
+      // After the next streams are asked for: what both have in common continues.
+      queueMicrotask(() => ends.forEach((end) => end()));
     };
   }, [key, on, drawing]);
 
