@@ -97,6 +97,32 @@ test("a replay plays backward and forward until the end", async () => {
   await button(page, "Replay forward").waitFor();
 });
 
+test("the run continues from the moment shown", async () => {
+  const { page } = studio;
+  await openPast(observer, 30);
+  expect(await button(page, "Run from here").isDisabled(), "the present is no moment of the past").toBe(true);
+  await observer.until(() => observer.moment("u", "activation") === 30);
+  const later = [...observer.values("u", "activation")];
+  await button(page, "First frame").click();
+  await expect.poll(() => moment().innerText()).toMatch(/^0 ms/);
+  await shot(page, "replay-from");
+  await page.setViewportSize({ width: 640, height: 800 });
+  await shot(page, "replay-from-narrow");
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await observer.ask({ type: "speed", factor: 0.01 });
+  await button(page, "Run from here").click();
+  await observer.until(() => observer.running && observer.time < 30);
+  await expect.poll(() => moment().innerText()).toBe("");
+  await button(page, "Pause").click();
+  await observer.until(() => !observer.running);
+  const left = 30 - observer.time;
+  expect(left).toBeGreaterThan(0);
+  await observer.ask({ type: "step", n: left });
+  await observer.until(() => observer.moment("u", "activation") === 30);
+  expect([...observer.values("u", "activation")], "the same noise").toEqual(later);
+  await observer.ask({ type: "speed", factor: 1 });
+});
+
 test("another page stays at the present", async () => {
   const { page } = studio;
   await openPast(observer, 40);

@@ -13,6 +13,7 @@ const MEANT = new Set<ToServer["type"]>([
   "link",
   "redo",
   "remove_document_parameter",
+  "run_from",
   "save",
   "set",
   "undo",

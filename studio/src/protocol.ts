@@ -1004,6 +1004,16 @@ export type RunExperiment = {
   request?: number;
 };
 
+// Continue the run from the last frame up to a document time, with the parameters of that moment.
+//
+// The change of parameters is one step of undo.
+export type RunFrom = {
+  type: "run_from";
+  request?: number;
+  session?: number;
+  time: number;
+};
+
 // The run of an experiment: how many rows of how many trials there are, and the remaining time in s.
 //
 // `number` changes with each run; `folder` is below the root.
@@ -1222,6 +1232,7 @@ export type ToServer =
   | Speed
   | Lengthen
   | Seek
+  | RunFrom
   | ChooseCopy
   | SeekFrames
   | StartRecord

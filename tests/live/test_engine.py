@@ -264,3 +264,11 @@ def test_a_machine_that_is_too_slow_does_not_pile_up_steps() -> None:
     pace.took(session, 1, 1.0, 0.004)  # 4 ms a step, and 1 ms is requested
     time.sleep(0.05)
     assert pace.due(session) <= pace.most() <= 3
+
+
+def test_a_trace_up_to_a_time_has_the_earlier_samples() -> None:
+    trace = Trace()
+    for at in range(10):
+        trace.add(at, 2.0 * at)
+    np.testing.assert_array_equal(trace.until(3).since(0), [(t, 2.0 * t) for t in range(4)])
+    assert trace.count == 10

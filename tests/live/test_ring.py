@@ -51,6 +51,19 @@ def test_states_older_than_the_covered_wall_time_are_removed() -> None:
     assert span.full_from == span.first, "nothing within the covered time was removed"
 
 
+def test_a_ring_up_to_a_tick_has_the_earlier_states_only() -> None:
+    ring = filled(StateRing(), 10)
+    short = ring.until(4)
+    span, whole = short.span(), ring.span()
+    assert span is not None and whole is not None
+    assert (span.last, span.frames, whole.frames) == (40, 5, 10)
+    assert 0 < short.nbytes < ring.nbytes and shown(short, 1e9) == 40
+    short.add(state(5, np.full(100, 3.0)), 100.0)
+    assert shown(ring, 50) == shown(short, 50) == 50
+    found = ring.at(50)
+    assert found is not None and found[1].arrays[PLACE][0] == 5, "the first ring has not changed"
+
+
 def test_a_pause_does_not_count_as_running() -> None:
     ring = filled(StateRing(seconds=2.0), 51)
     ring.add(state(51), 3600.0)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.live import branch_states
 from deodar.recording import folder
 from deodar.recording.growing import GrowingRecord
 from deodar.worlds.arena.arena import Arena
@@ -510,4 +511,56 @@ def test_a_recorded_world_without_a_pose_says_so(tmp_path: Path) -> None:
         assert p.said["scene"]["scene"]["boxes"][0]["name"] == "crate"
 
     with studio(tmp_path, tmp_path / "drive.zarr") as address:
+        play(address, scene)
+
+
+# -------------------------------------------------------------------------------------------------- branches
+
+
+def test_a_run_continues_from_a_moment_with_the_parameters_of_that_moment(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        await p.do("watch", stream=1, element=u, port="activation")
+        await p.do("trace", stream=2, element=u, port="activation", reduce="max")
+        await stepped(p, 20)
+        await p.do("set", element=u, parameter="resting_level", value=-9.0)
+        await p.do("step", n=10)
+        await p.until(lambda: shown(p) == 30)
+        await p.do("seek", time=12)
+        await p.until(lambda: shown(p) == 12)
+        await p.do("speed", factor=None)
+        await p.do("run_from", time=12)
+        assert next(e for e in p.document["elements"] if e["id"] == u)["values"]["resting_level"] == -5.0
+        assert p.document["undo"] == 2, "the change of parameters can be undone"
+        await p.until(lambda: p.clock["running"] and timeline(p) and timeline(p)["time"] is None)
+        await p.until(lambda: p.clock["tick"] > 40)
+        await p.do("pause")
+        await p.until(lambda: not p.clock["running"] and shown(p) == p.clock["tick"])
+        script = dd.Session(dd.load(root / "selection.json"))
+        script.step(p.clock["tick"])
+        np.testing.assert_allclose(p.frames[1][1], script.read("u.activation"), atol=1e-6)
+        times = [t for t, _ in p.samples[2]]
+        assert times.count(12.0) == 2, "the page received the part of the time course before the moment again"
+        await p.do("undo")
+        assert next(e for e in p.document["elements"] if e["id"] == u)["values"]["resting_level"] == -9.0
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_a_run_that_cannot_continue_from_a_moment_states_why(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(branch_states.BranchStates.__init__, "__defaults__", (1.0, 64))
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await stepped(p, 5)
+        answer = await p.ask("run_from", time=2)
+        assert "a state of it takes" in answer["problems"][0]["what"]
+        assert p.clock["tick"] == 5 and not p.clock["running"]
+
+    with studio(root, root / "selection.json") as address:
         play(address, scene)

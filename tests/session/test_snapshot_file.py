@@ -140,3 +140,33 @@ def test_a_newer_version_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         path = dd.save_snapshot(dd.Session(model()).snapshot(), tmp_path / "moment.npz")
     with pytest.raises(RecordError, match="of version 7"):
         dd.load_snapshot(path)
+
+
+def test_a_file_contains_the_objects_of_the_world(tmp_path: Path) -> None:
+    def session() -> dd.Session:
+        return dd.Session(driving(), seed=2, world=dd.Arena("blocks"))
+
+    first = session()
+    first.run(160)
+    scene = first.scene()
+    assert scene is not None
+    first.remove(scene.boxes[0].name)
+    first.place("late", (0.9, 0.4), (0.04, 0.04))
+    here = first.scene()
+    dd.save_snapshot(first.snapshot(), tmp_path / "moment.npz")
+    again = session()
+    again.restore(dd.load_snapshot(tmp_path / "moment.npz"))
+    assert again.scene() == here
+    for one in (first, again):
+        one.run(320)
+    assert first.read("u").tobytes() == again.read("u").tobytes()
+
+
+def test_objects_that_are_no_plain_data_name_their_world(tmp_path: Path) -> None:
+    class Odd(dd.Arena):
+        def arrangement(self) -> object:
+            return {object()}
+
+    session = dd.Session(driving(), world=Odd("blocks"))
+    with pytest.raises(RecordError, match="the objects of the world Odd are not plain data"):
+        dd.save_snapshot(session.snapshot(), tmp_path / "moment.npz")

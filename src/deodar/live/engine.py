@@ -21,6 +21,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from deodar.errors import ModelError, NotFinite, Problem
+from deodar.live.branch_states import BranchStates
 from deodar.live.cost_report import CostReport, said
 from deodar.live.published import PublishedState
 from deodar.live.ring import StateRing
@@ -66,6 +67,7 @@ class Engine:
         traces: time courses by their specification; only the engine adds samples.
         track: the world from above, and the paths of its bodies.
         ring: the states published in the last minute; a reset or another session begins a new one.
+        states: whole states of that minute, from which the run can continue.
     """
 
     def __init__(self, changed: Callable[[], None]) -> None:
@@ -96,6 +98,7 @@ class Engine:
         self.cost_report = CostReport()
         self.track = Track()
         self.ring = StateRing()
+        self.states = BranchStates()
         self._thread.start()
 
     # ------------------------------------------------------------------------------------- from other threads
@@ -167,9 +170,42 @@ class Engine:
         self.failure = ((), ())
         self.restart()
 
+    def branch(self, time: float) -> Document:
+        """Go back to the last published moment up to a time, and return the document of that moment.
+
+        The state has the bits that it had then; what was published later is forgotten. The run pauses.
+
+        Raises:
+            RecordError: the moment cannot be computed again.
+        """
+        session, found = self._require(), self.ring.at(time)
+        if found is None:
+            raise ModelError("The run has no moment to continue from", fix="Start it first")
+        shown = found[1]
+        self.play(False)
+        self._target, self.injection = None, None
+        try:
+            self.states.branch(session, shown.tick, self._report)
+        finally:
+            self.busy, self._stale = "", True
+        self.ring = self.ring.until(shown.tick)
+        self.traces = {request: trace.until(shown.time) for request, trace in self.traces.items()}
+        self.track.back(session, shown.trail, shown.passed)
+        if session.next_dt != session.document.step:  # a step that was lengthened
+            session.dt = session.document.step
+        self._make()
+        return session.document
+
+    def _report(self, done: int, steps: int) -> None:
+        if self._closed:
+            raise ModelError("the studio ends")
+        self.busy = f"computing the moment again, {100 * done // max(steps, 1)} %"
+        self._changed()
+
     def restart(self) -> None:
         """Clear the time courses and the stored states, and restart the pace."""
         self.ring = StateRing()
+        self.states = BranchStates()
         for request in self.traces:
             self.traces[request] = Trace()
         self.pace.restart()
@@ -222,6 +258,7 @@ class Engine:
         """Use another world."""
         if self.session is not None:
             self.session.world = world
+            self.states.note(self.session)
         self.failure, self._stale = ((), ()), True
 
     def rearrange(self, how: Callable[[Session], None]) -> None:
@@ -291,6 +328,7 @@ class Engine:
         return 0.0
 
     def _advance(self, session: Session, n: int) -> None:
+        self.states.follow(session)
         injection = self.injection
         entry = session.document.by_id().get(injection.element) if injection is not None else None
         if injection is not None and entry is not None:

@@ -112,6 +112,18 @@ class StateRing:
         with self._lock:
             return [one.state for one in self._stored]
 
+    def until(self, tick: int) -> StateRing:
+        """Return a new ring with the states up to a tick."""
+        ring = StateRing(self._seconds, self._most)
+        with self._lock:
+            for one in self._stored:
+                if one.state.tick <= tick:
+                    ring._stored.append(dc.replace(one))
+                    ring._count(one.state.arrays, 1)
+            ring._wall = ring._stored[-1].wall if ring._stored else 0.0
+            ring._added = self._added
+        return ring
+
     def _sharing(
         self, state: PublishedState, own: Mapping[PortKey, np.ndarray], last: _Stored | None
     ) -> PublishedState:

@@ -71,6 +71,14 @@ class Trace:
         first = max(count, begin, self.count - len(samples))
         return samples[np.arange(first, self.count) % len(samples)]
 
+    def until(self, time: float) -> Trace:
+        """Return a new time course with the samples up to a time."""
+        trace = Trace()
+        for at, value in self.since(0):
+            if at <= time:
+                trace.add(at, value)
+        return trace
+
 
 def capacity(width: int) -> int:
     """Return the number of samples of `width` values in a buffer."""

@@ -45,6 +45,11 @@ class Track:
         self._of: tuple[Session, World | None] | None = None
         self._time = 0.0
 
+    def back(self, session: Session, trail: Trail, passed: int) -> None:
+        """Continue with the first `passed` positions of a path, at an earlier time of the session."""
+        self.trail = Trail(trail.places[:passed], trail.fine)
+        self._of, self._time = (session, session.world), session.time
+
     def follow(self, session: Session | None) -> None:
         """Store the present scene, and add the positions of the bodies to the path."""
         scene = None if session is None else session.scene()

@@ -7,6 +7,7 @@ history.
 from __future__ import annotations
 
 import asyncio
+import dataclasses as dc
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -410,6 +411,30 @@ class OpenProject:
         self._require_model()
         if self.engine.session is None and not self.busy:
             raise DocumentError(self.failure or [Wrong("", "no document is open")])
+
+    async def run_from(self, time: float) -> None:
+        """Continue the run from an earlier moment of the last minute, with the parameters of that moment.
+
+        Notes, name and layout of the document stay.
+
+        Raises:
+            RecordError: the moment cannot be computed again.
+        """
+        self.require_run()
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.branch(time)))
+        await self._follow_run()
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.play(True)))
+
+    async def _follow_run(self) -> None:
+        """Take over the parameters of the running session into the document, as one step of undo."""
+        model, session = self._require_model(), self.engine.session
+        assert session is not None
+        now = model.document
+        doc = dc.replace(session.document, name=now.name, notes=now.notes, layout=now.layout)
+        if doc != now:
+            model.history.commit(doc)
+            self._gesture = None
+            self._moved()
 
     async def embody(self, world: World) -> None:
         """Use another world, at once or, if the document has no sensors, as soon as a document has some."""

@@ -265,6 +265,12 @@ async def _lengthen(hub: Hub, page: Page, m: to_server.Lengthen) -> None:
     await _engine(hub, page, lambda: hub.engine.lengthen(m.longest))
 
 
+@handles(to_server.RunFrom)
+async def _run_from(hub: Hub, page: Page, m: to_server.RunFrom) -> None:
+    await hub.project.run_from(m.time)
+    page.seek(None)
+
+
 @handles(to_server.Seek)
 async def _seek(hub: Hub, page: Page, m: to_server.Seek) -> None:
     page.seek(m.time)

@@ -485,6 +485,16 @@ class Seek(Request, frozen=True, kw_only=True, tag="seek"):
 
 
 @MESSAGES.register
+class RunFrom(DocumentRequest, frozen=True, kw_only=True, tag="run_from"):
+    """Continue the run from the last frame up to a document time, with the parameters of that moment.
+
+    The change of parameters is one step of undo.
+    """
+
+    time: float
+
+
+@MESSAGES.register
 class ChooseCopy(Request, frozen=True, kw_only=True, tag="choose_copy"):
     """Show another trial or point of a sweep of the open record: the index along one of its dimensions."""
 

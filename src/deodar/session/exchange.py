@@ -58,6 +58,7 @@ class WorldState:
         due: tick of the next exchange.
         origin: tick from which periods are counted.
         commands: commands of the motors at the last exchange; None: not read yet.
+        objects: what `World.arrangement` returned; None: nothing in the world can be moved.
     """
 
     kind: type[World]
@@ -66,6 +67,7 @@ class WorldState:
     due: int
     origin: int
     commands: Mapping[str, np.ndarray] | None
+    objects: Any = None
 
 
 class Exchange:
@@ -199,7 +201,10 @@ class Exchange:
             return None
         with errors_of(self.world, "keep"):
             kept = self.world.keep()
-        return WorldState(type(self.world), kept, self._last, self._due, self._origin, self._commands)
+            moves = type(self.world).arrangement is not World.arrangement
+            objects = self.world.arrangement() if moves else None
+        times = self._last, self._due, self._origin
+        return WorldState(type(self.world), kept, *times, self._commands, objects)
 
     def put_now(self, now: Any) -> None:
         """Set the state of a world that was computed inside the step: all copies, with an axis of one row."""
@@ -218,6 +223,8 @@ class Exchange:
                     structure = self.world.keep()
                 state = stored.filled(structure, state.leaves, name)
             with errors_of(self.world, "put"):
+                if kept.objects is not None:
+                    self.world.arrange(kept.objects)
                 self.world.put(state)
             self._last, self._due, self._origin, self._commands = (
                 kept.last,

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar import registry
+from deodar import codec, registry
 from deodar.errors import RecordError
 from deodar.recording import stored
 from deodar.session.exchange import StoredLeaves, WorldState
@@ -33,6 +33,14 @@ def to_file(kept: WorldState | None) -> tuple[dict[str, Any] | None, list[np.nda
         "due": kept.due,
         "origin": kept.origin,
     }
+    if kept.objects is not None:
+        try:
+            text["objects"] = codec.parse(codec.line(kept.objects))
+        except (TypeError, ValueError):
+            raise RecordError(
+                f"the objects of the world {kept.kind.__name__} are not plain data, which a file cannot hold",
+                fix="Let its `arrangement` return numbers, text, lists and dictionaries",
+            ) from None
     return text, [*leaves, *map(np.asarray, commands.values())]
 
 
@@ -49,4 +57,5 @@ def from_file(text: dict[str, Any] | None, arrays: list[np.ndarray]) -> WorldSta
         raise RecordError(f"was taken in a world of the kind {text['kind']}, which is not known here")
     leaves, commands, names = arrays[: text["leaves"]], arrays[text["leaves"] :], text["commands"]
     told = None if names is None else dict(zip(names, commands, strict=True))
-    return WorldState(kind, StoredLeaves(leaves), text["last"], text["due"], text["origin"], told)
+    times = text["last"], text["due"], text["origin"]
+    return WorldState(kind, StoredLeaves(leaves), *times, told, text.get("objects"))

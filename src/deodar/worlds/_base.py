@@ -60,6 +60,8 @@ class World:
         motors: signals of the motors by name.
         stands_in: whether the example of this class may be used when the user chose no world; False if the
             class needs an extra or a device.
+        repeatable: whether a restored state leads to the same readings again; False if they come from
+            outside, as those of a camera.
         opens: endings of the files that `open` reads, in lower case with the dot, such as .png; empty if its
             argument does not name a file.
 
@@ -71,6 +73,7 @@ class World:
     motors: Mapping[str, Signal] = {}
     period: float | None = None
     stands_in: ClassVar[bool] = True
+    repeatable: ClassVar[bool] = True
     opens: ClassVar[tuple[str, ...]] = ()
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
@@ -144,7 +147,7 @@ class World:
     def arrangement(self) -> Any:
         """Return the present state of everything that `place`, `move` and `remove` change, for `arrange`.
 
-        Actions of experiments need both methods.
+        Actions of experiments and snapshots of sessions need both methods; files hold plain data only.
         """
         raise WorldError(f"the world {type(self).__name__} does not list its objects")
 

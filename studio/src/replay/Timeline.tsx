@@ -27,6 +27,7 @@ import {
   useReplay,
 } from "./replay";
 import { ReplaySpeed } from "./ReplaySpeed";
+import { RunFromButton } from "./RunFromButton";
 import classes from "./Timeline.module.css";
 
 const ICON = 15;
@@ -149,6 +150,7 @@ export function Timeline() {
               : ""}
         </span>
       </div>
+      {!record && <RunFromButton />}
       {!record && (
         <Tooltip label="Back to the present">
           <Button

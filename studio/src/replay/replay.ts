@@ -3,7 +3,7 @@
 import { create } from "zustand";
 
 import type { TimelineView } from "../protocol";
-import { socket } from "../socket";
+import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { type Playing, played } from "./playback";
 
@@ -47,6 +47,15 @@ export const seekLast = (): void => seekEnd((known) => known.last);
 export function showPresent(): void {
   stop();
   seek(null);
+}
+
+// Let the run continue from the moment shown. The server computes its state again.
+export async function runFrom(): Promise<void> {
+  const time = timeline()?.time;
+  if (time != null) {
+    stop();
+    await request({ type: "run_from", time });
+  }
 }
 
 export function stop(): void {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import hashlib
 import math
 from collections.abc import Hashable, Mapping, Sequence
@@ -244,11 +243,15 @@ class Arena(PureWorld):
 
     def arrangement(self) -> Any:
         """Return the present objects and goals, which may change during a run, for `arrange`."""
-        return copy.deepcopy((self.objects, self.goals))
+        return {
+            "objects": self.objects.to_slots(),
+            "goals": None if self.goals is None else self.goals.tolist(),
+        }
 
     def arrange(self, kept: Any) -> None:
         """Restore objects and goals that `arrangement` returned."""
-        self.objects, self.goals = kept
+        self.objects.restore(kept["objects"])
+        self.goals = None if kept["goals"] is None else np.asarray(kept["goals"], float)
 
     def scene(self) -> Scene:
         """Return the arena from above, in its unit.

@@ -120,10 +120,18 @@ class ArenaObjects:
             if t is not None
         ]
 
+    def to_slots(self) -> list[Json]:
+        """Return what is in each slot as plain data, None for a free one; `restore` reads it, too."""
+        objects = iter(self.to_data())
+        return [None if t is None else next(objects) for t in self.slots]
+
     def restore(self, data: Sequence[Any]) -> None:
-        """Replace all objects by those that `to_data` returned."""
-        self.slots = [ArenaObject(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7])) for d in data]
-        self.windows = [np.asarray(d[8], np.int32) for d in data]
+        """Replace all objects by those that `to_data` or `to_slots` returned."""
+        self.slots = [
+            None if d is None else ArenaObject(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7]))
+            for d in data
+        ]
+        self.windows = [np.asarray([ALWAYS] if d is None else d[8], np.int32) for d in data]
         self.slots += [None] * (self.room - len(data))
         self.windows += [np.asarray([ALWAYS], np.int32)] * (self.room - len(data))
 

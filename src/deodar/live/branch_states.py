@@ -1,0 +1,251 @@
+"""Whole states of a run at intervals, from which every moment in between is computed again."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import time
+from collections.abc import Callable
+
+import jax
+import numpy as np
+
+from deodar.errors import RecordError
+from deodar.parameters import FrozenArray
+from deodar.session.session import Change, Session
+from deodar.session.snapshot import SessionSnapshot
+from deodar.worlds._base import World
+
+SECONDS = 65.0
+"""Wall time of running that the states cover, in seconds: a little more than the ring of shown states."""
+
+INTERVAL = 1.0
+"""Shortest wall time between two stored states, in seconds."""
+
+SHARE = 0.02
+"""Largest share of the wall time that storing may take."""
+
+MOST_BYTES = 256 * 2**20
+"""Largest sum of the sizes of the stored states, in bytes."""
+
+PAUSE = 0.5
+"""Longest wall time between two exchanges that counts as running, in seconds."""
+
+TOGETHER = 0.05
+"""Wall time of the steps between two reports of progress, in seconds."""
+
+Progress = Callable[[int, int], None]
+"""Function that is called with the number of steps taken and their total."""
+
+
+@dc.dataclass
+class _Stored:
+    """A state, its world, and the changes of the session since, up to the next state."""
+
+    snapshot: SessionSnapshot
+    world: World | None
+    wall: float
+    nbytes: int
+    changes: list[Change] = dc.field(default_factory=list[Change])
+
+    @property
+    def tick(self) -> int:
+        return self.snapshot.clock.tick
+
+
+class BranchStates:
+    """States of the last minute of a session, in a bounded amount of memory.
+
+    A moment is computed again from the last state before it: the session takes the same steps, with the
+    changes of its journal at their ticks. If the memory would exceed the limit, states are removed so that
+    the time between two of them grows in proportion to their age.
+    """
+
+    def __init__(self, interval: float = INTERVAL, most: int = MOST_BYTES) -> None:
+        self._interval, self._most = interval, most
+        self._stored: list[_Stored] = []
+        self._seen = 0
+        self._last: Change | None = None
+        self._wall, self._now, self._due = 0.0, 0.0, 0.0
+        self._too_large = 0
+
+    @property
+    def nbytes(self) -> int:
+        """Sum of the sizes of the stored states."""
+        return sum(one.nbytes for one in self._stored)
+
+    @property
+    def ticks(self) -> list[int]:
+        """Ticks of the stored states."""
+        return [one.tick for one in self._stored]
+
+    def follow(self, session: Session) -> None:
+        """Store the changes of the session since the last call, and its state if one is due.
+
+        Call it before steps are taken.
+        """
+        now = time.perf_counter()
+        self._wall += min(now - self._now, PAUSE) if self._stored else 0.0
+        self._now = now
+        self.note(session)
+        waits = session.next_dt != session.dt  # a snapshot does not hold a step that is still to come
+        if self._too_large or waits or (self._stored and self._wall < self._due):
+            return
+        if self._stored and self._stored[-1].tick == session.tick:
+            return
+        snapshot = session.snapshot()
+        nbytes = size(snapshot)
+        if 2 * nbytes > self._most:
+            self._too_large = nbytes
+            self._stored.clear()
+            return
+        self._stored.append(_Stored(snapshot, session.world, self._wall, nbytes))
+        self._due = self._wall + max(self._interval, (time.perf_counter() - now) / SHARE)
+        while len(self._stored) > 1 and self._stored[1].wall < self._wall - SECONDS:
+            self._stored.pop(0)
+        while self.nbytes > self._most:
+            self._thin()
+
+    def note(self, session: Session) -> None:
+        """Store the changes of the session since the last call."""
+        journal = session.journal
+        if self._seen and journal[self._seen - 1] is not self._last:  # of several moves the last one counts
+            self._seen -= 1
+            if self._stored and self._stored[-1].changes:
+                self._stored[-1].changes.pop()
+        new, self._seen = journal[self._seen :], len(journal)
+        self._last = journal[-1] if journal else None
+        if self._stored:
+            self._stored[-1].changes += [
+                dc.replace(change, value=session.world) if change.what == "world" else change
+                for change in new
+            ]
+
+    def branch(self, session: Session, tick: int, progress: Progress) -> None:
+        """Take a session back to an earlier tick; later states are forgotten.
+
+        The state has the bits that it had at this tick, also where parameters were changed before, inputs
+        injected or objects moved. If an error occurs, the session keeps its present state.
+
+        Raises:
+            RecordError: no state before this tick is stored, or the world cannot be read again.
+        """
+        self.note(session)
+        k = next((k for k in reversed(range(len(self._stored))) if self._stored[k].tick <= tick), None)
+        self._require(session, k)
+        assert k is not None
+        begin = self._stored[k]
+        present, world = session.snapshot(), session.world
+        changes = [c for c in begin.changes if c.tick <= tick and not (c.tick == tick and is_push(c))]
+        try:
+            if begin.world is not world:
+                session.world = begin.world
+            session.restore(begin.snapshot)
+            repeat_changes(session, changes, tick, progress)
+        except BaseException:
+            if session.world is not world:
+                session.world = world
+            session.restore(present)
+            self._seen = len(session.journal)
+            self._last = session.journal[-1]
+            raise
+        begin.changes = changes
+        del self._stored[k + 1 :]
+        self._seen, self._last, self._due = len(session.journal), session.journal[-1], self._wall
+
+    def _require(self, session: Session, k: int | None) -> None:
+        """Raise RecordError if a moment cannot be computed again."""
+        worlds = {session.world, *(one.world for one in self._stored)}
+        live = next((world for world in worlds if world is not None and not world.repeatable), None)
+        if live is not None:
+            raise RecordError(
+                f"The run cannot continue from this moment: the world {type(live).__name__} cannot be read"
+                " again",
+                fix="Save a snapshot before the moment you want to return to",
+            )
+        if self._too_large:
+            raise RecordError(
+                f"The run cannot continue from this moment: a state of it takes {self._too_large / 2**20:.0f}"
+                f" MiB, and states up to {self._most // 2 / 2**20:.0f} MiB are kept",
+                fix="Save a snapshot of the moment you want to return to",
+            )
+        if k is None:
+            raise RecordError(
+                "The run cannot continue from this moment: no state before it is kept any more",
+                fix="Choose a later moment",
+            )
+
+    def _thin(self) -> None:
+        """Remove the state whose neighbours are closest to each other, in proportion to its age."""
+        if len(self._stored) <= 2:
+            self._stored.pop(0)
+            return
+        walls = np.array([one.wall for one in self._stored])
+        gaps, ages = walls[2:] - walls[:-2], self._wall - walls[1:-1]
+        k = int(np.argmin(gaps / np.maximum(ages, 1e-9))) + 1
+        self._stored[k - 1].changes += self._stored.pop(k).changes
+
+
+def is_push(change: Change) -> bool:
+    """Return whether a change is an injected input, which lasts for steps."""
+    return change.what.startswith("push ")
+
+
+def repeat_changes(session: Session, changes: list[Change], tick: int, progress: Progress) -> None:
+    """Advance a session to a tick, as fast as possible, with changes at their ticks.
+
+    Raises:
+        RecordError: a change cannot be repeated.
+    """
+    first, left = session.tick, list(changes)
+    together = 1
+    while True:
+        while left and left[0].tick <= session.tick:
+            repeat_change(session, left.pop(0), tick)
+        if session.tick >= tick:
+            return
+        end = left[0].tick if left else tick
+        began, n = time.perf_counter(), min(end - session.tick, together)
+        session.step(n)
+        seconds = time.perf_counter() - began
+        together = max(1, min(2 * together, round(n * TOGETHER / max(seconds, 1e-9))))
+        progress(session.tick - first, tick - first)
+
+
+def repeat_change(session: Session, change: Change, tick: int) -> None:
+    """Make a change of a journal again; an injected input lasts at most up to `tick`."""
+    what, value = change.what, change.value
+    verb, _, name = what.partition(" ")
+    if what == "document":
+        session.edit(value)
+    elif what == "dt":
+        session.dt = value
+    elif what == "world":
+        session.world = value
+    elif verb == "push":
+        amount, n = value
+        session.inject(
+            name, amount.data if isinstance(amount, FrozenArray) else amount, min(n, tick - session.tick)
+        )
+    elif verb == "world.move":
+        session.move(name, value)
+    elif verb == "world.place":
+        session.place(name, *value)
+    elif verb == "world.remove":
+        session.remove(name)
+    elif what in ("reset", "restore"):
+        raise RecordError(f"The run cannot continue from this moment: a {what} lies before it")
+    else:
+        session.set(what, value.data if isinstance(value, FrozenArray) else value)
+
+
+def size(snapshot: SessionSnapshot) -> int:
+    """Return the bytes of the arrays of a snapshot, each counted once."""
+    own = [array for pair in snapshot.states.values() for row in pair for array in row.values()]
+    theirs = [] if snapshot.world is None else jax.tree.leaves(snapshot.world.world)
+    bases: dict[int, int] = {}
+    for array in [*own, *(leaf for leaf in theirs if hasattr(leaf, "nbytes"))]:
+        base = array
+        while isinstance(base, np.ndarray) and isinstance(base.base, np.ndarray):
+            base = base.base
+        bases[id(base)] = int(base.nbytes)
+    return sum(bases.values())
