@@ -51,7 +51,7 @@ LAYOUTS = [
 ]
 
 
-@pytest.mark.parametrize("compressors", [COMPRESSORS, ZSTD], ids=["blosc", "zstd"])
+@pytest.mark.parametrize("compressors", [COMPRESSORS, ZSTD, ZSTD[:1]], ids=["blosc", "zstd", "plain"])
 @pytest.mark.parametrize("dtype", ["float32", "float64", "int64", "bool"])
 @pytest.mark.parametrize(("shape", "chunks"), LAYOUTS)
 def test_zarr_reads_blocks_that_are_written_anywhere(
@@ -122,7 +122,7 @@ def test_a_chunk_of_another_array_is_not_read(tmp_path: Path) -> None:
         array.load((0, 0), (4, 50))
 
 
-@pytest.mark.parametrize("compressors", [None, zarr.codecs.GzipCodec(), zarr.codecs.ZstdCodec()])
+@pytest.mark.parametrize("compressors", [None, zarr.codecs.GzipCodec()])
 def test_other_encodings_are_refused_by_name(compressors: Any, tmp_path: Path) -> None:
     with pytest.raises(RecordError, match=r"encoded by bytes.*cannot continue"):
         created(tmp_path / "a", (4, 5), (4, 5), "float32", compressors)

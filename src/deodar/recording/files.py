@@ -19,7 +19,7 @@ import xarray
 from deodar import codec, renamed
 from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
 from deodar.model import output
-from deodar.recording import growing, netcdf, places, portable, sound, table
+from deodar.recording import growing, lazy, netcdf, places, portable, sound, table
 from deodar.recording.provenance import KEY
 from deodar.recording.record import time_dimension
 
@@ -269,9 +269,10 @@ def _opened(path: Path, kind: str) -> xarray.Dataset:
     if kind == "netcdf":
         return xarray.open_dataset(path, engine="scipy", decode_cf=False)
     # the metadata of the group commit a record that grows; records of earlier versions may lack them
-    whole = "consolidated_metadata" in (path / "zarr.json").read_text(encoding="utf-8")
-    data = xarray.open_zarr(path, zarr_format=3, consolidated=whole, decode_cf=False, chunks=None)
-    return sound.present(data, path)
+    group = codec.parse((path / "zarr.json").read_text(encoding="utf-8"))
+    members = group.get("consolidated_metadata", {}).get("metadata")
+    data = xarray.open_zarr(path, zarr_format=3, consolidated=bool(members), decode_cf=False, chunks=None)
+    return sound.present(lazy.lazily(data, path, members or {}), path)
 
 
 if not TYPE_CHECKING:

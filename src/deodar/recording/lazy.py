@@ -1,0 +1,113 @@
+"""Arrays of a Zarr record that read what is selected, several chunks at once.
+
+A time course of one place needs every chunk of a field. Threads read, check and decompress them, and keep of
+each only what is selected. Zarr needs a millisecond of Python for a chunk, one after another.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import threading
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray
+from xarray.backends import BackendArray
+from xarray.core import indexing
+
+from deodar.errors import RecordError
+from deodar.recording.chunks import ChunkedArray
+
+FEW = 4
+"""Number of chunks that one thread reads."""
+
+THREADS = 8
+"""Largest number of threads (a guess: beyond, the memory is the limit)."""
+
+
+class _Part(NamedTuple):
+    """A chunk along one axis: which of its places are selected, and where they are in the result."""
+
+    chunk: int
+    inner: np.ndarray
+    outer: slice
+
+
+class LazyArray(BackendArray):
+    """An array of a record as xarray indexes it.
+
+    Args:
+        array: its chunks.
+        shape: its shape.
+    """
+
+    def __init__(self, array: ChunkedArray, shape: Sequence[int]) -> None:
+        self.array, self.shape = array, tuple(shape)
+        self.dtype = array.dtype.newbyteorder("=")
+
+    def __getitem__(self, key: Any) -> Any:
+        """Return the selected values."""
+        support = indexing.IndexingSupport.OUTER
+        return indexing.explicit_indexing_adapter(key, self.shape, support, self._selected)
+
+    def _selected(self, key: tuple[Any, ...]) -> np.ndarray:
+        """Return the values of an outer index: a number, slice or array of numbers for each axis."""
+        wanted = [np.arange(n)[k] for k, n in zip(key, self.shape, strict=True)]
+        axes = [_parts(np.atleast_1d(w), c) for w, c in zip(wanted, self.array.chunks, strict=True)]
+        found = np.empty([np.size(w) for w in wanted], self.dtype)
+        rooms = threading.local()
+
+        def take(parts: tuple[_Part, ...]) -> None:
+            if not hasattr(rooms, "chunk"):
+                rooms.chunk = self.array.empty()
+            chunk = self.array.read(tuple(part.chunk for part in parts), rooms.chunk)
+            found[tuple(part.outer for part in parts)] = chunk[np.ix_(*(part.inner for part in parts))]
+
+        places = list(itertools.product(*axes))
+        threads = min(THREADS, os.cpu_count() or 1)
+        if len(places) <= FEW or threads == 1:
+            for place in places:
+                take(place)
+        else:
+            with ThreadPoolExecutor(threads) as pool:
+                list(pool.map(take, places, chunksize=16))
+        return found.reshape([n for w in wanted for n in w.shape])
+
+
+def _parts(wanted: np.ndarray, size: int) -> list[_Part]:
+    """Return the chunks of this size that contain the wanted places, in their order."""
+    if not wanted.size:
+        return []
+    chunks = wanted // size
+    starts = [0, *(np.flatnonzero(np.diff(chunks)) + 1).tolist(), len(wanted)]
+    return [
+        _Part(int(chunks[a]), wanted[a:b] - chunks[a] * size, slice(a, b))
+        for a, b in itertools.pairwise(starts)
+    ]
+
+
+def lazily(data: xarray.Dataset, path: Path, members: Mapping[str, Any]) -> xarray.Dataset:
+    """Return a Dataset of a Zarr folder whose arrays of several chunks are read by threads.
+
+    Args:
+        data: the Dataset as xarray opened it.
+        path: its folder.
+        members: metadata of its arrays.
+    """
+    new: dict[str, xarray.Variable] = {}
+    for name in data.data_vars:
+        variable, about = data.variables[name], members.get(str(name))
+        if about is None or not variable.size:
+            continue
+        try:
+            array = ChunkedArray(path / str(name), about)
+        except (RecordError, TypeError, KeyError):
+            continue  # an array of texts, or of another program: Zarr reads it
+        if array.chunks != variable.shape:
+            lazy = indexing.LazilyIndexedArray(LazyArray(array, variable.shape))
+            new[str(name)] = xarray.Variable(variable.dims, lazy, variable.attrs, variable.encoding)
+    return data.assign(new)
