@@ -51,7 +51,7 @@ const took = () => studio.page.getByRole("dialog", { name: "What did not match" 
 /** Find an element by its name and select it. */
 async function find(name: string): Promise<void> {
   const { page } = studio;
-  await button(page, "Search ( / )").click();
+  await button(page, "Search (Ctrl+F)").click();
   await page.getByRole("textbox", { name: "Search for an element" }).fill(name);
   await page
     .getByRole("option")

@@ -114,7 +114,7 @@ test("a dragged box keeps its position, also in the file", async () => {
 
 test("search finds an element, selects it and scrolls to it", async () => {
   const { page } = studio;
-  await page.keyboard.press("/");
+  await page.keyboard.press("Control+f");
   const field = page.getByRole("textbox", { name: "Search for an element" });
   await field.fill("no such thing");
   await page.getByText("No element matches").waitFor();
@@ -129,7 +129,7 @@ test("search finds an element, selects it and scrolls to it", async () => {
   await box(page, "lift.satisfied").waitFor();
   await field.waitFor({ state: "detached" });
 
-  await button(page, "Search ( / )").click();
+  await button(page, "Search (Ctrl+F)").click();
   await field.fill("search.ends");
   await page.getByRole("option", { name: /search\.ends/ }).click();
   await inspected("ends").waitFor();

@@ -2,6 +2,7 @@
 
 import { useEffect } from "react";
 
+import { Chooser } from "./build/Chooser";
 import { Dock } from "./panels/Dock";
 import { Dialogs } from "./pages/Dialogs";
 import { DropArea } from "./pages/DropArea";
@@ -74,6 +75,7 @@ function Page() {
       <main className={classes.dock}>
         <Dock />
       </main>
+      <Chooser />
     </div>
   );
 }

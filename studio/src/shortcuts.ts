@@ -2,6 +2,7 @@
 
 import { useEffect } from "react";
 
+import { openPalette } from "./build/palette";
 import { ask, useDialogs } from "./pages/dialogs";
 import { open, save, saveAs } from "./pages/flows";
 import { useView } from "./pages/view";
@@ -46,6 +47,11 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["End"], does: "Last frame", run: seekLast, past: true },
   { keys: ["Ctrl+Z"], does: "Undo", run: () => request({ type: "undo" }), repeats: true },
   { keys: ["Ctrl+Shift+Z", "Ctrl+Y"], does: "Redo", run: () => request({ type: "redo" }), repeats: true },
+  {
+    keys: ["/"],
+    does: "Add an element (also Tab, with the pointer on the canvas)",
+    run: () => openPalette(),
+  },
   { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
   { keys: ["Ctrl+S"], does: "Save", run: () => save(), typing: true },
   { keys: ["Ctrl+Shift+S"], does: "Save as", run: saveAs, typing: true },

@@ -1,20 +1,31 @@
 // The buttons of the canvas.
 
 import { ActionIcon, Tooltip } from "@mantine/core";
-import { IconMaximize, IconMinus, IconPlus, IconSearch, IconSitemap } from "@tabler/icons-react";
+import {
+  IconMaximize,
+  IconMinus,
+  IconPlus,
+  IconSearch,
+  IconSitemap,
+  IconSquarePlus,
+} from "@tabler/icons-react";
 import { useReactFlow, type FitViewOptions } from "@xyflow/react";
 import type { ReactNode } from "react";
+import { openPalette } from "../build/palette";
 import { useOffline } from "../pages/NeedsServer";
 import { glide } from "./glide";
 
 type Props = { onSearch: () => void; onTidy: () => void };
 
 export function Controls({ onSearch, onTidy }: Props) {
-  const { zoomIn, zoomOut, fitView } = useReactFlow();
+  const { zoomIn, zoomOut, fitView, getNodes } = useReactFlow();
   const offline = useOffline();
   return (
     <div className="graph-controls" role="toolbar" aria-label="Canvas">
-      <Control label="Search ( / )" onClick={onSearch}>
+      <Control label="Add an element ( / )" disabled={offline} onClick={() => openPalette(null)}>
+        <IconSquarePlus size={17} />
+      </Control>
+      <Control label="Search (Ctrl+F)" onClick={onSearch}>
         <IconSearch size={16} />
       </Control>
       <Control label="Zoom in" onClick={() => void zoomIn()}>
@@ -23,7 +34,10 @@ export function Controls({ onSearch, onTidy }: Props) {
       <Control label="Zoom out" onClick={() => void zoomOut()}>
         <IconMinus size={16} />
       </Control>
-      <Control label="Show everything" onClick={() => void fitView({ ...FIT, duration: glide(GLIDE_MS) })}>
+      <Control
+        label="Show everything"
+        onClick={() => getNodes().length > 0 && void fitView({ ...FIT, duration: glide(GLIDE_MS) })}
+      >
         <IconMaximize size={16} />
       </Control>
       <Control label="Tidy: compute a new layout" disabled={offline} onClick={onTidy}>

@@ -14,12 +14,16 @@ import {
 } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
 import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { openPalette } from "../build/palette";
+import { useStage } from "../build/useStage";
 import { openPlot } from "../panels/openPlot";
+import { useDialogs } from "../pages/dialogs";
 import { useStudio } from "../store";
 import { place, unfold } from "./arrange";
 import { Box } from "./Box";
 import { Card } from "./Card";
 import { Controls, FIT, GLIDE_MS } from "./Controls";
+import { EmptyHint } from "./EmptyHint";
 import { Folded } from "./Folded";
 import { Frame } from "./Frame";
 import { glide } from "./glide";
@@ -48,13 +52,6 @@ export function Graph() {
   if (structure === null) {
     return <div className="graph" />;
   }
-  if (structure.elements.length === 0) {
-    return (
-      <div className="graph">
-        <p className="graph-empty">This document has no elements yet.</p>
-      </div>
-    );
-  }
   return (
     <ReactFlowProvider key={session}>
       <Canvas structure={structure} />
@@ -75,15 +72,14 @@ function Canvas({ structure }: { structure: Structure }) {
   useEffect(() => layer.change(), [layer, nodes]);
   const flow = useReactFlow();
   const touched = useWhole(around);
+  const stage = useStage(around, now);
+  // The first element of an empty document stays where it was put.
+  const [fits] = useState(now.nodes.length > 0);
 
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
-      const slash = event.key === "/" && !isTyping(event.target);
-      const control =
-        event.key.toLowerCase() === "f" &&
-        (event.ctrlKey || event.metaKey) &&
-        (around.current?.contains(document.activeElement) ?? false);
-      if (!event.defaultPrevented && (slash || control)) {
+      const control = event.key.toLowerCase() === "f" && (event.ctrlKey || event.metaKey);
+      if (!event.defaultPrevented && control && useDialogs.getState().asked === null) {
         event.preventDefault();
         setSearching(true);
       }
@@ -117,6 +113,7 @@ function Canvas({ structure }: { structure: Structure }) {
       <div
         className="graph"
         ref={around}
+        {...stage}
         onPointerDownCapture={touched}
         onWheelCapture={touched}
         onKeyDownCapture={touched}
@@ -133,6 +130,10 @@ function Canvas({ structure }: { structure: Structure }) {
           onNodeClick={() => useHover.getState().close()}
           onNodeDoubleClick={(_, node) => node.type === "box" && openPlot({ element: node.id })}
           onPaneClick={() => useStudio.getState().select([])}
+          onPaneContextMenu={(event) => {
+            event.preventDefault();
+            openPalette({ x: event.clientX, y: event.clientY });
+          }}
           onMoveStart={() => move(true)}
           onMove={(_, view) => layer.move(view)}
           onNodeDrag={() => layer.change()}
@@ -147,7 +148,7 @@ function Canvas({ structure }: { structure: Structure }) {
           zoomOnDoubleClick={false}
           minZoom={0.08}
           maxZoom={2.5}
-          fitView
+          fitView={fits}
           fitViewOptions={FIT}
         >
           {nodes.length <= MOST_DOTTED && (
@@ -164,6 +165,7 @@ function Canvas({ structure }: { structure: Structure }) {
             nodeClassName={miniClass}
           />
         </ReactFlow>
+        {nodes.length === 0 && <EmptyHint />}
         <Controls onSearch={() => setSearching(true)} onTidy={() => void tidy()} />
         {searching && (
           <Search
@@ -211,20 +213,21 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
 // Until a person moves the view, all boxes are visible at any size of the panel: at first it rarely has its
 // own. Gives what to call then.
 function useWhole(around: RefObject<HTMLElement | null>): () => void {
-  const { fitView } = useReactFlow();
+  const { fitView, getNodes } = useReactFlow();
   const touched = useRef(false);
   useEffect(() => {
     if (around.current === null) {
       return;
     }
     const observer = new ResizeObserver(() => {
-      if (!touched.current) {
+      // xyflow would keep the request of an empty canvas for its first box
+      if (!touched.current && getNodes().length > 0) {
         void fitView(FIT);
       }
     });
     observer.observe(around.current);
     return () => observer.disconnect();
-  }, [around, fitView]);
+  }, [around, fitView, getNodes]);
   return useCallback(() => {
     touched.current = true;
   }, []);
@@ -232,10 +235,4 @@ function useWhole(around: RefObject<HTMLElement | null>): () => void {
 
 function miniClass({ type }: SceneNode): string {
   return `graph-mini-${type}`;
-}
-
-function isTyping(target: EventTarget | null): boolean {
-  return (
-    target instanceof HTMLElement && (target.isContentEditable || target.matches("input, textarea, select"))
-  );
 }

@@ -6,6 +6,7 @@ import {
   IconDeviceFloppy,
   IconFileExport,
   IconFileImport,
+  IconFilePlus,
   IconFolderOpen,
   IconHistory,
   IconLayoutGrid,
@@ -16,7 +17,7 @@ import {
 import { useStudio } from "../store";
 import { Mark } from "./Mark";
 import { ask } from "./dialogs";
-import { leave, open, save, saveAs } from "./flows";
+import { leave, open, openEmpty, save, saveAs } from "./flows";
 import { takeValues } from "./values";
 import { useView } from "./view";
 import { keysText } from "../shortcuts";
@@ -36,6 +37,9 @@ export function FileMenu() {
         </UnstyledButton>
       </Menu.Target>
       <Menu.Dropdown>
+        <Menu.Item leftSection={<IconFilePlus {...ICON} />} onClick={() => void openEmpty()}>
+          New
+        </Menu.Item>
         <Menu.Item
           leftSection={<IconFolderOpen {...ICON} />}
           rightSection={<Keys keys="Ctrl+O" />}

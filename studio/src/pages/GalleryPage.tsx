@@ -1,14 +1,14 @@
 // The first page: a file, a recent document, or an example.
 
 import { Button, Group } from "@mantine/core";
-import { IconArrowLeft, IconFile, IconFolderOpen } from "@tabler/icons-react";
+import { IconArrowLeft, IconFile, IconFilePlus, IconFolderOpen } from "@tabler/icons-react";
 
 import { useStudio } from "../store";
 import { ExampleCard } from "./ExampleCard";
 import { Mark } from "./Mark";
 import { RecoveryCard } from "./RecoveryCard";
 import { SchemeToggle } from "./SchemeToggle";
-import { leave, open } from "./flows";
+import { leave, open, openEmpty } from "./flows";
 import { lastPart, parent } from "./paths";
 import { useView } from "./view";
 import classes from "./GalleryPage.module.css";
@@ -50,7 +50,14 @@ export function GalleryPage() {
             <Button leftSection={<IconFolderOpen size={17} />} onClick={() => void open()}>
               Open a file
             </Button>
-            <span className={classes.hint}>or drop one on this page</span>
+            <Button
+              variant="default"
+              leftSection={<IconFilePlus size={17} />}
+              onClick={() => void openEmpty()}
+            >
+              Empty document
+            </Button>
+            <span className={classes.hint}>or drop a file on this page</span>
           </Group>
           {recent.length > 0 && (
             <ul className={classes.recent} aria-label="Recent files">

@@ -10,7 +10,8 @@ type Line = { keys: readonly string[]; does: string };
 
 const ELSEWHERE: Record<string, readonly Line[]> = {
   "In the architecture": [
-    { keys: ["/"], does: "Search" },
+    { keys: ["Ctrl+F"], does: "Search" },
+    { keys: ["Double click", "on the ground"], does: "Add an element there (also the right button)" },
     { keys: ["Double click"], does: "Plot an element" },
   ],
   "In a plot of a field": [

@@ -4,6 +4,7 @@
 import type {
   Answer,
   Close,
+  NewDocument,
   OpenExample,
   OpenFile,
   OpenPackage,
@@ -20,7 +21,8 @@ import { opening, sortOf } from "./paths";
 // The largest message that the server accepts, base64 included.
 const MOST_BYTES = 40 * 2 ** 20;
 
-type Leaving = OpenFile | OpenExample | OpenText | OpenPackage | OpenRecordModel | Recover | Close;
+type Leaving =
+  NewDocument | OpenFile | OpenExample | OpenText | OpenPackage | OpenRecordModel | Recover | Close;
 
 // Go to another document, or to none. Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {
@@ -45,6 +47,11 @@ export async function open(): Promise<boolean> {
     return false;
   }
   return typeof chosen === "string" ? leave({ type: "open_file", path: chosen }) : takeFile(chosen);
+}
+
+// Open a document without elements and without a file.
+export function openEmpty(): Promise<boolean> {
+  return leave({ type: "new" });
 }
 
 // Compare the open record with another one.

@@ -4,6 +4,7 @@
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
 import { useEffect, useRef, useState, useSyncExternalStore } from "react";
+import { PalettePanel } from "../build/PalettePanel";
 import { Costs } from "../costs/Costs";
 import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
@@ -34,6 +35,11 @@ const COMPONENTS = {
   costs: () => (
     <NeedsServer>
       <Costs />
+    </NeedsServer>
+  ),
+  palette: () => (
+    <NeedsServer>
+      <PalettePanel />
     </NeedsServer>
   ),
   world: () => (

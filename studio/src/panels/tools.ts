@@ -1,12 +1,13 @@
 // The panels that exist once: their names and places.
 
-export type Tool = "graph" | "inspector" | "pins" | "costs" | "world";
+export type Tool = "graph" | "inspector" | "pins" | "costs" | "world" | "palette";
 
 export const TOOLS: Record<Tool, { title: string; direction: "left" | "right"; width: number }> = {
   graph: { title: "Architecture", direction: "left", width: 700 },
   inspector: { title: "Inspector", direction: "right", width: 330 },
   pins: { title: "Sliders", direction: "right", width: 330 },
   costs: { title: "Costs", direction: "right", width: 400 },
+  palette: { title: "Elements", direction: "left", width: 300 },
   world: { title: "World", direction: "right", width: 460 },
 };
 

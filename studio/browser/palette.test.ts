@@ -1,0 +1,149 @@
+import type { Locator } from "playwright-core";
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { box, button, file, panel } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio();
+  observer = await studio.observe();
+});
+
+// Each test begins with an empty document.
+beforeEach(async () => {
+  const { page } = studio;
+  await observer.ask({ type: "new", discard: true });
+  await page.getByText("This document has no elements yet.").waitFor();
+});
+
+afterAll(() => studio.stop());
+
+const palette = (): Locator => studio.page.getByRole("dialog", { name: "Add an element" });
+const search = (): Locator => palette().getByRole("combobox", { name: "Add an element" });
+const option = (name: string): Locator => palette().getByRole("option", { name, exact: true });
+const inspected = (name: string): Promise<void> =>
+  panel(studio.page, "Inspector").getByRole("heading", { name, exact: true }).waitFor();
+const kinds = (): string[] => (observer.document?.elements ?? []).map(({ kind }) => kind);
+
+/** A place of the empty ground, as a share of the canvas. */
+async function ground(across: number, down: number): Promise<{ x: number; y: number }> {
+  const all = await studio.page.locator(".react-flow__pane").boundingBox();
+  if (all === null) throw new Error("The canvas is not visible.");
+  return { x: all.x + all.width * across, y: all.y + all.height * down };
+}
+
+test("the gallery and the file menu open an empty document", async () => {
+  const { page } = studio;
+  await file(page, /^Close/);
+  await button(page, "Empty document").click();
+  await page.getByText("This document has no elements yet.").waitFor();
+  expect(observer.document?.elements).toEqual([]);
+  await shot(page, "palette-empty");
+  await file(page, "New");
+  await page.getByText("This document has no elements yet.").waitFor();
+});
+
+test("a double click on the ground adds the element that is clicked, at the pointer", async () => {
+  const { page } = studio;
+  const at = await ground(0.3, 0.4);
+  await page.mouse.dblclick(at.x, at.y);
+  await option("Gaussian stimulus").waitFor();
+  await palette().locator(".katex").first().waitFor();
+  await shot(page, "palette-open");
+  await option("Field").click();
+  await box(page, "field").waitFor();
+  await inspected("field");
+  const found = await box(page, "field").boundingBox();
+  expect(found?.x).toBeLessThan(at.x);
+  expect((found?.x ?? 0) + (found?.width ?? 0)).toBeGreaterThan(at.x);
+  expect(Math.abs((found?.y ?? 0) - at.y)).toBeLessThan(40);
+  await shot(page, "palette-added");
+});
+
+test("a new element is shown in less than 100 ms, and the document can run at once", async () => {
+  const { page } = studio;
+  await page.keyboard.press("/");
+  await search().fill("field");
+  const took = await page.evaluate(async () => {
+    const field = document.querySelector<HTMLElement>(".chooser input");
+    const begun = performance.now();
+    field?.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+    while (document.querySelector(".graph-box") === null) await new Promise(requestAnimationFrame);
+    return performance.now() - begun;
+  });
+  console.log(`a new element was shown after ${took.toFixed(0)} ms`);
+  expect(took).toBeLessThan(100);
+  await observer.runs();
+});
+
+test("the keyboard alone finds, adds and undoes", async () => {
+  const { page } = studio;
+  await page.keyboard.press("/");
+  await search().pressSequentially("gau");
+  await page.keyboard.press("Enter");
+  await observer.until(() => kinds().join() === "GaussianStimulus");
+  await palette().waitFor({ state: "detached" });
+  await inspected("gaussian_stimulus");
+  await expect
+    .poll(() => page.evaluate(() => document.activeElement?.getAttribute("aria-label")))
+    .toMatch(/^gaussian_stimulus, /);
+  await page.keyboard.press("Control+z");
+  await observer.until(() => kinds().length === 0);
+});
+
+test("Escape closes the palette, and so does a press beside it", async () => {
+  const { page } = studio;
+  const at = await ground(0.2, 0.2);
+  await page.mouse.click(at.x, at.y, { button: "right" });
+  await palette().waitFor();
+  await page.keyboard.press("Escape");
+  await palette().waitFor({ state: "detached" });
+  await page.mouse.move(at.x, at.y);
+  await page.keyboard.press("Tab");
+  await palette().waitFor();
+  const beside = await ground(0.9, 0.05);
+  await page.mouse.click(beside.x, beside.y);
+  await palette().waitFor({ state: "detached" });
+  expect(kinds()).toEqual([]);
+});
+
+test("kernels are added to the selected field, and state what they need without one", async () => {
+  const { page } = studio;
+  await page.keyboard.press("/");
+  await search().fill("mexican hat");
+  const hat = palette().getByRole("option", { name: /^Mexican hat/ });
+  expect(await hat.getAttribute("aria-disabled")).toBe("true");
+  await hat.getByText("Select an element that has kernels").waitFor();
+  await search().fill("field");
+  await page.keyboard.press("Enter");
+  await inspected("field");
+  await page.keyboard.press("/");
+  await search().fill("mexican hat");
+  await page.keyboard.press("Enter");
+  await observer.until(
+    () => (observer.value("field", "kernel") as { kind: string }[]).at(-1)?.kind === "MexicanHat",
+  );
+});
+
+test("the list of elements is a panel: a line is dragged to the canvas, or clicked", async () => {
+  const { page } = studio;
+  await button(page, "Open panels and plots").click();
+  await page.getByRole("menuitem", { name: "Elements", exact: true }).click();
+  const list = panel(page, "Elements");
+  await list.getByRole("option", { name: "Field", exact: true }).click();
+  await box(page, "field").waitFor();
+  const at = await ground(0.2, 0.75);
+  const line = await list.getByRole("option", { name: "Box stimulus", exact: true }).boundingBox();
+  await page.mouse.move((line?.x ?? 0) + 60, (line?.y ?? 0) + 12);
+  await page.mouse.down();
+  await page.mouse.move(at.x - 20, at.y - 20, { steps: 4 });
+  await page.mouse.move(at.x, at.y, { steps: 4 });
+  await page.mouse.up();
+  await box(page, "box_stimulus").waitFor();
+  await shot(page, "palette-panel");
+  expect(kinds().sort()).toEqual(["BoxStimulus", "Field"]);
+});

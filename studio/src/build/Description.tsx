@@ -1,0 +1,28 @@
+// What a kind computes, below the list: its equation and the meaning of its parameters.
+
+import { Tex } from "../inspector/Tex";
+import type { Kind } from "../protocol";
+
+const LINES = 2;
+const MOST = 5;
+
+export function Description({ kind }: { kind: Kind }) {
+  const meanings = kind.parameters
+    .map((form) => form.meaning || form.name.replaceAll("_", " "))
+    .filter((meaning, i, all) => all.indexOf(meaning) === i);
+  return (
+    <div className="chooser-description">
+      {kind.equation.slice(0, LINES).map((line) => (
+        <div className="chooser-equation" key={line}>
+          <Tex source={line} />
+        </div>
+      ))}
+      {meanings.length > 0 && (
+        <p className="chooser-meanings" title={meanings.join(", ")}>
+          {meanings.slice(0, MOST).join(", ")}
+          {meanings.length > MOST && ", …"}
+        </p>
+      )}
+    </div>
+  );
+}

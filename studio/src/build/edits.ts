@@ -1,0 +1,48 @@
+// Changes of the architecture, each one message to the server and one step of undo.
+
+import type { Answer, Kind } from "../protocol";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import type { Values } from "../values";
+import type { End, Ends } from "./ends";
+import { showMade } from "./made";
+import { pathOf, type Spot } from "./spot";
+
+export type Adding = {
+  values?: Values;
+  // The ends of connections to the new element.
+  source?: End;
+  target?: End;
+  // The connection into which it is inserted.
+  wire?: Ends;
+};
+
+export async function addElement(kind: string, spot: Spot, adding: Adding = {}): Promise<void> {
+  const document = useStudio.getState().document;
+  const { values = {}, source = null, target = null, wire = null } = adding;
+  const answer = await request({
+    type: "add_element",
+    kind,
+    values,
+    group: document === null ? [] : pathOf(spot.group, document),
+    at: [spot.at.x, spot.at.y],
+    source,
+    target,
+    wire,
+  });
+  showMade(answer.made ?? []);
+}
+
+// Add a part to a list of parts, such as a kernel, or put it into the place of another.
+export function addPart(element: string, parameter: string, several: boolean, part: Kind): Promise<Answer> {
+  const value = part.example ?? { kind: part.name };
+  const before = useStudio.getState().elements.get(element)?.values[parameter];
+  return request({
+    type: "set",
+    element,
+    parameter,
+    value: several ? [...(Array.isArray(before) ? before : []), value] : value,
+  });
+}
+
+export const connect = (ends: Ends): Promise<Answer> => request({ type: "connect", ...ends });

@@ -1,0 +1,99 @@
+// Where a new box is put: at the pointer, at the end of a wire, or beside what is selected.
+
+import { BOX, LIVE } from "../graph/boxes";
+import type { Places, Point, Rect } from "../graph/layout";
+import { keyOf, type Tree } from "../graph/tree";
+import type { DocumentView } from "../protocol";
+
+export const NEW_BOX = { width: BOX.width, height: BOX.title + LIVE.curve + BOX.pad };
+const GAP = { side: 72, apart: 24 };
+// The pointer is at the name of a new box.
+const HEAD = BOX.title / 2;
+
+// A position on the canvas, and the key of the group around it.
+export type Spot = { at: Point; group: string };
+
+type Scene = { tree: Tree; places: Places };
+
+// The path of a group by its key.
+export function pathOf(
+  key: string,
+  { groups, elements }: Pick<DocumentView, "groups" | "elements">,
+): string[] {
+  const paths = [...groups, ...elements.map((e) => e.group)];
+  for (const path of paths) {
+    for (let depth = path.length; depth > 0; depth--) {
+      if (keyOf(path.slice(0, depth)) === key) {
+        return path.slice(0, depth);
+      }
+    }
+  }
+  return [];
+}
+
+// A box with its name below the pointer.
+export function under(at: Point, scene: Scene): Spot {
+  return rounded({ x: at.x - NEW_BOX.width / 2, y: at.y - HEAD }, groupAt(at, scene));
+}
+
+// A box whose inputs (`right`) or outputs are at the end of a wire.
+export function atEnd(at: Point, right: boolean, scene: Scene): Spot {
+  const x = right ? at.x : at.x - NEW_BOX.width;
+  return rounded({ x, y: at.y - NEW_BOX.height / 2 }, groupAt(at, scene));
+}
+
+// A free place at the right or left of a box.
+export function beside(element: string, right: boolean, scene: Scene): Spot {
+  const at = scene.places.elements.get(element) ?? { x: 0, y: 0 };
+  const x = right ? at.x + NEW_BOX.width + GAP.side : at.x - NEW_BOX.width - GAP.side;
+  return rounded(free({ x, y: at.y }, scene), scene.tree.home.get(element) ?? "");
+}
+
+// A free place near a point of the canvas, such as its middle.
+export function near(at: Point, scene: Scene): Spot {
+  return rounded(free({ x: at.x - NEW_BOX.width / 2, y: at.y - NEW_BOX.height / 2 }, scene), "");
+}
+
+// The same place, or the next one below it without boxes.
+function free(at: Point, { places, tree }: Scene): Point {
+  const shown = new Set([...tree.groups.values()].flatMap((group) => group.elements));
+  const boxes: Rect[] = [...places.elements]
+    .filter(([id]) => shown.has(id))
+    .map(([, box]) => ({ ...box, ...NEW_BOX }));
+  let y = at.y;
+  for (let hit = blocking(boxes, at.x, y); hit !== undefined; hit = blocking(boxes, at.x, y)) {
+    y = hit.y + hit.height + GAP.apart;
+  }
+  return { x: at.x, y };
+}
+
+function blocking(boxes: Rect[], x: number, y: number): Rect | undefined {
+  return boxes.find(
+    (box) =>
+      Math.abs(box.x - x) < NEW_BOX.width + GAP.apart / 2 &&
+      Math.abs(box.y - y) < NEW_BOX.height + GAP.apart / 2,
+  );
+}
+
+// The innermost open group at a point.
+function groupAt(at: Point, { tree, places }: Scene): string {
+  let best = "";
+  for (const group of tree.groups.values()) {
+    const rect = places.groups.get(group.key);
+    const inside =
+      rect !== undefined &&
+      !group.folded &&
+      at.x >= rect.x &&
+      at.x <= rect.x + rect.width &&
+      at.y >= rect.y &&
+      at.y <= rect.y + rect.height;
+    if (inside && group.key.length > best.length && group.key.startsWith(best)) {
+      best = group.key;
+    }
+  }
+  return best;
+}
+
+function rounded({ x, y }: Point, group: string): Spot {
+  return { at: { x: Math.round(x), y: Math.round(y) }, group };
+}

@@ -1,0 +1,35 @@
+// The canvas on the screen, for what adds to it: the canvas passes on its interface when it is shown.
+
+import type { Point } from "../graph/layout";
+import type { GraphScene } from "../graph/scene";
+
+export type Stage = {
+  around: HTMLElement;
+  toFlow: (at: Point) => Point;
+  toScreen: (at: Point) => Point;
+  scene: () => GraphScene;
+  // Brings elements into view, with the same zoom.
+  reveal: (elements: string[]) => void;
+};
+
+let stage: Stage | null = null;
+let pointer: Point | null = null;
+
+if (typeof addEventListener === "function") {
+  const follow = ({ clientX, clientY }: PointerEvent) => {
+    pointer = { x: clientX, y: clientY };
+  };
+  addEventListener("pointermove", follow, { capture: true, passive: true });
+}
+
+export const getStage = (): Stage | null => stage;
+
+export function setStage(made: Stage | null): void {
+  stage = made;
+}
+
+// The position of the pointer on the screen where the canvas is below it, else null.
+export function getPointer(): Point | null {
+  const over = pointer === null ? null : document.elementFromPoint(pointer.x, pointer.y);
+  return stage !== null && over !== null && stage.around.contains(over) ? pointer : null;
+}
