@@ -2,7 +2,10 @@
 
 import { useEffect } from "react";
 
+import { connectByKeys } from "./build/connecting";
 import { openPalette } from "./build/palette";
+import { disconnectByKeys, removeSelected } from "./build/removing";
+import { isOnCanvas } from "./build/stage";
 import { ask, useDialogs } from "./pages/dialogs";
 import { open, save, saveAs } from "./pages/flows";
 import { useView } from "./pages/view";
@@ -23,6 +26,8 @@ export type Shortcut = {
   typing?: boolean;
   // Only where the page shows the past, and no control has the focus that uses the key itself.
   past?: boolean;
+  // Only where the canvas has the focus, or nothing.
+  canvas?: boolean;
 };
 
 export const SHORTCUTS: readonly Shortcut[] = [
@@ -52,6 +57,9 @@ export const SHORTCUTS: readonly Shortcut[] = [
     does: "Add an element (also Tab, with the pointer on the canvas)",
     run: () => openPalette(),
   },
+  { keys: ["C"], does: "Connect the selected element", run: () => connectByKeys(), canvas: true },
+  { keys: ["X"], does: "Remove a connection of the selected element", run: disconnectByKeys, canvas: true },
+  { keys: ["Delete", "Backspace"], does: "Remove what is selected", run: removeSelected, canvas: true },
   { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
   { keys: ["Ctrl+S"], does: "Save", run: () => save(), typing: true },
   { keys: ["Ctrl+Shift+S"], does: "Save as", run: saveAs, typing: true },
@@ -143,6 +151,7 @@ function onKey(event: KeyboardEvent, focusSeen: boolean): void {
   if (
     (typing && shortcut.typing !== true) ||
     (event.key === " " && focusSeen && target?.closest(PRESSED) != null) ||
+    (shortcut.canvas === true && !isOnCanvas(target)) ||
     (shortcut.past === true && (!isPast() || target?.closest(MOVED) != null))
   ) {
     return;

@@ -2,13 +2,13 @@
 
 import { addressed } from "./addressed";
 import { decode } from "./frames";
-import type { Answer, Folder, ToPage, ToServer } from "./protocol";
+import type { Answer, Fits, Folder, ToPage, ToServer } from "./protocol";
 import { isRefused } from "./refused";
 import { useStudio } from "./store";
 import { live } from "./world/live";
 import { Streams } from "./streams";
 
-type Reply = { answer: Answer; folder: Folder | null };
+type Reply = { answer: Answer; folder: Folder | null; fits: Fits | null };
 
 const AGAIN_MS = [200, 500, 1000, 2000];
 
@@ -18,6 +18,7 @@ class Socket {
   private lastRequest = 0;
   private waiting = new Map<number, (reply: Reply) => void>();
   private folders = new Map<number, Folder>();
+  private fits = new Map<number, Fits>();
   private failed = 0;
 
   open(): void {
@@ -44,6 +45,7 @@ class Socket {
         reply({
           answer: { type: "answer", request, problems: [{ what: "The connection to the studio was lost." }] },
           folder: null,
+          fits: null,
         });
       }
       this.waiting.clear();
@@ -71,6 +73,7 @@ class Socket {
       return {
         answer: { type: "answer", request, problems: [{ what: "The page is not connected to the studio." }] },
         folder: null,
+        fits: null,
       };
     }
     return new Promise((resolve) => {
@@ -86,12 +89,17 @@ class Socket {
         this.waiting.get(message.request)?.({
           answer: message,
           folder: this.folders.get(message.request) ?? null,
+          fits: this.fits.get(message.request) ?? null,
         });
         this.waiting.delete(message.request);
         this.folders.delete(message.request);
+        this.fits.delete(message.request);
         break;
       case "folder":
         this.folders.set(message.request, message);
+        break;
+      case "fitting":
+        this.fits.set(message.request, message);
         break;
       case "scene":
       case "bodies":

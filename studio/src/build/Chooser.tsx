@@ -19,7 +19,7 @@ function Opened({ choice }: { choice: Choice }) {
   const [before] = useState(() => document.activeElement);
   const place = usePlace(around, choice.at);
   const cancel = useCallback(() => {
-    useChooser.getState().cancel();
+    useChooser.getState().close();
     if (before instanceof HTMLElement) {
       before.focus({ preventScroll: true });
     }
@@ -27,7 +27,7 @@ function Opened({ choice }: { choice: Choice }) {
   useEffect(() => {
     const outside = (event: PointerEvent) => {
       if (around.current !== null && !around.current.contains(event.target as Node)) {
-        useChooser.getState().cancel();
+        useChooser.getState().close();
       }
     };
     addEventListener("pointerdown", outside, { capture: true });

@@ -1,12 +1,12 @@
 // One line of a list: the sketch of a kind, its title, and why it cannot be chosen, if so.
 
 import { carry } from "./carried";
-import type { Entry } from "./entries";
+import type { ListEntry } from "./entries";
 import { Sketch } from "./Sketch";
 
 type Props = {
   id: string;
-  entry: Entry;
+  entry: ListEntry;
   active: boolean;
   draggable: boolean;
   onLook: () => void;

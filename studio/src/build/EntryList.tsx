@@ -6,21 +6,21 @@ import { type KeyboardEvent, useEffect, useId, useMemo, useState } from "react";
 
 import "./chooser.css";
 import { Description } from "./Description";
-import { type Entry, search } from "./entries";
+import { type ListEntry, search } from "./entries";
 import { EntryLine } from "./EntryLine";
 
 type Props = {
   label: string;
   placeholder: string;
-  entries: Entry[];
+  entries: ListEntry[];
   empty: string;
   hint?: string;
   autoFocus?: boolean;
   // Entries are dragged to the canvas.
   draggable?: boolean;
-  onChoose: (entry: Entry) => void;
+  onChoose: (entry: ListEntry) => void;
   // The entry that Enter would choose.
-  onLook?: (entry: Entry | null) => void;
+  onLook?: (entry: ListEntry | null) => void;
   onCancel?: () => void;
 };
 
@@ -115,10 +115,10 @@ export function EntryList({
 
 const STEPS: Partial<Record<string, number>> = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
 
-const optionId = (list: string, entry: Entry): string => `${list}-${entry.id.replace(/[^\w-]/g, "_")}`;
+const optionId = (list: string, entry: ListEntry): string => `${list}-${entry.id.replace(/[^\w-]/g, "_")}`;
 
-function families(found: Entry[]): [string, Entry[]][] {
-  const table = new Map<string, Entry[]>();
+function families(found: ListEntry[]): [string, ListEntry[]][] {
+  const table = new Map<string, ListEntry[]>();
   for (const entry of found) {
     table.set(entry.family, [...(table.get(entry.family) ?? []), entry]);
   }

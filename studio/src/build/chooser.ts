@@ -3,7 +3,7 @@
 import { create } from "zustand";
 
 import type { Point } from "../graph/layout";
-import type { Entry } from "./entries";
+import type { ListEntry } from "./entries";
 
 export type Choice = {
   // What is chosen, as the name of the list.
@@ -11,14 +11,15 @@ export type Choice = {
   placeholder: string;
   // A position on the screen; null: the upper middle.
   at: Point | null;
-  entries: Entry[];
+  entries: ListEntry[];
   // Where nothing is found.
   empty: string;
   // A sentence above the list.
   hint?: string;
   // The entry that Enter would choose.
-  onLook?: (entry: Entry | null) => void;
-  onCancel?: () => void;
+  onLook?: (entry: ListEntry | null) => void;
+  // However the list is closed.
+  onClose?: () => void;
 };
 
 type Chooser = {
@@ -27,20 +28,18 @@ type Chooser = {
   number: number;
   open: (choice: Choice) => void;
   close: () => void;
-  cancel: () => void;
 };
 
 export const useChooser = create<Chooser>((set, get) => ({
   choice: null,
   number: 0,
   open: (choice) => {
-    get().cancel();
+    get().close();
     set({ choice, number: get().number + 1 });
   },
-  close: () => set({ choice: null }),
-  cancel: () => {
+  close: () => {
     const { choice } = get();
     set({ choice: null });
-    choice?.onCancel?.();
+    choice?.onClose?.();
   },
 }));

@@ -4,9 +4,9 @@ import type { Answer, Kind } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import type { Values } from "../values";
-import type { End, Ends } from "./ends";
+import type { End, WireEnds } from "./ends";
 import { showMade } from "./made";
-import { pathOf, type Spot } from "./spot";
+import { pathOf, type Placing } from "./placing";
 
 export type Adding = {
   values?: Values;
@@ -14,10 +14,10 @@ export type Adding = {
   source?: End;
   target?: End;
   // The connection into which it is inserted.
-  wire?: Ends;
+  wire?: WireEnds;
 };
 
-export async function addElement(kind: string, spot: Spot, adding: Adding = {}): Promise<void> {
+export async function addElement(kind: string, spot: Placing, adding: Adding = {}): Promise<void> {
   const document = useStudio.getState().document;
   const { values = {}, source = null, target = null, wire = null } = adding;
   const answer = await request({
@@ -45,4 +45,4 @@ export function addPart(element: string, parameter: string, several: boolean, pa
   });
 }
 
-export const connect = (ends: Ends): Promise<Answer> => request({ type: "connect", ...ends });
+export const connect = (ends: WireEnds): Promise<Answer> => request({ type: "connect", ...ends });

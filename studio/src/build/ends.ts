@@ -6,9 +6,9 @@ export type Side = "source" | "target";
 
 export type End = { element: string; port: string };
 
-export type Ends = Pick<ConnectionView, "source" | "source_port" | "target" | "target_port">;
+export type WireEnds = Pick<ConnectionView, "source" | "source_port" | "target" | "target_port">;
 
-export const endsOf = ({ source, source_port, target, target_port }: Ends): Ends => ({
+export const endsOf = ({ source, source_port, target, target_port }: WireEnds): WireEnds => ({
   source,
   source_port,
   target,
@@ -16,7 +16,7 @@ export const endsOf = ({ source, source_port, target, target_port }: Ends): Ends
 });
 
 // The connection between two ports, from the one at which it was begun.
-export function between(from: End, side: Side, to: End): Ends {
+export function between(from: End, side: Side, to: End): WireEnds {
   const [source, target] = side === "source" ? [from, to] : [to, from];
   return {
     source: source.element,

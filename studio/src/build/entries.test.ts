@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 
-import { type Entry, search } from "./entries";
+import { type ListEntry, search } from "./entries";
 
-const entry = (title: string, family: string, more: Partial<Entry> = {}): Entry => ({
+const entry = (title: string, family: string, more: Partial<ListEntry> = {}): ListEntry => ({
   id: `${family} ${title}`,
   title,
   family,

@@ -2,7 +2,7 @@
 
 import type { Kind } from "../protocol";
 
-export type Entry = {
+export type ListEntry = {
   id: string;
   family: string;
   title: string;
@@ -12,13 +12,15 @@ export type Entry = {
   words?: string;
   // The kind whose sketch and equation are shown.
   kind?: Kind;
+  // The element that the entry is about.
+  element?: string;
   // Why the entry cannot be chosen.
   why?: string;
   run?: () => unknown;
 };
 
 // The entries that contain every word, in the order of their families; the best match of all is `best`.
-export function search(text: string, entries: Entry[]): { found: Entry[]; best: Entry | null } {
+export function search(text: string, entries: ListEntry[]): { found: ListEntry[]; best: ListEntry | null } {
   const words = text
     .toLowerCase()
     .split(/\s+/)
@@ -43,7 +45,7 @@ export function search(text: string, entries: Entry[]): { found: Entry[]; best: 
 }
 
 // 0 is best; null: a word does not occur.
-function rankOf({ title, family, words = "", note = "" }: Entry, typed: string[]): number | null {
+function rankOf({ title, family, words = "", note = "" }: ListEntry, typed: string[]): number | null {
   const name = title.toLowerCase();
   const rest = `${family} ${note} ${words}`.toLowerCase();
   let rank = 0;

@@ -2,8 +2,6 @@
 
 import type { Kind } from "../protocol";
 
-export type Kinds = Map<string, Kind>;
-
 export type Family =
   | "Sources and stimuli"
   | "Fields, nodes and memory"

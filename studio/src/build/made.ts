@@ -13,7 +13,7 @@ export function showMade(made: string[]): void {
   const shown = () => made.every((id) => useStudio.getState().elements.has(id));
   const show = () => {
     useStudio.getState().select(made);
-    getStage()?.reveal(made);
+    getStage()?.reveal(made[0] ?? "");
     focusBox(made[0] ?? "");
   };
   if (shown()) {

@@ -1,19 +1,24 @@
 // The palette: every registered kind, to add elements at the pointer and parts to the selected element.
 
 import type { Point } from "../graph/layout";
+import type { Kinds } from "../inspector/leaf";
 import type { Kind } from "../protocol";
 import { useStudio } from "../store";
 import { useChooser } from "./chooser";
 import { addElement, addPart } from "./edits";
-import type { Ends } from "./ends";
-import type { Entry } from "./entries";
-import { ELEMENTS, familyOf, isPart, isSource, type Kinds, takes } from "./families";
+import type { WireEnds } from "./ends";
+import type { ListEntry } from "./entries";
+import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
 import { SHAPES, shapeOf } from "./shapes";
-import { beside, near, type Spot, under } from "./spot";
+import { beside, near, type Placing, under } from "./placing";
 import { getPointer, getStage } from "./stage";
 
 // All kinds as entries; `add` adds an element.
-export function kindEntries(kinds: Kinds, selected: Selected | null, add: (kind: Kind) => unknown): Entry[] {
+export function kindEntries(
+  kinds: Kinds,
+  selected: Selected | null,
+  add: (kind: Kind) => unknown,
+): ListEntry[] {
   const rank = (kind: Kind) => SHAPES.indexOf(shapeOf(kind, kinds));
   const known = [...kinds.values()]
     .filter((kind) => familyOf(kind) !== null)
@@ -25,7 +30,7 @@ export function kindEntries(kinds: Kinds, selected: Selected | null, add: (kind:
   return [...elements, ...parts];
 }
 
-export function elementEntry(kind: Kind, add: (kind: Kind) => unknown): Entry {
+export function elementEntry(kind: Kind, add: (kind: Kind) => unknown): ListEntry {
   return {
     id: kind.name,
     family: familyOf(kind) ?? "",
@@ -38,7 +43,7 @@ export function elementEntry(kind: Kind, add: (kind: Kind) => unknown): Entry {
 
 export type Selected = { id: string; name: string; kind: Kind | undefined };
 
-function partEntries(kind: Kind, selected: Selected | null): Entry[] {
+function partEntries(kind: Kind, selected: Selected | null): ListEntry[] {
   const family = familyOf(kind) ?? "";
   const entry = { family, title: kind.title, kind, words: `${kind.name} ${wordsOf(kind)}` };
   const places = selected === null ? [] : takes(selected.kind, kind);
@@ -64,11 +69,17 @@ export function selectedOne(): Selected | null {
   return found === undefined ? null : { id: found.id, name: found.name, kind: kinds.get(found.kind) };
 }
 
+// Whether the document can be changed: a record cannot, and without a connection nothing can.
+export function isEditable(): boolean {
+  const { document, connection } = useStudio.getState();
+  return document !== null && document.record == null && connection === "open";
+}
+
 // Open the palette at a position on the screen, without one at the pointer. An element is inserted into
 // `wire`, if that is given.
-export function openPalette(at: Point | null = getPointer(), wire?: Ends): void {
-  const { kinds, document } = useStudio.getState();
-  if (document === null || document.record != null || getStage() === null) {
+export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): void {
+  const { kinds } = useStudio.getState();
+  if (!isEditable() || getStage() === null) {
     return;
   }
   const add = (kind: Kind) => addElement(kind.name, spotFor(kind, at), { wire });
@@ -83,10 +94,10 @@ export function openPalette(at: Point | null = getPointer(), wire?: Ends): void 
 }
 
 // A kind with an input, of which a connection can pass through the elements.
-const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
+export const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
 
 // At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle.
-export function spotFor(kind: Kind, at: Point | null): Spot {
+export function spotFor(kind: Kind, at: Point | null): Placing {
   const stage = getStage();
   if (stage === null) {
     return { at: { x: 0, y: 0 }, group: "" };

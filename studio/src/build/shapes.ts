@@ -1,7 +1,8 @@
 // The small picture of a kind, chosen from its description: its equation, ports and parameters.
 
+import type { Kinds } from "../inspector/leaf";
 import type { Kind } from "../protocol";
-import { isPart, isSource, type Kinds } from "./families";
+import { isPart, isSource } from "./families";
 
 // In this order they are listed.
 export const SHAPES = [

@@ -8,8 +8,8 @@ export type Stage = {
   toFlow: (at: Point) => Point;
   toScreen: (at: Point) => Point;
   scene: () => GraphScene;
-  // Brings elements into view, with the same zoom.
-  reveal: (elements: string[]) => void;
+  // Brings an element into view, with the same zoom.
+  reveal: (element: string) => void;
 };
 
 let stage: Stage | null = null;
@@ -32,4 +32,9 @@ export function setStage(made: Stage | null): void {
 export function getPointer(): Point | null {
   const over = pointer === null ? null : document.elementFromPoint(pointer.x, pointer.y);
   return stage !== null && over !== null && stage.around.contains(over) ? pointer : null;
+}
+
+// Whether keys are meant for the canvas: it has the focus, or nothing has.
+export function isOnCanvas(focus: Element | null): boolean {
+  return stage !== null && (focus === null || stage.around.contains(focus) || focus.contains(stage.around));
 }

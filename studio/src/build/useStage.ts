@@ -9,10 +9,14 @@ import type { GraphScene } from "../graph/scene";
 import { useStudio } from "../store";
 import { carried, isCarried } from "./carried";
 import { addElement } from "./edits";
-import { openPalette, spotFor } from "./palette";
+import { openPalette, passes, spotFor } from "./palette";
+import { usePicked } from "./picked";
 import { getPointer, getStage, setStage } from "./stage";
+import { NEW_BOX } from "./placing";
+import { firstOf, wireAt } from "./wires";
 
 const GLIDE_MS = 200;
+const FRAMES = 30;
 
 export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphScene) {
   const flow = useReactFlow();
@@ -26,16 +30,20 @@ export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphS
     if (holder === null) {
       return;
     }
-    const reveal = (elements: string[]) => {
+    // a new element reaches the scene a few frames later than the document
+    const reveal = (element: string, frames = FRAMES) => {
+      const at = latest.current.places.elements.get(element);
+      if (at === undefined) {
+        if (frames > 0) {
+          requestAnimationFrame(() => reveal(element, frames - 1));
+        }
+        return;
+      }
+      const end = { x: at.x + NEW_BOX.width, y: at.y + NEW_BOX.height };
       const seen = holder.getBoundingClientRect();
-      const hidden = elements.some((id) => {
-        const at = latest.current.places.elements.get(id);
-        const point = at === undefined ? null : flow.flowToScreenPosition(at);
-        return point !== null && !isInside(point, seen);
-      });
-      if (hidden) {
-        const nodes = elements.map((id) => ({ id }));
-        void flow.fitView({ nodes, maxZoom: flow.getZoom(), duration: glide(GLIDE_MS), padding: 0.5 });
+      if (![at, end].every((point) => isInside(flow.flowToScreenPosition(point), seen))) {
+        const duration = glide(GLIDE_MS);
+        void flow.setCenter((at.x + end.x) / 2, (at.y + end.y) / 2, { zoom: flow.getZoom(), duration });
       }
     };
     setStage({
@@ -43,7 +51,7 @@ export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphS
       toFlow: (at) => flow.screenToFlowPosition(at),
       toScreen: (at) => flow.flowToScreenPosition(at),
       scene: () => latest.current,
-      reveal: (elements) => requestAnimationFrame(() => reveal(elements)),
+      reveal,
     });
     return () => setStage(null);
   }, [around, flow]);
@@ -56,13 +64,18 @@ export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphS
         if (isCarried(event.dataTransfer)) {
           event.preventDefault();
           event.dataTransfer.dropEffect = "copy";
+          usePicked.setState({ over: wireAt(event.clientX, event.clientY) });
         }
       },
+      onDragLeave: () => usePicked.setState({ over: null }),
       onDrop: (event: DragEvent) => {
         const kind = useStudio.getState().kinds.get(carried(event.dataTransfer));
+        const { over } = usePicked.getState();
+        usePicked.setState({ over: null });
         if (kind !== undefined) {
           event.preventDefault();
-          void addElement(kind.name, spotFor(kind, place(event)));
+          const wire = over === null || !passes(kind) ? null : firstOf(over);
+          void addElement(kind.name, spotFor(kind, place(event)), wire === null ? {} : { wire });
         }
       },
     }),
@@ -73,7 +86,7 @@ export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphS
 const place = ({ clientX, clientY }: MouseEvent) => ({ x: clientX, y: clientY });
 
 function isInside({ x, y }: { x: number; y: number }, { left, top, right, bottom }: DOMRect): boolean {
-  return x >= left && x < right - 40 && y >= top && y < bottom - 40;
+  return x >= left && x <= right && y >= top && y <= bottom;
 }
 
 // The empty ground of the canvas; frames let the pointer through.

@@ -2,6 +2,8 @@
 
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
+import { type PortFits, usePortFits } from "../build/usePortFits";
+import { askFits, useWiring } from "../build/wiring";
 import { useStudio } from "../store";
 import { BOX, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
 import { useHover } from "./hover";
@@ -17,17 +19,21 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
   const problem = useProblem(id);
   const warning = useWarning(id);
+  const fits = usePortFits(id);
+  const reached = useWiring((state) => state.target === id);
   const { enter, leave } = useHover.getState();
   return (
     <div
       className="graph-box"
+      data-wiring={fits.box || undefined}
+      data-reached={reached || undefined}
       data-selected={selected || undefined}
       data-problem={problem !== "" || undefined}
       data-marked={problem !== "" || warning !== "" || undefined}
-      onPointerEnter={(event) => enter(id, event.currentTarget)}
+      onPointerEnter={({ currentTarget }) => useWiring.getState().wiring === null && enter(id, currentTarget)}
       onPointerLeave={leave}
     >
-      <Ports names={inputs} side="target" height={height} />
+      <Ports element={id} names={inputs} side="target" height={height} fits={fits} />
       <div className="graph-box-head">
         <div className="graph-box-name one-line" title={path}>
           {name}
@@ -44,13 +50,21 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
           height={live}
         />
       )}
-      <Ports names={outputs} side="source" height={height} />
+      <Ports element={id} names={outputs} side="source" height={height} fits={fits} />
     </div>
   );
 });
 
 // The name of a port is worth its place only where there are several.
-function Ports({ names, side, height }: { names: string[]; side: "source" | "target"; height: number }) {
+type PortsProps = {
+  element: string;
+  names: string[];
+  side: "source" | "target";
+  height: number;
+  fits: PortFits;
+};
+
+function Ports({ element, names, side, height, fits }: PortsProps) {
   return names.map((name, n) => {
     const top = portHeight(height, n, names.length);
     return (
@@ -60,6 +74,13 @@ function Ports({ names, side, height }: { names: string[]; side: "source" | "tar
         type={side}
         position={side === "target" ? Position.Left : Position.Right}
         style={{ top }}
+        onPointerEnter={() => {
+          useHover.getState().close();
+          if (useWiring.getState().wiring === null) {
+            void askFits({ element, port: name });
+          }
+        }}
+        data-fits={fits.ports.get(name)}
         title={name}
       >
         {names.length > 1 && <span className={`graph-port graph-port-${side}`}>{name}</span>}

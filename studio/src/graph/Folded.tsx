@@ -34,7 +34,7 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
         fold(key, false);
       }}
     >
-      <Handle type="target" position={Position.Left} />
+      <Handle type="target" position={Position.Left} isConnectable={false} />
       <ActionIcon
         className="nodrag"
         size="sm"
@@ -55,7 +55,7 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
           <MarkIcon problem={inside} size={16} />
         </span>
       )}
-      <Handle type="source" position={Position.Right} />
+      <Handle type="source" position={Position.Right} isConnectable={false} />
     </div>
   );
 });

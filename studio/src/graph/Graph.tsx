@@ -14,8 +14,9 @@ import {
 } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
 import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
-import { openPalette } from "../build/palette";
 import { useStage } from "../build/useStage";
+import { useWires } from "../build/useWires";
+import { WiringHint } from "../build/WiringHint";
 import { openPlot } from "../panels/openPlot";
 import { useDialogs } from "../pages/dialogs";
 import { useStudio } from "../store";
@@ -73,6 +74,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const flow = useReactFlow();
   const touched = useWhole(around);
   const stage = useStage(around, now);
+  const wiring = useWires();
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
 
@@ -129,17 +131,12 @@ function Canvas({ structure }: { structure: Structure }) {
           onNodeDragStop={settle}
           onNodeClick={() => useHover.getState().close()}
           onNodeDoubleClick={(_, node) => node.type === "box" && openPlot({ element: node.id })}
-          onPaneClick={() => useStudio.getState().select([])}
-          onPaneContextMenu={(event) => {
-            event.preventDefault();
-            openPalette({ x: event.clientX, y: event.clientY });
-          }}
+          {...wiring}
           onMoveStart={() => move(true)}
           onMove={(_, view) => layer.move(view)}
           onNodeDrag={() => layer.change()}
           onMoveEnd={() => move(false)}
           onlyRenderVisibleElements
-          nodesConnectable={false}
           edgesFocusable={false}
           zIndexMode="manual"
           elevateNodesOnSelect={false}
@@ -178,6 +175,7 @@ function Canvas({ structure }: { structure: Structure }) {
           />
         )}
         <Card />
+        <WiringHint />
       </div>
     </PainterContext>
   );

@@ -29,6 +29,7 @@ export function Pill({ element: id }: { element: string }) {
     <button
       type="button"
       className="graph-pill nodrag nopan"
+      data-element={id}
       data-selected={selected || undefined}
       data-problem={problem !== "" || undefined}
       title={said || undefined}

@@ -9,6 +9,7 @@ import {
   type InternalNode,
 } from "@xyflow/react";
 import { memo } from "react";
+import { usePicked } from "../build/picked";
 import { useStudio } from "../store";
 import { Pill } from "./Pill";
 import type { Rect } from "./layout";
@@ -26,6 +27,8 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
       selected.includes(target) ||
       (data?.pills.some((p) => selected.includes(p)) ?? false),
   );
+  const picked = usePicked((state) => state.wires.includes(id));
+  const over = usePicked((state) => state.over === id);
   if (from === undefined || to === undefined || data === undefined) {
     return null;
   }
@@ -44,10 +47,11 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
         id={id}
         path={path}
         markerEnd={markerEnd}
-        interactionWidth={12}
+        interactionWidth={24}
         className="graph-wire"
         data-reads={data.reads}
         data-touched={touched || undefined}
+        data-picked={picked || over || undefined}
       />
       {(data.pills.length > 0 || several) && (
         <EdgeLabelRenderer>

@@ -3,7 +3,7 @@
 import type { ElementView } from "../protocol";
 import type { Point, Size } from "./layout";
 
-export const BOX = { width: 156, title: 40, port: 18, pad: 8 };
+export const BOX = { width: 156, title: 40, port: 24, pad: 8 };
 export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20 };
 
 // The port whose values the box shows.

@@ -20,7 +20,8 @@ export type BoxData = {
   outputs: string[];
 };
 export type GroupData = { key: string; name: string; count: number };
-export type WireData = { pills: string[]; reads: string; count: number; lane: number };
+// `chains`: what a wire stands for; those of a folded group are one.
+export type WireData = { pills: string[]; reads: string; count: number; lane: number; chains: Chain[] };
 
 export type BoxNode = Node<BoxData, "box">;
 export type FrameNode = Node<GroupData, "frame">;
@@ -186,10 +187,11 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
     const known = wires.get(id)?.data;
     if (known !== undefined) {
       known.count += 1;
+      known.chains.push(edge);
       known.pills = [];
       continue;
     }
-    const data = { pills: edge.couplings, reads: edge.reads, count: 1, lane: 0 };
+    const data = { pills: edge.couplings, reads: edge.reads, count: 1, lane: 0, chains: [edge] };
     const called = [
       from?.key ?? names.get(edge.source)?.path ?? edge.source,
       to?.key ?? names.get(edge.target)?.path ?? edge.target,

@@ -14,7 +14,7 @@ let leaves = () => {};
 export function server(...answers: Partial<Answer>[]): void {
   vi.spyOn(socket, "ask").mockImplementation(async (message) => {
     sent.push(message);
-    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null };
+    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null, fits: null };
   });
 }
 

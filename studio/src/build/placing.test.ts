@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 
 import { fakeDocument, fakeElement, kindsOf, fakeKind } from "../graph/fakes";
 import { scene } from "../graph/scene";
-import { beside, near, NEW_BOX, pathOf, under } from "./spot";
+import { beside, near, NEW_BOX, pathOf, under } from "./placing";
 
 const elements = [fakeElement("u"), fakeElement("v"), fakeElement("g.w")];
 const layout = { boxes: { u: { x: 0, y: 0 }, v: { x: 228, y: 0 }, "g.w": { x: 1000, y: 1000 } } };

@@ -11,7 +11,7 @@ const GAP = { side: 72, apart: 24 };
 const HEAD = BOX.title / 2;
 
 // A position on the canvas, and the key of the group around it.
-export type Spot = { at: Point; group: string };
+export type Placing = { at: Point; group: string };
 
 type Scene = { tree: Tree; places: Places };
 
@@ -32,25 +32,25 @@ export function pathOf(
 }
 
 // A box with its name below the pointer.
-export function under(at: Point, scene: Scene): Spot {
+export function under(at: Point, scene: Scene): Placing {
   return rounded({ x: at.x - NEW_BOX.width / 2, y: at.y - HEAD }, groupAt(at, scene));
 }
 
 // A box whose inputs (`right`) or outputs are at the end of a wire.
-export function atEnd(at: Point, right: boolean, scene: Scene): Spot {
+export function atEnd(at: Point, right: boolean, scene: Scene): Placing {
   const x = right ? at.x : at.x - NEW_BOX.width;
   return rounded({ x, y: at.y - NEW_BOX.height / 2 }, groupAt(at, scene));
 }
 
 // A free place at the right or left of a box.
-export function beside(element: string, right: boolean, scene: Scene): Spot {
+export function beside(element: string, right: boolean, scene: Scene): Placing {
   const at = scene.places.elements.get(element) ?? { x: 0, y: 0 };
   const x = right ? at.x + NEW_BOX.width + GAP.side : at.x - NEW_BOX.width - GAP.side;
   return rounded(free({ x, y: at.y }, scene), scene.tree.home.get(element) ?? "");
 }
 
 // A free place near a point of the canvas, such as its middle.
-export function near(at: Point, scene: Scene): Spot {
+export function near(at: Point, scene: Scene): Placing {
   return rounded(free({ x: at.x - NEW_BOX.width / 2, y: at.y - NEW_BOX.height / 2 }, scene), "");
 }
 
@@ -94,6 +94,6 @@ function groupAt(at: Point, { tree, places }: Scene): string {
   return best;
 }
 
-function rounded({ x, y }: Point, group: string): Spot {
+function rounded({ x, y }: Point, group: string): Placing {
   return { at: { x: Math.round(x), y: Math.round(y) }, group };
 }

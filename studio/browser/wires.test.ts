@@ -1,0 +1,192 @@
+import type { Locator } from "playwright-core";
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { box, panel, select } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio();
+  observer = await studio.observe();
+});
+
+// A field u over x, a field v over y, a stimulus and a number, without connections.
+beforeEach(async () => {
+  const { page } = studio;
+  await observer.ask({ type: "new", discard: true });
+  await page.getByText("This document has no elements yet.").waitFor();
+  const add = (kind: string, name: string, at: [number, number], values = {}) =>
+    observer.ask({ type: "add_element", kind, name, at, values });
+  await add("Field", "u", [320, 0]);
+  await add("GaussianStimulus", "left", [0, 60]);
+  await add("RateNode", "node", [640, 0]);
+  await observer.until(() => observer.document?.elements.length === 3);
+  await box(page, "node").waitFor();
+  await page.getByRole("button", { name: "Show everything" }).click();
+});
+
+afterAll(() => studio.stop());
+
+const port = (path: string, name: string): Locator =>
+  box(studio.page, path).locator(`.react-flow__handle[data-handleid="${name}"]`);
+const wires = (): string[] =>
+  (observer.document?.connections ?? []).map(({ source, source_port, target, target_port }) => {
+    const path = (id: string) => observer.document?.elements.find((e) => e.id === id)?.path ?? id;
+    return `${path(source)}.${source_port} ${path(target)}.${target_port}`;
+  });
+const chooser = (name: string | RegExp): Locator => studio.page.getByRole("dialog", { name });
+
+async function middle(locator: Locator): Promise<{ x: number; y: number }> {
+  const found = await locator.boundingBox();
+  if (found === null) throw new Error("It is not visible.");
+  return { x: found.x + found.width / 2, y: found.y + found.height / 2 };
+}
+
+/** Press at a port and move to a place of the screen. */
+async function pull(from: Locator, to: { x: number; y: number }): Promise<void> {
+  const { page } = studio;
+  const begin = await middle(from);
+  await page.mouse.move(begin.x, begin.y);
+  await page.mouse.down();
+  await page.mouse.move((begin.x + to.x) / 2, (begin.y + to.y) / 2, { steps: 3 });
+  await page.mouse.move(to.x, to.y, { steps: 3 });
+}
+
+test("a port is dragged to another one; those that fit light up within 50 ms, others say why", async () => {
+  const { page } = studio;
+  const begin = await middle(port("left", "output"));
+  const lit: number[] = [];
+  for (let n = 0; n < 3; n++) {
+    await page.mouse.move(begin.x, begin.y);
+    await page.waitForTimeout(150); // a hand rests on a port before it presses
+    await page.evaluate(() => {
+      const seen = window as unknown as { lit: number };
+      seen.lit = 0;
+      const moved = () => {
+        const begun = performance.now();
+        const look = () => {
+          if (document.querySelector("[data-fits=yes]") === null) requestAnimationFrame(look);
+          else seen.lit = performance.now() - begun;
+        };
+        look();
+      };
+      addEventListener("pointermove", moved, { once: true, capture: true });
+    });
+    await page.mouse.down();
+    await page.mouse.move(begin.x + 40, begin.y + 60);
+    await page.waitForFunction(() => (window as unknown as { lit: number }).lit > 0);
+    lit.push(await page.evaluate(() => (window as unknown as { lit: number }).lit));
+    if (n < 2) {
+      await page.mouse.up();
+      await chooser("Add a connected element").waitFor();
+      await page.keyboard.press("Escape");
+      await chooser("Add a connected element").waitFor({ state: "detached" });
+    }
+  }
+  console.log(`ports lit up after ${lit.map((one) => one.toFixed(0)).join(", ")} ms`);
+  expect(Math.min(...lit)).toBeLessThan(50);
+  expect(await box(page, "u").locator(".graph-box").getAttribute("data-wiring")).toBe("yes");
+  expect(await box(page, "left").locator(".graph-box").getAttribute("data-wiring")).toBe("start");
+  const over = await middle(port("u", "input"));
+  await page.mouse.move(over.x, over.y, { steps: 5 });
+  await shot(page, "wires-drag");
+  await page.mouse.up();
+  await observer.until(() => wires().join() === "left.output u.input");
+  await page.locator("[data-wiring]").first().waitFor({ state: "detached" });
+  await page.keyboard.press("Control+z");
+  await observer.until(() => wires().length === 0);
+});
+
+test("a wire released on the ground opens a palette with what fits", async () => {
+  const { page } = studio;
+  const ground = await page.locator(".react-flow__pane").boundingBox();
+  await pull(port("u", "output"), { x: (ground?.x ?? 0) + 500, y: (ground?.y ?? 0) + 90 });
+  await page.mouse.up();
+  const palette = chooser("Add a connected element");
+  await palette.getByText("Connected with u.output").waitFor();
+  await palette.getByRole("option", { name: "Memory trace", exact: true }).waitFor();
+  expect(await palette.getByRole("option", { name: "Gaussian stimulus", exact: true }).count()).toBe(0);
+  await shot(page, "wires-ground");
+  await palette.getByRole("option", { name: "Memory trace", exact: true }).click();
+  await observer.until(() => wires().join() === "u.output memory_trace.input");
+});
+
+test("a click selects a wire, Delete removes it; an element is inserted into a wire", async () => {
+  const { page } = studio;
+  await pull(port("left", "output"), await middle(box(page, "u")));
+  await page.mouse.up();
+  await observer.until(() => wires().join() === "left.output u.input");
+  const wire = page.getByRole("img", { name: "left to u", exact: true });
+  await wire.waitFor();
+  const at = await middle(wire.locator(".graph-wire"));
+  await page.mouse.click(at.x, at.y, { button: "right" });
+  await chooser("Insert an element").getByRole("option", { name: "Gain", exact: true }).click();
+  await observer.until(() => wires().includes("gain.output u.input") && wires().length === 2);
+  await page.keyboard.press("Control+z");
+  await page.locator(".graph-pill").waitFor({ state: "detached" });
+  await page.mouse.click(at.x, at.y);
+  await page.locator(".graph-wire[data-picked]").waitFor();
+  await page.keyboard.press("Delete");
+  await observer.until(() => wires().length === 0);
+});
+
+test("the keyboard connects the selected element with what is typed, and removes a connection", async () => {
+  const { page } = studio;
+  await select(page, "left");
+  await page.keyboard.press("c");
+  const list = chooser("Connect left");
+  await list.getByRole("option", { name: /^u\b/ }).first().waitFor();
+  await shot(page, "wires-keys");
+  await page.keyboard.type("u");
+  await page.keyboard.press("Enter");
+  await observer.until(() => wires().join() === "left.output u.input");
+  await box(page, "left").focus();
+  await page.keyboard.press("x");
+  await chooser("Remove a connection").getByRole("option", { name: "left to u" }).waitFor();
+  await page.keyboard.press("Enter");
+  await observer.until(() => wires().length === 0);
+});
+
+test("a selected element is removed with its connections by Delete, and comes back by undo", async () => {
+  const { page } = studio;
+  await select(page, "u");
+  await page.keyboard.press("Delete");
+  await box(page, "u").waitFor({ state: "detached" });
+  await page.keyboard.press("Control+z");
+  await box(page, "u").waitFor();
+});
+
+test("where axes differ, a coupling is chosen in one gesture", async () => {
+  const { page } = studio;
+  await observer.ask({
+    type: "open_text",
+    name: "two.json",
+    discard: true,
+    text: JSON.stringify({
+      deodar: 1,
+      name: "two",
+      axes: {
+        x: { name: "x", lower: 0, upper: 100, samples: 101 },
+        z: { name: "z", lower: 0, upper: 100, samples: 101 },
+        w: { name: "x", lower: -50, upper: 50, samples: 101 },
+      },
+      elements: {
+        u: { kind: "Field", id: "00000001", axes: ["x"] },
+        v: { kind: "Field", id: "00000002", axes: ["w"] },
+      },
+    }),
+  });
+  await box(page, "v").waitFor();
+  await pull(port("u", "output"), await middle(port("v", "input")));
+  await page.locator(".wiring-hint").waitFor();
+  await shot(page, "wires-offer");
+  await page.mouse.up();
+  const offers = chooser("Choose a coupling");
+  await offers.getByRole("option").first().click();
+  await observer.until(() => observer.document?.elements.length === 3 && wires().length === 2);
+  expect(observer.document?.problems.filter(({ severity }) => severity !== "warning")).toEqual([]);
+  await panel(page, "Inspector").getByRole("heading").first().waitFor();
+});

@@ -1,0 +1,102 @@
+// What the pointer does with ports and connections, as properties of the canvas.
+
+import { type Edge, type ReactFlowProps, useStoreApi } from "@xyflow/react";
+import { useEffect, useMemo } from "react";
+
+import { useHover } from "../graph/hover";
+import type { SceneNode } from "../graph/scene";
+import { useStudio } from "../store";
+import { finish } from "./connecting";
+import { openPalette } from "./palette";
+import { pickWire } from "./picked";
+import { firstOf } from "./wires";
+import { begin, end, fitOf, stateOf, useWiring } from "./wiring";
+
+type Props = ReactFlowProps<SceneNode, Edge>;
+
+// Within this many pixels of a port a connection ends at it.
+const RADIUS = 24;
+
+export function useWires(): Props {
+  const flow = useStoreApi();
+  const editable = useStudio((state) => state.document?.record == null && state.connection === "open");
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      if (event.key === "Escape" && useWiring.getState().wiring !== null) {
+        flow.setState({ connectionClickStartHandle: null });
+        end();
+      }
+    };
+    addEventListener("keydown", onKey);
+    return () => removeEventListener("keydown", onKey);
+  }, [flow]);
+  return useMemo((): Props => {
+    const start: Props["onConnectStart"] = (_, { nodeId, handleId, handleType }) => {
+      if (nodeId !== null && handleId !== null && handleType !== null) {
+        useHover.getState().close();
+        void begin({ element: nodeId, port: handleId }, handleType);
+      }
+    };
+    const stop: Props["onConnectEnd"] = (event, { toHandle }) => {
+      const { clientX: x, clientY: y } =
+        "changedTouches" in event ? (event.changedTouches[0] as Touch) : event;
+      const to =
+        toHandle === null ? elementAt(x, y) : { element: toHandle.nodeId, port: toHandle.id ?? null };
+      if (to === "outside") {
+        end();
+      } else {
+        void finish({ x, y }, to);
+      }
+    };
+    return {
+      nodesConnectable: editable,
+      connectionRadius: RADIUS,
+      onConnectStart: start,
+      onConnectEnd: stop,
+      onClickConnectStart: start,
+      onClickConnectEnd: stop,
+      isValidConnection: ({ source, sourceHandle, target, targetHandle }) => {
+        const { wiring } = useWiring.getState();
+        const [element, port] = wiring?.side === "source" ? [target, targetHandle] : [source, sourceHandle];
+        const fit = wiring?.fits == null ? undefined : fitOf(wiring.fits, element, port ?? null);
+        return fit !== undefined && stateOf(fit) !== "no";
+      },
+      // a click at a port, and then one on the ground
+      onPaneClick: ({ clientX: x, clientY: y }) => {
+        if (useWiring.getState().wiring !== null) {
+          flow.setState({ connectionClickStartHandle: null });
+          void finish({ x, y }, null);
+        } else {
+          useStudio.getState().select([]);
+        }
+      },
+      onPaneContextMenu: (event) => {
+        event.preventDefault();
+        openPalette({ x: event.clientX, y: event.clientY });
+      },
+      onEdgeClick: (event, { id }) => pickWire(id, event.shiftKey || event.ctrlKey || event.metaKey),
+      onEdgeDoubleClick: (event, { id }) => insertInto(id, event.clientX, event.clientY),
+      onEdgeContextMenu: (event, { id }) => {
+        event.preventDefault();
+        insertInto(id, event.clientX, event.clientY);
+      },
+    };
+  }, [flow, editable]);
+}
+
+function insertInto(wire: string, x: number, y: number): void {
+  const ends = firstOf(wire);
+  if (ends !== null) {
+    openPalette({ x, y }, ends);
+  }
+}
+
+// The element at a position of the screen, null on the ground of the canvas.
+function elementAt(x: number, y: number): { element: string; port: null } | null | "outside" {
+  const found = document.elementFromPoint(x, y);
+  const box = found?.closest(".react-flow__node-box")?.getAttribute("data-id");
+  if (box != null) {
+    return { element: box, port: null };
+  }
+  return found?.closest(".react-flow") == null ? "outside" : null;
+}
