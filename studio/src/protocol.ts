@@ -253,6 +253,15 @@ export type Comparison = {
   problems: ListedProblem[];
 };
 
+// A compilation in progress: its phase, and in seconds how long it lasts already and will take in all.
+//
+// `expected` is the time that the last program of this size took; None: not known.
+export type CompilingView = {
+  phase: "compiling" | "planning";
+  elapsed: number;
+  expected: number | null;
+};
+
 // Connect an output port to an input port; `reads` is previous, current, delayed, or empty.
 export type Connect = {
   type: "connect";
@@ -990,6 +999,7 @@ export type RunClock = {
   longest: number | null;
   lengthened: number;
   busy: string;
+  compiling: CompilingView | null;
   failure: ListedProblem[];
   world: string;
   senses: boolean;

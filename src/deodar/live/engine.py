@@ -22,6 +22,7 @@ import numpy as np
 
 from deodar.errors import ModelError, NotFinite, Problem
 from deodar.live.branch_states import BranchStates
+from deodar.live.compilation import Compilation, CompileTimes
 from deodar.live.cost_report import CostReport, said
 from deodar.live.published import PublishedState
 from deodar.live.ring import StateRing
@@ -62,6 +63,8 @@ class Engine:
         running: whether the clock advances the session.
         failure: why the run stopped, and the paths of the elements concerned.
         busy: a phrase for the compilation in progress; empty: none.
+        compilation: the compilation in progress, or the last one.
+        compile_times: how long programs took to compile.
         pace: requested and achieved speed.
         cost_report: cost of elements, as last measured.
         traces: time courses by their specification; only the engine adds samples.
@@ -94,6 +97,8 @@ class Engine:
         self.running = False
         self.failure: tuple[tuple[Problem, ...], tuple[str, ...]] = ((), ())
         self.busy = ""
+        self.compilation: Compilation | None = None
+        self.compile_times = CompileTimes()
         self.pace = Pace()
         self.cost_report = CostReport()
         self.track = Track()
@@ -434,11 +439,16 @@ class Engine:
         wanted = (self._places, frozenset(request.place for request in self.traces))
         known, program = list(self._readers), session.program
 
+        compilation = self.compile_times.start(document)
+
         def make() -> tuple[Any, list[PortReader]]:
             made = program
             if model is not None:
                 made = session.compiled(document, model)
+                compilation.phase = "compiling"
                 session.precompile(made)
+                if made.compiled:
+                    self.compile_times.took(document, compilation.elapsed)
             return made, [_found(known, made, places) or port_reader(made, places) for places in wanted]
 
         there = [_found(known, program, places) for places in wanted]
@@ -446,7 +456,8 @@ class Engine:
             self._reader, self._sample = there[0], there[1]
             self._take_first(session)
             return
-        self.busy = "compiling" if model is not None else self.busy
+        if model is not None:
+            self.busy, self.compilation = "compiling", compilation
         self._making = self._compiler.submit(make)
         self._making.add_done_callback(
             lambda future: self._closed or self.call(lambda: self._made(session, document, wanted, future))

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from deodar import __version__
+from deodar.live.compilation import CompileTimes
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
 from deodar.server import gallery, plots, templates, view
@@ -19,7 +20,16 @@ from deodar.server.project import OpenProject
 from deodar.server.record_frames import RecordFrames
 from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
-from deodar.server.to_page import Costs, CostView, Gallery, RecordingView, RunClock, TimelineView, Welcome
+from deodar.server.to_page import (
+    CompilingView,
+    Costs,
+    CostView,
+    Gallery,
+    RecordingView,
+    RunClock,
+    TimelineView,
+    Welcome,
+)
 from deodar.server.workspace import Workspace
 from deodar.session.meter import Meter
 from deodar.session.session import Session
@@ -50,6 +60,7 @@ class Hub:
         self.store = StateStore(state_folder())
         self.embodiment = Embodiment(world)
         self.engine = Engine(self._from_engine)
+        self.engine.compile_times = CompileTimes(self.store.compile_times())
         self.project = OpenProject(
             self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
         )
@@ -101,7 +112,7 @@ class Hub:
             running=engine.running,
             time=published.time,
             tick=published.tick,
-            dt=1.0 if session is None else session.dt,
+            dt=self._dt(session),
             seed=0 if session is None else session.seed,
             speed=engine.pace.speed,
             factor=engine.pace.factor if engine.running else 0.0,
@@ -113,6 +124,7 @@ class Hub:
             longest=engine.pace.longest,
             lengthened=meter.lengthened,
             busy=self.project.busy or engine.busy,
+            compiling=self._compiling(),
             failure=self.project.failures(),
             world=self.embodiment.label,
             senses=session is not None and bool(session.program.plan.sensors),
@@ -120,6 +132,18 @@ class Hub:
             timeline=timeline,
             recording=self._recording(session),
         )
+
+    def _dt(self, session: Session | None) -> float:
+        """Return the present step; of a document that is not compiled, the one that it will run with."""
+        model = self.project.model
+        return session.dt if session is not None else 1.0 if model is None else model.document.step
+
+    def _compiling(self) -> CompilingView | None:
+        project, engine = self.project, self.engine
+        found = project.compilation if project.busy else engine.compilation if engine.busy else None
+        if found is None:
+            return None
+        return CompilingView(phase=found.phase, elapsed=round(found.elapsed, 1), expected=found.expected)
 
     def _recording(self, session: Session | None) -> RecordingView | None:
         recorder = None if session is None else session.recorder

@@ -18,6 +18,7 @@ from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
 from deodar.importers import examples, opening
+from deodar.live.compilation import Compilation
 from deodar.live.engine import Engine
 from deodar.model import edit, find
 from deodar.model.check import problems
@@ -64,6 +65,7 @@ class OpenProject:
         file_problems: the file that could not be opened, and its problems.
         failure: why the document does not run.
         busy: a phrase for the compilation in progress; empty: none.
+        compilation: the compilation in progress, or the last one.
         record: the open record, whose document `model` has; None: the document runs.
         comparison: the comparison of the open record with another one.
         scene: the view of the record's world at its start, and a sentence on what it does not contain.
@@ -88,6 +90,7 @@ class OpenProject:
         self.file_problems: tuple[str, Sequence[Wrong]] = ("", ())
         self.failure: Sequence[Wrong] = ()
         self.busy = ""
+        self.compilation: Compilation | None = None
         self.record: RecordReader | None = None
         self.scene: tuple[Scene | None, str] = (None, "")
         self.comparison: RecordComparison | None = None
@@ -297,10 +300,16 @@ class OpenProject:
         self.busy, self.failure = "compiling", ()
         self._changed()
         doc = model.document
+        times = self.engine.compile_times
+        compilation = self.compilation = times.start(doc)
 
         def make() -> Session:
             session = Session(model, world=self.embodiment.world(doc))
+            compilation.phase = "compiling"
             session.program.chunk(())
+            if session.program.compiled:
+                times.took(doc, compilation.elapsed)
+                self.store.keep_compile_times(times.known)
             return session
 
         try:

@@ -7,6 +7,7 @@ import datetime
 import os
 import re
 import secrets
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
@@ -38,6 +39,7 @@ class StateStore:
     def __init__(self, folder: Path) -> None:
         self._unsaved = folder / "unsaved"
         self._recent = folder / "recent.json"
+        self._times = folder / "compile_times.json"
 
     # ------------------------------------------------------------------------------------------ unsaved edits
 
@@ -112,6 +114,25 @@ class StateStore:
     def _names(self) -> list[str]:
         found: Any = _read(self._recent)
         return [n for n in cast("list[Any]", found) if isinstance(n, str)] if isinstance(found, list) else []
+
+    # ------------------------------------------------------------------------------------------ compile times
+
+    def compile_times(self) -> dict[int, float]:
+        """Return the seconds that programs took to compile, by the size of their documents."""
+        found: Any = _read(self._times)
+        rows = cast("dict[Any, Any]", found) if isinstance(found, dict) else {}
+        return {
+            int(size): float(seconds)
+            for size, seconds in rows.items()
+            if str(size).isdecimal() and int(size) > 0 and isinstance(seconds, (int, float))
+        }
+
+    def keep_compile_times(self, times: Mapping[int, float]) -> None:
+        """Store what `compile_times` returns."""
+        with contextlib.suppress(OSError, OutputError):
+            self._times.parent.mkdir(parents=True, exist_ok=True)
+            rows = {str(size): seconds for size, seconds in times.items()}
+            output.write(self._times, codec.line(rows, ascii=True).encode())
 
 
 def _read(path: Path) -> Any:

@@ -345,6 +345,17 @@ class TimelineView(Data, frozen=True):
     step: float
 
 
+class CompilingView(Data, frozen=True):
+    """A compilation in progress: its phase, and in seconds how long it lasts already and will take in all.
+
+    `expected` is the time that the last program of this size took; None: not known.
+    """
+
+    phase: Literal["planning", "compiling"]
+    elapsed: float
+    expected: float | None
+
+
 class RecordingView(Data, frozen=True):
     """The record of the run: its path below the root, and why it ended; empty while it is written."""
 
@@ -382,6 +393,7 @@ class RunClock(Message, frozen=True, tag="clock"):
     longest: float | None
     lengthened: int
     busy: str
+    compiling: CompilingView | None
     failure: list[ListedProblem]
     world: str
     senses: bool

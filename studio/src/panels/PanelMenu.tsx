@@ -22,6 +22,7 @@ export function PanelMenu() {
           variant="default"
           leftSection={<IconLayoutGridAdd size={15} />}
           aria-label="Open panels and plots"
+          className="panel-menu"
         >
           Panels
         </Button>

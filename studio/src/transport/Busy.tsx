@@ -4,15 +4,22 @@ import { Loader } from "@mantine/core";
 
 import { useStudio } from "../store";
 import classes from "./Busy.module.css";
+import { compilingText } from "./format";
 
 export function Busy() {
   const busy = useStudio((state) => state.clock?.busy ?? "");
+  const compiling = useStudio((state) => state.clock?.compiling ?? null);
+  const time = compiling === null ? "" : compilingText(compiling);
+  const phase = compiling?.phase ?? busy;
   return (
-    <div className={classes.busy} role="status" title={busy}>
+    <div className={classes.busy} role="status" title={busy === "" ? "" : `${phase} ${time}`.trimEnd()}>
       {busy !== "" && (
         <>
           <Loader size={14} aria-hidden="true" />
-          <span className={`${classes.text} one-line`}>{busy}</span>
+          <div className={`${classes.text} numbers`}>
+            <div className="one-line">{phase}</div>
+            <div className={`${classes.under} one-line`}>{time}</div>
+          </div>
         </>
       )}
     </div>

@@ -4,7 +4,7 @@ import { Tooltip } from "@mantine/core";
 
 import { useOffline } from "../pages/NeedsServer";
 import { type Studio, useStudio } from "../store";
-import { countText, factorText, timeText, unitText } from "./format";
+import { compilingText, countText, factorText, timeText, unitText } from "./format";
 import { lateText, meterLines } from "./meter";
 import { useThrottled } from "./throttled";
 import classes from "./Readout.module.css";
@@ -41,6 +41,9 @@ export function Readout() {
     unit === "abstract"
       ? "Simulated time over real time, 1 unit taken as 1 ms"
       : "Simulated time over real time, measured";
+  // Where the header is narrow the compilation takes the place of the speed, which a run without a program
+  // does not have.
+  const compiling = clock?.compiling ?? null;
   const late = clock === null ? "" : lateText(clock);
   return (
     <div className={`${classes.readout} numbers`} data-offline={offline || undefined}>
@@ -52,9 +55,16 @@ export function Readout() {
           </div>
         </div>
       </Tooltip>
+      {compiling !== null && (
+        <div className={classes.compiling} data-running={running || undefined} aria-hidden="true">
+          <div>{compiling.phase}</div>
+          <div className={classes.under}>{compilingText(compiling)}</div>
+        </div>
+      )}
       <Tooltip label={<Lines lines={clock === null ? [pace] : meterLines(pace, clock, unit)} />}>
         <div
           className={classes.factor}
+          data-compiling={(compiling !== null && !running) || undefined}
           data-still={!running || offline || undefined}
           role="group"
           aria-label="Speed measured"

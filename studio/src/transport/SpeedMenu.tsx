@@ -40,8 +40,8 @@ export function SpeedMenu() {
           <Button
             variant="default"
             size="compact-sm"
-            w={76}
-            px={6}
+            w={{ base: 62, sm: 76 }}
+            px={{ base: 3, sm: 6 }}
             fw={500}
             leftSection={<IconGauge size={15} />}
             className="numbers"
@@ -52,7 +52,7 @@ export function SpeedMenu() {
           </Button>
         </Tooltip>
       </Popover.Target>
-      <Popover.Dropdown p="md" pb="lg" w={410}>
+      <Popover.Dropdown p="md" pb="lg" w={{ base: 340, sm: 410 }}>
         <Text size="xs" fw={600} mb={6}>
           Speed
         </Text>

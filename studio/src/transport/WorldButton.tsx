@@ -5,6 +5,7 @@ import { IconPhoto } from "@tabler/icons-react";
 
 import { choosePicture } from "../pages/flows";
 import { useStudio } from "../store";
+import classes from "./Transport.module.css";
 
 export function WorldButton() {
   const senses = useStudio((state) => state.clock?.senses ?? false);
@@ -21,6 +22,7 @@ export function WorldButton() {
       <Button
         variant={blind ? "light" : "default"}
         size="compact-sm"
+        className={classes.world}
         maw={{ base: 110, lg: 170 }}
         px={6}
         fw={500}

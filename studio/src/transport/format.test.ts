@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { countText, factorText, speedText, timeText, unitText } from "./format";
+import { compilingText, countText, factorText, speedText, timeText, unitText } from "./format";
 
 describe("simulated time", () => {
   it("is written in the unit of the document below a second, in seconds above", () => {
@@ -45,4 +45,13 @@ it("the ratio to real time has three digits", () => {
 it("speeds and counts are short", () => {
   expect([0.01, 1, 10, 0.12345, null].map(speedText)).toEqual(["0.01×", "1×", "10×", "0.123×", "max"]);
   expect(countText(1_234_567)).toBe("1\u2009234\u2009567");
+});
+
+it("a compilation shows its time, and the expected one while it may still hold", () => {
+  const text = (elapsed: number, expected: number | null) =>
+    compilingText({ phase: "compiling", elapsed, expected });
+  expect(text(2.7, 5.4)).toBe("2 s of about 5 s");
+  expect(text(0.2, null)).toBe("0 s");
+  expect(text(0.2, 0.4)).toBe("0 s");
+  expect(text(11, 5)).toBe("11 s");
 });

@@ -1,6 +1,8 @@
 // How times and speeds are written. All of one length as far as possible, so that read-outs keep still while
 // they count.
 
+import type { CompilingView } from "../protocol";
+
 // The unit of time in seconds, for units with a name; a custom unit ("abstract", "1 = 64 ms") is used without
 // conversion.
 const SECONDS: Record<string, number> = { us: 1e-6, ms: 1e-3, s: 1, min: 60 };
@@ -38,6 +40,13 @@ export function factorText(factor: number): string {
 
 export function speedText(speed: number | null): string {
   return speed === null ? "max" : `${Number(speed.toPrecision(3))}×`;
+}
+
+// How long a compilation lasts already, and will in all: "2 s of about 5 s".
+export function compilingText({ elapsed, expected }: CompilingView): string {
+  const seconds = `${Math.floor(elapsed)} s`;
+  const known = expected !== null && expected >= 1 && elapsed < 2 * expected;
+  return known ? `${seconds} of about ${Math.round(expected)} s` : seconds;
 }
 
 export function countText(count: number): string {
