@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import xarray
 import deodar as dd
 from deodar.errors import OutputExists, RecordError
 from deodar.recording import cedar, files, portable, table
+from deodar.recording.lazy import LazyArray
 from deodar.recording.slabs import slabs
 from tests.recording.models import record
 
@@ -42,6 +44,31 @@ def test_a_large_record_is_the_same_netcdf_file_in_blocks(
     assert (tmp_path / "blocks.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
     files.save_record(dd.open_record(tmp_path / "run.zarr"), tmp_path / "opened.nc")
     assert files.load_record(tmp_path / "opened.nc").identical(data)
+
+
+def test_a_large_record_is_the_same_zarr_record_in_blocks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("deodar.recording.growing.LONGEST_CHUNK", 2)
+    data = record(trials=2, sweep={"s.amplitude": [4.0, 8.0]})
+    files.save_record(data, tmp_path / "whole.zarr")
+    monkeypatch.setattr(portable, "LARGE", 0)
+    monkeypatch.setattr(portable, "BLOCK", 7)
+    sizes, select = list[int](), LazyArray._selected
+
+    def noted(self: LazyArray, key: tuple[Any, ...]) -> np.ndarray:
+        found = select(self, key)
+        sizes.append(found.size)
+        return found
+
+    opened = dd.open_record(tmp_path / "whole.zarr")
+    with monkeypatch.context() as watched:
+        watched.setattr(LazyArray, "_selected", noted)
+        files.save_record(opened, tmp_path / "blocks.zarr")
+    assert 0 < max(sizes) <= 7
+    assert files.load_record(tmp_path / "blocks.zarr").identical(data)
+    with xarray.open_zarr(tmp_path / "blocks.zarr", chunks=None) as plain:
+        assert plain["u.activation"].values.tobytes() == data["u.activation"].values.tobytes()
 
 
 def test_other_programs_read_the_netcdf_file(tmp_path: Path) -> None:

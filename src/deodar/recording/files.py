@@ -20,8 +20,10 @@ from deodar import codec, renamed
 from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
 from deodar.model import output
 from deodar.recording import growing, lazy, netcdf, places, portable, sound, table
+from deodar.recording.chunks import COMPRESSORS, ChunkedArray
 from deodar.recording.provenance import KEY
 from deodar.recording.record import time_dimension
+from deodar.recording.slabs import slabs
 
 SUFFIXES = {"zarr": ".zarr", "netcdf": ".nc", "csv": ".csv"}
 """Formats and their file name endings."""
@@ -228,8 +230,21 @@ def _write_zarr(data: xarray.Dataset, path: Path) -> None:
         # other programs open a record at once, and without a warning, if its metadata are in one file
         warnings.filterwarnings("ignore", message="Consolidated metadata")
         stored = portable.pack(data, narrow=False)
-        chunks = {name: {"chunks": shape} for name, shape in _frame_chunks(stored).items()}
-        stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=chunks)
+        names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
+        encoding: dict[Any, Any] = {name: {"chunks": shape} for name, shape in _frame_chunks(stored).items()}
+        large = {
+            str(name): old
+            for name in stored.variables
+            if portable.large(old := data.variables[names.get(str(name), str(name))])
+        }
+        for name in large:
+            encoding.setdefault(name, {})["compressors"] = COMPRESSORS
+        stored.to_zarr(path, mode="w", zarr_format=3, consolidated=True, encoding=encoding)
+    for name, variable in large.items():
+        about = codec.parse((path / name / "zarr.json").read_text(encoding="utf-8"))
+        array = ChunkedArray(path / name, about)
+        for slab in slabs(variable.shape, portable.BLOCK):
+            array.store([part.start for part in slab], variable[slab].values)
 
 
 def _frame_chunks(stored: xarray.Dataset) -> dict[Any, tuple[int, ...]]:

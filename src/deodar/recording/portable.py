@@ -58,8 +58,8 @@ BLOCK = 2**22
 def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
     """Return a Dataset that a file can store.
 
-    With `narrow`, of 8, 16 and 32 bit integers and floats only, as in NetCDF 3; the values of large arrays of
-    floats are then left out (`large`): they are zeros, without memory.
+    With `narrow`, of 8, 16 and 32 bit integers and floats only, as in NetCDF 3. The values of large arrays of
+    floats are left out (`large`): they are zeros, without memory.
     """
     names = _names([*data.variables, *data.dims])
     kept: dict[str, Any] = {
@@ -72,7 +72,7 @@ def pack(data: xarray.Dataset, narrow: bool) -> xarray.Dataset:
         kept["empty"] = empty
     variables: dict[str, Any] = {}
     for name, variable in data.variables.items():
-        if narrow and not empty and large(variable):
+        if not empty and large(variable):
             zero = np.zeros((), variable.dtype)
             array, about = np.broadcast_to(zero, variable.shape), _described(variable)
         else:
