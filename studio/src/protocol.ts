@@ -1274,7 +1274,7 @@ export type ToServer =
 
 // Further rows of a run: those from number `first` on, as `trials.jsonl` contains them.
 export type TrialRows = {
-  type: "rows";
+  type: "trial_rows";
   run: number;
   first: number;
   rows: (Record<string, unknown>)[];

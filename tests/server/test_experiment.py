@@ -68,7 +68,7 @@ def experiment(p: Page) -> dict[str, Any]:
 def rows(p: Page) -> list[dict[str, Any]]:
     """The rows of the present run that the page has received."""
     number = experiment(p)["run"]["number"]
-    return [row for m in p.all if m["type"] == "rows" and m["run"] == number for row in m["rows"]]
+    return [row for m in p.all if m["type"] == "trial_rows" and m["run"] == number for row in m["rows"]]
 
 
 async def ended(p: Page) -> None:

@@ -532,7 +532,7 @@ class ExperimentView(Message, frozen=True, tag="experiment"):
 
 
 @MESSAGES.register
-class TrialRows(Message, frozen=True, tag="rows"):
+class TrialRows(Message, frozen=True, tag="trial_rows"):
     """Further rows of a run: those from number `first` on, as `trials.jsonl` contains them."""
 
     run: int
