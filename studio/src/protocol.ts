@@ -702,7 +702,7 @@ export type OpenExperimentFile = {
   discard?: boolean;
 };
 
-// Open a document or a record below the root. `discard` allows unsaved edits to be lost.
+// Open a document, a record or an experiment below the root. `discard` allows edits to be lost.
 export type OpenFile = {
   type: "open_file";
   request?: number;

@@ -2,6 +2,7 @@
 // streams.ts.
 
 import { create } from "zustand";
+import type { TrialRow } from "./experiment/rows";
 import type {
   Changed,
   Comparison,
@@ -9,6 +10,7 @@ import type {
   Costs,
   DocumentView,
   ElementView,
+  ExperimentView,
   Gallery,
   Kind,
   ListedProblem,
@@ -43,6 +45,9 @@ export type Studio = {
   costs: Costs | null;
   // The comparison of the open record with another one; null: there is none.
   comparison: Comparison | null;
+  experiment: ExperimentView | null;
+  // The rows of its run, as they arrive.
+  trials: { run: number; rows: TrialRow[] };
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -69,6 +74,8 @@ export const useStudio = create<Studio>((set) => ({
   clock: null,
   costs: null,
   comparison: null,
+  experiment: null,
+  trials: { run: 0, rows: [] },
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -118,6 +125,12 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { comparison: message.path === "" ? null : message };
     case "costs":
       return { costs: message };
+    case "experiment":
+      return { experiment: message };
+    case "trial_rows": {
+      const before = message.run === state.trials.run ? state.trials.rows.slice(0, message.first) : [];
+      return { trials: { run: message.run, rows: [...before, ...(message.rows as TrialRow[])] } };
+    }
     default:
       return {};
   }

@@ -160,7 +160,7 @@ def test_a_stopped_run_continues_and_so_does_one_of_a_studio_that_ended(folder: 
         assert experiment(p)["run"]["folder"] == "two_targets-001"
 
     async def resume(p: Page) -> None:
-        await p.open("open_experiment", path="two_targets-001/experiment.json")
+        await p.open("open_file", path="two_targets-001/experiment.json")
         before = experiment(p)["run"]
         assert before["state"] == "stopped" and done[0] < before["rows"] < 24
         await p.until(lambda: len(rows(p)) == before["rows"])

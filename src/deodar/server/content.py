@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +19,8 @@ from deodar.model.document import Document
 from deodar.model.files import MOST_BYTES
 from deodar.server.open_folder import OpenFolder
 from deodar.server.workspace import DOCUMENTS, Workspace
+
+_EXPERIMENT = re.compile(rb'\s*\{\s*"experiment"\s*:')
 
 
 def read(text: str, title: str) -> Document:
@@ -68,6 +71,15 @@ def is_foreign(space: Workspace, place: Path) -> bool:
     try:
         with space.folder(place) as folder, folder.open(place.name) as (file, _):
             return opening.tool_for(file.read(opening.HEAD)) is not None
+    except (OSError, DeodarError):
+        return False  # `load` raises the error
+
+
+def is_experiment(space: Workspace, place: Path) -> bool:
+    """Return whether a file is an experiment, by its first key; False if it cannot be read."""
+    try:
+        with space.folder(place) as folder, folder.open(place.name) as (file, _):
+            return _EXPERIMENT.match(file.read(opening.HEAD)) is not None
     except (OSError, DeodarError):
         return False  # `load` raises the error
 

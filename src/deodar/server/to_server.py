@@ -37,7 +37,7 @@ class DocumentRequest(Request, frozen=True):
 
 @MESSAGES.register
 class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
-    """Open a document or a record below the root. `discard` allows unsaved edits to be lost."""
+    """Open a document, a record or an experiment below the root. `discard` allows edits to be lost."""
 
     path: Text
     discard: bool = False

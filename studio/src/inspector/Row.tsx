@@ -50,13 +50,14 @@ export function Row({
   extra,
   children,
 }: RowProps) {
-  const { element } = usePlace();
+  const { element, send } = usePlace();
   const [opened, setOpened] = useState(false);
   const [naming, setNaming] = useState(false);
   const standard = defaultAt(form, path);
   const resettable = hasDefault(form) && standard !== undefined && (standard !== null || form.optional);
   const atDefault = same(value, standard);
-  const withMenu = resettable || leaf;
+  const pinnable = leaf && send === undefined;
+  const withMenu = resettable || pinnable;
 
   const onContextMenu = (event: MouseEvent) => {
     if (
@@ -105,7 +106,7 @@ export function Row({
       </div>
       {children !== undefined && <div className="row-control">{children}</div>}
       <div className="row-tools">
-        <CostMark element={element} path={path} cost={form.cost} />
+        {send === undefined && <CostMark element={element} path={path} cost={form.cost} />}
         {withMenu ? (
           <RowMenu
             element={element}
@@ -114,8 +115,8 @@ export function Row({
             byDefault={<DefaultText value={standard} />}
             atDefault={atDefault}
             onReset={resettable ? () => onReset(standard) : undefined}
-            pinnable={leaf}
-            linkable={leaf && linkable(form)}
+            pinnable={pinnable}
+            linkable={pinnable && linkable(form)}
             opened={opened}
             onOpened={setOpened}
             onName={() => setNaming(true)}

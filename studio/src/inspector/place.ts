@@ -2,7 +2,7 @@
 
 import { createContext, useContext } from "react";
 
-import type { AxisView, DocumentParameterView } from "../protocol";
+import type { Answer, AxisView, DocumentParameterView, ParameterForm } from "../protocol";
 import { useStudio } from "../store";
 import { driver } from "./leaf";
 
@@ -12,7 +12,13 @@ export type Place = {
   // Whether the axes are a parameter of the element itself.
   own: boolean;
   timeUnit: string;
+  // Sends a parameter that is not one of an element of the document; without pins and links.
+  send?: (path: string, value: unknown) => Promise<Answer>;
+  // The names that a text may be, where its declaration says what it names.
+  names?: (of: Names) => string[];
 };
+
+export type Names = NonNullable<ParameterForm["names"]>;
 
 export const PlaceContext = createContext<Place>({ element: "", axes: [], own: false, timeUnit: "" });
 

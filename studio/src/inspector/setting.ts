@@ -7,6 +7,7 @@ import { Gesture } from "../gesture";
 import type { Answer, ParameterForm, ListedProblem } from "../protocol";
 import { socket } from "../socket";
 import { noteChange } from "./lastChange";
+import { usePlace } from "./place";
 
 export type Setting<T = unknown> = {
   value: T;
@@ -33,14 +34,18 @@ export function useSetting<T>(
   const [problem, setProblem] = useState<ListedProblem | null>(null);
   const latest = useRef<{ value: T } | null>(null);
 
+  const { send: place } = usePlace();
   const send = useCallback(
     async (value: T, gesture: number): Promise<Answer> => {
+      if (place !== undefined) {
+        return place(parameter, value);
+      }
       noteChange(element, parameter);
       const { answer } = await socket.ask({ type: "set", element, parameter, value, gesture });
       setProblem(answer.problems?.[0] ?? null);
       return answer;
     },
-    [element, parameter],
+    [element, parameter, place],
   );
   const gesture = useMemo(() => new Gesture<T>(send, () => setOwn(null)), [send]);
   useEffect(() => () => gesture.end(), [gesture]);

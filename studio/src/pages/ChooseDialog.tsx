@@ -14,6 +14,7 @@ const ACCEPTED = {
   pictures: "image/*",
   values: "application/json,.json",
   records: "",
+  experiments: "",
 };
 
 export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) {
@@ -39,7 +40,7 @@ export function ChooseDialog({ question: { wants }, answer }: Asking<"choose">) 
         first
       />
       <Group gap="xs" mt="md" justify="space-between">
-        {wants === "records" ? (
+        {wants === "records" || wants === "experiments" ? (
           <span />
         ) : (
           <FileButton accept={ACCEPTED[wants]} onChange={(chosen) => chosen !== null && answer(chosen)}>

@@ -64,6 +64,7 @@ const WANTED = {
   pictures: "Choose a picture",
   values: "Apply the values of a file",
   records: "Compare with another record",
+  experiments: "Open an experiment",
 };
 
 function titleOf(asked: Asked): string {

@@ -9,7 +9,10 @@ type Conversations = {
   replace: { question: { path: string; own: boolean }; answer: "replace" | "elsewhere" | "cancel" };
   // A file below the root (its path), or one of the person's own: to open it, to show it to the sensors, or
   // for its values, or to compare it.
-  choose: { question: { wants: "files" | "pictures" | "values" | "records" }; answer: string | File | null };
+  choose: {
+    question: { wants: "files" | "pictures" | "values" | "records" | "experiments" };
+    answer: string | File | null;
+  };
   save_as: { question: { path: string }; answer: string | null };
   // What became of the values of a file.
   taken: {

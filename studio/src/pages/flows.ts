@@ -6,12 +6,14 @@ import type {
   Close,
   NewDocument,
   OpenExample,
+  OpenExperimentFile,
   OpenFile,
   OpenPackage,
   OpenRecordModel,
   OpenText,
   ListedProblem,
   Recover,
+  RepeatTrial,
 } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
@@ -22,7 +24,16 @@ import { opening, sortOf } from "./paths";
 const MOST_BYTES = 40 * 2 ** 20;
 
 type Leaving =
-  NewDocument | OpenFile | OpenExample | OpenText | OpenPackage | OpenRecordModel | Recover | Close;
+  | NewDocument
+  | OpenExperimentFile
+  | RepeatTrial
+  | OpenFile
+  | OpenExample
+  | OpenText
+  | OpenPackage
+  | OpenRecordModel
+  | Recover
+  | Close;
 
 // Go to another document, or to none. Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {

@@ -6,6 +6,7 @@ import "dockview-react/dist/styles/dockview.css";
 import { useEffect, useRef, useState, useSyncExternalStore } from "react";
 import { PalettePanel } from "../build/PalettePanel";
 import { Costs } from "../costs/Costs";
+import { Experiment } from "../experiment/Experiment";
 import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
 import { NeedsServer } from "../pages/NeedsServer";
@@ -45,6 +46,11 @@ const COMPONENTS = {
   world: () => (
     <NeedsServer>
       <World />
+    </NeedsServer>
+  ),
+  experiment: () => (
+    <NeedsServer>
+      <Experiment />
     </NeedsServer>
   ),
   plot: PlotPanel,
@@ -104,6 +110,14 @@ export function Dock() {
       openTool("world");
     }
   }, [api, session, seen]);
+
+  // So is an experiment that was opened.
+  const experiment = useStudio((state) => state.experiment !== null && state.experiment.data !== null);
+  useEffect(() => {
+    if (api !== null && experiment) {
+      openTool("experiment");
+    }
+  }, [api, session, experiment]);
 
   return (
     <div className="dock">

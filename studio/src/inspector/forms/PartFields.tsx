@@ -2,6 +2,7 @@
 
 import { memo } from "react";
 
+import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { FORMS } from "./forms";
@@ -11,6 +12,12 @@ type PartFieldsProps = { kind: string; values: unknown; prefix?: string };
 
 export function PartFields({ kind, values, prefix = "" }: PartFieldsProps) {
   const forms = useStudio((state) => state.kinds.get(kind))?.parameters ?? [];
+  return <Fields forms={forms} values={values} prefix={prefix} />;
+}
+
+type FieldsProps = { forms: ParameterForm[]; values: unknown; prefix: string };
+
+export function Fields({ forms, values, prefix }: FieldsProps) {
   return forms.map((form) => (
     <Parameter
       key={form.name}

@@ -5,13 +5,15 @@ import { ProblemLine } from "../ProblemLine";
 import { Row } from "../Row";
 import { useSetting } from "../setting";
 import { ChoiceBox } from "./ChoiceBox";
+import { NameBox } from "./NameBox";
 import type { FormProps } from "./props";
 import { TextBox } from "./TextBox";
 
 export function TextForm({ form, path, value }: FormProps) {
-  const { element } = usePlace();
+  const { element, names } = usePlace();
   const setting = useSetting(element, path, value, form.cost);
   const text = typeof value === "string" ? value : null;
+  const known = names?.(form.names ?? "") ?? [];
   const few = form.choices.length > 0;
   return (
     <Row
@@ -28,6 +30,13 @@ export function TextForm({ form, path, value }: FormProps) {
           choices={form.choices}
           optional={form.optional}
           onCommit={(chosen) => void setting.commit(chosen)}
+        />
+      ) : known.length > 0 ? (
+        <NameBox
+          label={path}
+          value={text ?? ""}
+          names={known}
+          onCommit={(typed) => setting.commit(typed === "" && form.optional ? null : typed)}
         />
       ) : (
         <TextBox

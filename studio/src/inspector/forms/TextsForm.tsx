@@ -10,17 +10,20 @@ import { ProblemLine } from "../ProblemLine";
 import { Row } from "../Row";
 import { useSetting } from "../setting";
 import { ChoiceBox } from "./ChoiceBox";
+import { NameBox } from "./NameBox";
 import type { FormProps } from "./props";
 import { TextBox } from "./TextBox";
 
 export function TextsForm({ form, path, value }: FormProps) {
-  const { element } = usePlace();
+  const { element, names } = usePlace();
   const setting = useSetting(element, path, value, form.cost);
   const texts = Array.isArray(value) ? (value as string[]) : typeof value === "string" ? [value] : [];
+  const known = names?.(form.names ?? "") ?? [];
   const few = form.choices.length > 0;
   const commit = (next: string[]) => setting.commit(next.length === 0 && form.optional ? null : next);
   const put = (i: number, text: string) => commit(texts.map((old, k) => (k === i ? text : old)));
-  const add = () => void commit([...texts, form.choices[0] ?? fresh(texts)]);
+  const add = () =>
+    void commit([...texts, form.choices[0] ?? known.find((name) => !texts.includes(name)) ?? fresh(texts)]);
   return (
     <Row
       form={form}
@@ -37,6 +40,13 @@ export function TextsForm({ form, path, value }: FormProps) {
               value={text}
               choices={form.choices}
               onCommit={(chosen) => void put(i, chosen ?? text)}
+            />
+          ) : known.length > 0 ? (
+            <NameBox
+              label={`${path} ${i + 1}`}
+              value={text}
+              names={known}
+              onCommit={(typed) => put(i, typed)}
             />
           ) : (
             <TextBox

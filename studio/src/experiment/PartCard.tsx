@@ -1,0 +1,79 @@
+// The card of a condition, an action or a measure: its kind, its name and the forms of its parameters.
+
+import { Menu } from "@mantine/core";
+import { IconTrash } from "@tabler/icons-react";
+
+import { DotsMenu } from "../inspector/DotsMenu";
+import { Fields } from "../inspector/forms/PartFields";
+import { TextBox } from "../inspector/forms/TextBox";
+import { PlaceContext } from "../inspector/place";
+import { ProblemLine } from "../inspector/ProblemLine";
+import type { Kind } from "../protocol";
+import { useStudio } from "../store";
+import type { Values } from "../values";
+import { edit } from "./actions";
+import { type Group, type Part, remove, rename } from "./draft";
+import { usePartPlace } from "./place";
+import { problemsAt } from "./problems";
+
+type PartCardProps = { group: Group; part: Part; kinds: Kind[]; usual: string };
+
+export function PartCard({ group, part: { key, values }, kinds, usual }: PartCardProps) {
+  const kind = kinds.find(({ name }) => name === (values["kind"] ?? usual));
+  const forms = kind?.parameters ?? [];
+  const place = usePartPlace(group, key, values, forms);
+  const shown = withDefaults(values, kind);
+  return (
+    <Card group={group} name={key} title={kind?.title ?? String(values["kind"])} kinds={kinds}>
+      <PlaceContext.Provider value={place}>
+        <Fields forms={forms} values={shown} prefix={`${key}.`} />
+      </PlaceContext.Provider>
+    </Card>
+  );
+}
+
+function withDefaults(values: Values, kind: Kind | undefined): Values {
+  return Object.fromEntries((kind?.parameters ?? []).map((p) => [p.name, values[p.name] ?? p.default]));
+}
+
+type CardProps = {
+  group: Group;
+  name: string;
+  title: string;
+  kinds: Kind[];
+  children: React.ReactNode;
+};
+
+// The frame of a card: its title, its name, a menu, and what is wrong with it.
+export function Card({ group, name, title, kinds, children }: CardProps) {
+  const problems = useStudio((state) => state.experiment?.problems) ?? [];
+  const own = problemsAt(problems, `${group}.${name}`);
+  const label = group === "actions" ? `${title} ${Number(name) + 1}` : `${title} ${name}`;
+  const take = async (typed: string) =>
+    typed.trim() === "" ||
+    ((await edit((data) => rename(data, group, name, typed.trim(), kinds))).problems ?? []).length === 0;
+  return (
+    <section className="experiment-card" aria-label={label} data-wrong={own.length > 0 || undefined}>
+      <div className="experiment-card-head">
+        <span className="part-title">{title}</span>
+        {group === "actions" ? (
+          <span className="grow" />
+        ) : (
+          <TextBox label={`Name of ${name}`} value={name} onCommit={take} />
+        )}
+        <DotsMenu label={`More for ${label}`}>
+          <Menu.Item
+            leftSection={<IconTrash size={14} />}
+            onClick={() => void edit((data) => remove(data, group, name))}
+          >
+            Remove
+          </Menu.Item>
+        </DotsMenu>
+      </div>
+      {children}
+      {own.map((problem, i) => (
+        <ProblemLine key={i} problem={{ what: problem.what, fix: problem.fix }} />
+      ))}
+    </section>
+  );
+}

@@ -1,0 +1,97 @@
+// The rows of a run: the distribution of one column in each combination of levels, and the table.
+
+import { UnstyledButton } from "@mantine/core";
+import { useMemo, useState } from "react";
+
+import { AddButton } from "../inspector/AddButton";
+import { ChoiceBox } from "../inspector/forms/ChoiceBox";
+import { useStudio } from "../store";
+import { repeat } from "./actions";
+import { Bars } from "./Bars";
+import { cellText, type Column, columnsOf, type TrialRow } from "./rows";
+
+// The rows that are shown first, and with each press on the button below them.
+const MORE = 200;
+
+export function Results() {
+  const rows = useStudio((state) => state.trials.rows);
+  const number = useStudio((state) => state.experiment?.run?.number);
+  const received = useStudio((state) => state.trials.run);
+  const own = number === received ? rows : NO_ROWS;
+  const columns = useMemo(() => columnsOf(own), [own]);
+  const [chosen, setChosen] = useState("");
+  const shown = columns.filter(({ sort }) => sort !== "level");
+  const column = shown.find(({ name }) => name === chosen) ?? shown.at(-1);
+  if (column === undefined) {
+    return <p className="dim">The rows of the trials appear here while the experiment runs.</p>;
+  }
+  return (
+    <>
+      <div className="experiment-choice">
+        <ChoiceBox
+          label="Shown column"
+          value={column.name}
+          choices={shown.map(({ name }) => name)}
+          onCommit={(name) => setChosen(name ?? "")}
+        />
+      </div>
+      <Bars rows={own} column={column} />
+      <Table rows={own} columns={columns} />
+    </>
+  );
+}
+
+const NO_ROWS: TrialRow[] = [];
+
+function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
+  const [most, setMost] = useState(MORE);
+  const [busy, setBusy] = useState<number | null>(null);
+  const repeated = useStudio((state) => state.experiment?.repeated);
+  const sorted = useMemo(() => [...rows].sort((a, b) => a.trial - b.trial), [rows]);
+  const replay = async (trial: number) => {
+    if (busy === null) {
+      setBusy(trial);
+      await repeat(trial);
+      setBusy(null);
+    }
+  };
+  return (
+    <div className="experiment-scroll">
+      <table className="experiment-table numbers">
+        <caption>A click on a row runs its trial again, bit for bit, and opens its record.</caption>
+        <thead>
+          <tr>
+            <th scope="col">trial</th>
+            {columns.map(({ name }) => (
+              <th scope="col" key={name}>
+                {name}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {sorted.slice(0, most).map((row) => (
+            <tr
+              key={row.trial}
+              aria-selected={row.trial === repeated}
+              data-busy={row.trial === busy || undefined}
+              onClick={() => void replay(row.trial)}
+            >
+              <th scope="row">
+                <UnstyledButton aria-label={`Replay trial ${row.trial}`} disabled={busy !== null}>
+                  {row.trial}
+                </UnstyledButton>
+              </th>
+              {columns.map(({ name, of }) => (
+                <td key={name}>{cellText(of(row))}</td>
+              ))}
+            </tr>
+          ))}
+        </tbody>
+      </table>
+      {sorted.length > most && (
+        <AddButton onClick={() => setMost(most + MORE)}>{sorted.length - most} more rows</AddButton>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,50 @@
+// A text field with the names that are valid; another name can be typed.
+
+import { Autocomplete } from "@mantine/core";
+import { useState } from "react";
+
+type NameBoxProps = {
+  label: string;
+  value: string;
+  names: string[];
+  placeholder?: string;
+  onCommit: (value: string) => unknown;
+};
+
+export function NameBox({ label, value, names, placeholder = "choose or type", onCommit }: NameBoxProps) {
+  const [draft, setDraft] = useState<string | null>(null);
+  const take = (text: string) => {
+    setDraft(null);
+    if (text !== value) {
+      void onCommit(text);
+    }
+  };
+  return (
+    <Autocomplete
+      className="grow"
+      size="xs"
+      aria-label={label}
+      title={value}
+      data={names}
+      value={draft ?? value}
+      placeholder={placeholder}
+      limit={60}
+      maxDropdownHeight={220}
+      autoComplete="off"
+      spellCheck={false}
+      comboboxProps={{ shadow: "md" }}
+      // all names are listed until one is typed
+      filter={draft === null ? ({ options }) => options : undefined}
+      onChange={setDraft}
+      onOptionSubmit={take}
+      onKeyDown={(event) => {
+        if (event.key === "Enter" && draft !== null && !event.defaultPrevented) {
+          take(draft);
+        } else if (event.key === "Escape") {
+          setDraft(null);
+        }
+      }}
+      onBlur={() => draft !== null && take(draft)}
+    />
+  );
+}
