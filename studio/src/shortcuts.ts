@@ -2,9 +2,13 @@
 
 import { useEffect } from "react";
 
+import { copy, cut, duplicate, paste } from "./build/clipboard";
+import { openCommands } from "./build/commands";
 import { connectByKeys } from "./build/connecting";
+import { groupSelected, selectAll, ungroupSelected } from "./build/grouping";
 import { openPalette } from "./build/palette";
 import { disconnectByKeys, removeSelected } from "./build/removing";
+import { renameSelected } from "./build/renaming";
 import { isOnCanvas } from "./build/stage";
 import { ask, useDialogs } from "./pages/dialogs";
 import { open, save, saveAs } from "./pages/flows";
@@ -28,6 +32,8 @@ export type Shortcut = {
   past?: boolean;
   // Only where the canvas has the focus, or nothing.
   canvas?: boolean;
+  // An event of the browser follows the keys, and it is what acts.
+  event?: boolean;
 };
 
 export const SHORTCUTS: readonly Shortcut[] = [
@@ -57,9 +63,18 @@ export const SHORTCUTS: readonly Shortcut[] = [
     does: "Add an element (also Tab, with the pointer on the canvas)",
     run: () => openPalette(),
   },
+  { keys: ["Ctrl+K"], does: "Find a command or an element", run: () => openCommands(SHORTCUTS) },
   { keys: ["C"], does: "Connect the selected element", run: () => connectByKeys(), canvas: true },
   { keys: ["X"], does: "Remove a connection of the selected element", run: disconnectByKeys, canvas: true },
   { keys: ["Delete", "Backspace"], does: "Remove what is selected", run: removeSelected, canvas: true },
+  { keys: ["F2"], does: "Rename", run: renameSelected, canvas: true },
+  { keys: ["Ctrl+C"], does: "Copy", run: copy, canvas: true, event: true },
+  { keys: ["Ctrl+X"], does: "Cut", run: cut, canvas: true, event: true },
+  { keys: ["Ctrl+V"], does: "Paste", run: () => paste(), canvas: true, event: true },
+  { keys: ["Ctrl+D"], does: "Duplicate", run: duplicate, canvas: true },
+  { keys: ["Ctrl+A"], does: "Select everything", run: selectAll, canvas: true },
+  { keys: ["Ctrl+G", "G"], does: "Group", run: groupSelected, canvas: true },
+  { keys: ["Shift+G"], does: "Ungroup", run: ungroupSelected, canvas: true },
   { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
   { keys: ["Ctrl+S"], does: "Save", run: () => save(), typing: true },
   { keys: ["Ctrl+Shift+S"], does: "Save as", run: saveAs, typing: true },
@@ -143,7 +158,7 @@ export function useShortcuts(): void {
 
 function onKey(event: KeyboardEvent, focusSeen: boolean): void {
   const shortcut = SHORTCUTS.find(({ keys }) => keys.some((k) => isPressed(k, event)));
-  if (shortcut === undefined || event.defaultPrevented) {
+  if (shortcut === undefined || shortcut.event === true || event.defaultPrevented) {
     return;
   }
   const target = event.target instanceof Element ? event.target : null;

@@ -76,7 +76,7 @@ function blocking(boxes: Rect[], x: number, y: number): Rect | undefined {
 }
 
 // The innermost open group at a point.
-function groupAt(at: Point, { tree, places }: Scene): string {
+export function groupAt(at: Point, { tree, places }: Scene): string {
   let best = "";
   for (const group of tree.groups.values()) {
     const rect = places.groups.get(group.key);

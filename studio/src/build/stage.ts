@@ -10,6 +10,8 @@ export type Stage = {
   scene: () => GraphScene;
   // Brings an element into view, with the same zoom.
   reveal: (element: string) => void;
+  // Selects an element and brings it into the middle.
+  center: (element: string) => void;
 };
 
 let stage: Stage | null = null;

@@ -8,6 +8,7 @@ import { glide } from "../graph/glide";
 import type { GraphScene } from "../graph/scene";
 import { useStudio } from "../store";
 import { carried, isCarried } from "./carried";
+import { listen } from "./clipboard";
 import { addElement } from "./edits";
 import { openPalette, passes, spotFor } from "./palette";
 import { usePicked } from "./picked";
@@ -18,12 +19,19 @@ import { firstOf, wireAt } from "./wires";
 const GLIDE_MS = 200;
 const FRAMES = 30;
 
-export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphScene) {
+export function useStage(
+  around: RefObject<HTMLDivElement | null>,
+  scene: GraphScene,
+  center: (element: string) => void,
+) {
   const flow = useReactFlow();
   const latest = useRef(scene);
+  const centering = useRef(center);
   useEffect(() => {
     latest.current = scene;
-  }, [scene]);
+    centering.current = center;
+  }, [scene, center]);
+  useEffect(listen, []);
 
   useEffect(() => {
     const holder = around.current;
@@ -52,6 +60,7 @@ export function useStage(around: RefObject<HTMLDivElement | null>, scene: GraphS
       toScreen: (at) => flow.flowToScreenPosition(at),
       scene: () => latest.current,
       reveal,
+      center: (element) => centering.current(element),
     });
     return () => setStage(null);
   }, [around, flow]);

@@ -40,7 +40,10 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
         size="sm"
         aria-label={`Unfold ${key}`}
         title="Unfold this group"
-        onClick={() => fold(key, false)}
+        onClick={(event) => {
+          event.stopPropagation();
+          fold(key, false);
+        }}
       >
         <IconChevronRight size={15} />
       </ActionIcon>

@@ -4,19 +4,24 @@ import { ActionIcon } from "@mantine/core";
 import { IconChevronDown } from "@tabler/icons-react";
 import type { NodeProps } from "@xyflow/react";
 import { memo } from "react";
+import { usePicked } from "../build/picked";
 import { fold } from "./arrange";
 import type { FrameNode } from "./scene";
 
 export const Frame = memo(function Frame({ data: { key, name } }: NodeProps<FrameNode>) {
+  const picked = usePicked((state) => state.groups.includes(key));
   return (
-    <div className="graph-frame">
+    <div className="graph-frame" data-selected={picked || undefined}>
       <div className="graph-frame-title">
         <ActionIcon
           className="nodrag"
           size="sm"
           aria-label={`Fold ${key}`}
           title="Fold this group"
-          onClick={() => fold(key, true)}
+          onClick={(event) => {
+            event.stopPropagation();
+            fold(key, true);
+          }}
         >
           <IconChevronDown size={15} />
         </ActionIcon>

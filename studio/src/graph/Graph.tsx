@@ -14,11 +14,18 @@ import {
 } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
 import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { copyDragged } from "../build/dragging";
+import { RenameBox } from "../build/RenameBox";
+import { openSelectionCommands } from "../build/commands";
+import { pickGroup } from "../build/picked";
+import { renameSelected } from "../build/renaming";
+import { getStage } from "../build/stage";
 import { useStage } from "../build/useStage";
 import { useWires } from "../build/useWires";
 import { WiringHint } from "../build/WiringHint";
 import { openPlot } from "../panels/openPlot";
 import { useDialogs } from "../pages/dialogs";
+import { SHORTCUTS } from "../shortcuts";
 import { useStudio } from "../store";
 import { place, unfold } from "./arrange";
 import { Box } from "./Box";
@@ -31,7 +38,7 @@ import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
 import { newPainting, PainterContext } from "./PainterContext";
-import { foldedAround, scene, type SceneNode, type Structure } from "./scene";
+import { foldedAround, groupKey, scene, type SceneNode, type Structure } from "./scene";
 import { Search } from "./Search";
 import { useStructure } from "./structure";
 import { useNodes } from "./useNodes";
@@ -63,7 +70,7 @@ export function Graph() {
 function Canvas({ structure }: { structure: Structure }) {
   const kinds = useStudio((state) => state.kinds);
   const now = useMemo(() => scene(structure, kinds), [structure, kinds]);
-  const { nodes, onNodesChange, settle } = useNodes(now);
+  const { nodes, onNodesChange, settle, reset } = useNodes(now);
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
   const [searching, setSearching] = useState(false);
@@ -73,7 +80,10 @@ function Canvas({ structure }: { structure: Structure }) {
   useEffect(() => layer.change(), [layer, nodes]);
   const flow = useReactFlow();
   const touched = useWhole(around);
-  const stage = useStage(around, now);
+  const stage = useStage(around, now, (element) => {
+    useStudio.getState().select([element]);
+    center(element);
+  });
   const wiring = useWires();
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
@@ -128,9 +138,36 @@ function Canvas({ structure }: { structure: Structure }) {
           defaultEdgeOptions={ARROW}
           onNodesChange={onNodesChange}
           onNodeDragStart={() => useHover.getState().close()}
-          onNodeDragStop={settle}
-          onNodeClick={() => useHover.getState().close()}
-          onNodeDoubleClick={(_, node) => node.type === "box" && openPlot({ element: node.id })}
+          onNodeDragStop={(event) => {
+            if (event.altKey) {
+              copyDragged(nodes);
+              reset();
+            } else {
+              settle();
+            }
+          }}
+          onNodeContextMenu={(event, { id, type }) => {
+            event.preventDefault();
+            if (type === "box" && !useStudio.getState().selected.includes(id)) {
+              useStudio.getState().select([id]);
+            } else if (type !== "box") {
+              pickGroup(groupKey(id), false);
+            }
+            openSelectionCommands({ x: event.clientX, y: event.clientY }, SHORTCUTS);
+          }}
+          onNodeClick={(event, { id, type }) => {
+            useHover.getState().close();
+            if (type !== "box") {
+              pickGroup(groupKey(id), event.shiftKey || event.ctrlKey || event.metaKey);
+            }
+          }}
+          onNodeDoubleClick={(_, { id, type }) => {
+            if (type === "box") {
+              openPlot({ element: id });
+            } else if (type === "frame") {
+              renameSelected();
+            }
+          }}
           {...wiring}
           onMoveStart={() => move(true)}
           onMove={(_, view) => layer.move(view)}
@@ -169,13 +206,13 @@ function Canvas({ structure }: { structure: Structure }) {
             onClose={() => setSearching(false)}
             onFound={(element) => {
               setSearching(false);
-              useStudio.getState().select([element]);
-              center(element);
+              getStage()?.center(element);
             }}
           />
         )}
         <Card />
         <WiringHint />
+        <RenameBox />
       </div>
     </PainterContext>
   );

@@ -39,6 +39,7 @@ export type GraphScene = {
 
 // Ids of nodes for groups cannot be those of elements, which are hashes.
 export const groupNode = (key: string): string => `group:${key}`;
+export const groupKey = (node: string): string => node.slice("group:".length);
 
 export const PILL = { height: 22, gap: 4, letter: 6.6, pad: 34, most: 132 };
 

@@ -58,7 +58,13 @@ export function useNodes(scene: GraphScene) {
     [settle, flow],
   );
 
-  return { nodes: shown, onNodesChange, settle };
+  // All boxes return to their positions in the document.
+  const reset = useCallback(() => {
+    window.clearTimeout(timer.current);
+    setNodes(latest.current.scene.nodes);
+  }, []);
+
+  return { nodes: shown, onNodesChange, settle, reset };
 }
 
 // The selection of xyflow becomes that of the store. Couplings on edges are not nodes: xyflow

@@ -1,0 +1,183 @@
+import type { Locator } from "playwright-core";
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+
+import { box, button, panel, select } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio();
+  await studio.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  observer = await studio.observe();
+});
+
+// A stimulus that is connected with a field, and a second stimulus.
+beforeEach(async () => {
+  const { page } = studio;
+  await observer.ask({ type: "new", discard: true });
+  await page.getByText("This document has no elements yet.").waitFor();
+  await observer.ask({ type: "add_element", kind: "GaussianStimulus", name: "a", at: [0, 0] });
+  const [source = ""] = observer.document?.elements.map(({ id }) => id) ?? [];
+  await observer.ask({
+    type: "add_element",
+    kind: "Field",
+    name: "u",
+    at: [260, 40],
+    source: { element: source },
+  });
+  await observer.ask({ type: "add_element", kind: "GaussianStimulus", name: "b", at: [20, 200] });
+  await observer.until(() => observer.document?.elements.length === 3);
+  await box(page, "b").waitFor();
+  await button(page, "Show everything").click();
+  await page.locator(".react-flow__pane").click({ position: { x: 300, y: 20 } });
+});
+
+afterAll(() => studio.stop());
+
+const paths = (): string =>
+  (observer.document?.elements ?? [])
+    .map(({ path }) => path)
+    .sort()
+    .join();
+const at = (path: string): { x: number; y: number } | undefined =>
+  (observer.document?.layout["boxes"] as Record<string, { x: number; y: number }>)[observer.element(path).id];
+
+async function placeOf(locator: Locator): Promise<{ x: number; y: number; width: number; height: number }> {
+  const found = await locator.boundingBox();
+  if (found === null) throw new Error("It is not visible.");
+  return found;
+}
+
+test("what is selected is copied, pasted, cut and duplicated, with its connections", async () => {
+  const { page } = studio;
+  await page.keyboard.press("Control+a");
+  await page.keyboard.press("Control+c");
+  await expect
+    .poll(() => page.evaluate(() => navigator.clipboard.readText()))
+    .toContain('"GaussianStimulus"');
+  await page.keyboard.press("Control+v");
+  await observer.until(() => paths() === "a,a2,b,b2,u,u2");
+  expect(observer.document?.connections.length).toBe(2);
+  await page.keyboard.press("Control+z");
+  await observer.until(() => paths() === "a,b,u");
+  await select(page, "b");
+  await page.keyboard.press("Control+d");
+  await observer.until(() => paths() === "a,b,b2,u");
+  expect(at("b2")).toEqual({ x: 52, y: 232 });
+  await select(page, "a");
+  await page.keyboard.press("Control+x");
+  await observer.until(() => paths() === "b,b2,u");
+  await page.keyboard.press("Control+v");
+  await observer.until(() => paths() === "a,b,b2,u");
+});
+
+test("a copy goes to another window as text, and foreign text is refused as a whole", async () => {
+  const { page, another } = studio;
+  await select(page, "u");
+  await page.keyboard.press("Control+c");
+  await expect.poll(() => page.evaluate(() => navigator.clipboard.readText())).toContain('"Field"');
+  const text = await page.evaluate(() => navigator.clipboard.readText());
+  expect(Object.keys((JSON.parse(text) as { elements: object }).elements)).toEqual(["u"]);
+  const second = await another();
+  await box(second, "u").waitFor();
+  await second.locator(".react-flow__pane").click({ position: { x: 300, y: 20 } });
+  await second.keyboard.press("Control+v");
+  await observer.until(() => paths() === "a,b,u,u2");
+  await second.evaluate(() => navigator.clipboard.writeText("no document"));
+  await second.keyboard.press("Control+v");
+  await second
+    .getByText(/the clipboard holds no elements/i)
+    .first()
+    .waitFor();
+  expect(paths()).toBe("a,b,u,u2");
+  await second.close();
+});
+
+test("elements are grouped, the group is renamed, and dissolved", async () => {
+  const { page } = studio;
+  await select(page, "a");
+  await box(page, "b").click({ position: { x: 20, y: 12 }, modifiers: ["Shift"] });
+  await page.keyboard.press("Control+g");
+  await observer.until(() => paths() === "group.a,group.b,u");
+  await page.locator(".graph-frame[data-selected]").waitFor();
+  await page.keyboard.press("F2");
+  await page.getByRole("textbox", { name: "New name of group" }).fill("inputs");
+  await shot(page, "edit-rename");
+  await page.keyboard.press("Enter");
+  await observer.until(() => paths() === "inputs.a,inputs.b,u");
+  await page.locator(".graph-frame-title").click();
+  await page.keyboard.press("Shift+g");
+  await observer.until(() => paths() === "a,b,u");
+});
+
+test("F2 renames an element in its place, and a name that is taken is refused", async () => {
+  const { page } = studio;
+  await select(page, "a");
+  await page.keyboard.press("F2");
+  const field = page.getByRole("textbox", { name: "New name of a" });
+  await field.fill("left");
+  await field.press("Enter");
+  await observer.until(() => paths() === "b,left,u");
+  await select(page, "left");
+  await page.keyboard.press("F2");
+  await page.getByRole("textbox", { name: "New name of left" }).fill("b");
+  await page.keyboard.press("Enter");
+  await page
+    .getByRole("alert")
+    .or(page.getByText(/already/))
+    .first()
+    .waitFor();
+  expect(paths()).toBe("b,left,u");
+});
+
+test("a box that is dragged with Alt is copied to there", async () => {
+  const { page } = studio;
+  await select(page, "b");
+  const before = at("b");
+  const { x, y } = await placeOf(box(page, "b"));
+  await page.keyboard.down("Alt");
+  await page.mouse.move(x + 30, y + 12);
+  await page.mouse.down();
+  await page.mouse.move(x + 150, y + 60, { steps: 6 });
+  await page.mouse.up();
+  await page.keyboard.up("Alt");
+  await observer.until(() => paths() === "a,b,b2,u");
+  expect(at("b")).toEqual(before);
+  expect(at("b2")?.x).toBeGreaterThan((before?.x ?? 0) + 50);
+});
+
+test("a frame drawn with Shift selects boxes, and commands align them", async () => {
+  const { page } = studio;
+  const [a, b] = [await placeOf(box(page, "a")), await placeOf(box(page, "b"))];
+  await page.keyboard.down("Shift");
+  await page.mouse.move(a.x - 12, a.y - 12);
+  await page.mouse.down();
+  await page.mouse.move(b.x + b.width + 6, b.y + b.height + 6, { steps: 6 });
+  await shot(page, "edit-marquee");
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  await panel(page, "Inspector").getByText("2 elements").first().waitFor();
+  await page.keyboard.press("Control+k");
+  const commands = page.getByRole("dialog", { name: "Commands and elements" });
+  await commands.getByRole("combobox").fill("align left");
+  await shot(page, "edit-commands");
+  await page.keyboard.press("Enter");
+  await observer.until(() => at("b")?.x === at("a")?.x);
+  expect(at("b")?.y).toBe(200);
+});
+
+test("Ctrl+K goes to an element; a right click on a box lists what can be done with it", async () => {
+  const { page } = studio;
+  await page.keyboard.press("Control+k");
+  const commands = page.getByRole("dialog", { name: "Commands and elements" });
+  await commands.getByRole("combobox").fill("u field");
+  await commands.getByRole("option", { name: /^u\b/ }).click();
+  await panel(page, "Inspector").getByRole("heading", { name: "u", exact: true }).waitFor();
+  await box(page, "b").click({ button: "right", position: { x: 20, y: 12 } });
+  const list = page.getByRole("dialog", { name: "Commands for the selection" });
+  await list.getByRole("option", { name: /^Duplicate/ }).click();
+  await observer.until(() => paths() === "a,b,b2,u");
+});

@@ -1,0 +1,152 @@
+// Copy, cut and paste of what is selected, as a document in JSON: between pages, windows and files. The
+// events of the browser carry the text; where a page may not write to the clipboard by itself, the old
+// command does.
+
+import type { Point } from "../graph/layout";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import { showMade } from "./made";
+import { isEditable } from "./palette";
+import { groupAt, pathOf } from "./placing";
+import { removeSelected } from "./removing";
+import { chosen } from "./selection";
+import { getPointer, getStage, isOnCanvas } from "./stage";
+
+const APART = 32;
+
+// The text that was copied last, where the clipboard cannot be read.
+let last = "";
+// Whether this module writes to the clipboard by the old command, which is an event too.
+let writing = false;
+
+// What is selected as text; empty where nothing is.
+async function selectedText(): Promise<string> {
+  const { elements, groups } = chosen();
+  if (elements.length + groups.length === 0) {
+    return "";
+  }
+  return (await request({ type: "copy", elements, groups })).text ?? "";
+}
+
+export async function copy(): Promise<boolean> {
+  const text = await selectedText();
+  if (text !== "") {
+    last = text;
+    await write(text);
+  }
+  return text !== "";
+}
+
+export async function cut(): Promise<void> {
+  if (isEditable() && (await copy())) {
+    await removeSelected();
+  }
+}
+
+export async function paste(text?: string): Promise<void> {
+  const stage = getStage();
+  if (!isEditable() || stage === null) {
+    return;
+  }
+  const content = text ?? (await read());
+  if (content.trim() === "") {
+    useStudio.getState().notify({ what: "The clipboard holds no elements." }, "info");
+    return;
+  }
+  const pointer = getPointer();
+  await insert(content, pointer === null ? null : stage.toFlow(pointer));
+}
+
+// The selection once more, a little aside.
+export async function duplicate(): Promise<void> {
+  const corner = cornerOf(allChosen());
+  if (isEditable() && corner !== null) {
+    await copyTo({ x: corner.x + APART, y: corner.y + APART });
+  }
+}
+
+// The selection once more, with its upper left corner at a point of the canvas.
+export async function copyTo(at: Point): Promise<void> {
+  const text = await selectedText();
+  if (text !== "") {
+    await insert(text, at);
+  }
+}
+
+async function insert(text: string, at: Point | null): Promise<void> {
+  const { document } = useStudio.getState();
+  const scene = getStage()?.scene();
+  const key = at === null || scene === undefined ? "" : groupAt(at, scene);
+  const answer = await request({
+    type: "paste",
+    text,
+    group: document === null ? [] : pathOf(key, document),
+    at: at === null ? null : [Math.round(at.x), Math.round(at.y)],
+  });
+  showMade(answer.made ?? []);
+}
+
+// All selected elements, also those of selected groups.
+const allChosen = (): string[] => useStudio.getState().selected;
+
+export function cornerOf(elements: string[]): Point | null {
+  const places = getStage()?.scene().places.elements;
+  const found = elements.flatMap((id) => places?.get(id) ?? []);
+  return found.length === 0
+    ? null
+    : { x: Math.min(...found.map(({ x }) => x)), y: Math.min(...found.map(({ y }) => y)) };
+}
+
+async function write(text: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const field = document.createElement("textarea");
+    field.value = text;
+    document.body.append(field);
+    field.select();
+    writing = true;
+    document.execCommand("copy");
+    writing = false;
+    field.remove();
+  }
+}
+
+async function read(): Promise<string> {
+  try {
+    return await navigator.clipboard.readText();
+  } catch {
+    return last;
+  }
+}
+
+// Whether an event of the clipboard is meant for the canvas: no text is selected or typed.
+function isMeant(): boolean {
+  const focus = document.activeElement;
+  return !writing && isOnCanvas(focus) && focus?.matches("input, textarea") !== true && selectsNoText();
+}
+
+const selectsNoText = (): boolean => getSelection()?.isCollapsed !== false;
+
+// Listen to the clipboard's events; gives what ends it.
+export function listen(): () => void {
+  const take = (act: (event: ClipboardEvent) => unknown) => (event: ClipboardEvent) => {
+    if (isMeant()) {
+      event.preventDefault();
+      void act(event);
+    }
+  };
+  const taken = {
+    copy: take(copy),
+    cut: take(cut),
+    paste: take((event) => paste(event.clipboardData?.getData("text/plain") || last)),
+  };
+  for (const [name, act] of Object.entries(taken)) {
+    document.addEventListener(name, act as EventListener);
+  }
+  return () => {
+    for (const [name, act] of Object.entries(taken)) {
+      document.removeEventListener(name, act as EventListener);
+    }
+  };
+}

@@ -1,0 +1,68 @@
+// All commands, elements and kinds in one list (Ctrl+K), and those for the selection at a right click.
+
+import type { Point } from "../graph/layout";
+import { keysText, type Shortcut } from "../shortcuts";
+import { useStudio } from "../store";
+import { ALIGNMENTS, align } from "./aligning";
+import { useChooser } from "./chooser";
+import { addElement } from "./edits";
+import type { ListEntry } from "./entries";
+import { isEditable, kindEntries, selectedOne, spotFor } from "./palette";
+import { getPointer, getStage } from "./stage";
+
+export function openCommands(shortcuts: readonly Shortcut[]): void {
+  const { document, kinds } = useStudio.getState();
+  const at = getPointer();
+  const elements = (document?.elements ?? []).map(({ id, path, kind }) => ({
+    id: `element ${id}`,
+    family: "Go to",
+    title: path,
+    note: kinds.get(kind)?.title ?? kind,
+    run: () => getStage()?.center(id),
+  }));
+  const added = isEditable()
+    ? kindEntries(kinds, selectedOne(), (kind) => addElement(kind.name, spotFor(kind, at)))
+    : [];
+  useChooser.getState().open({
+    label: "Commands and elements",
+    placeholder: "A command, an element, or a kind to add",
+    at: null,
+    entries: [
+      ...commandEntries(shortcuts),
+      ...alignmentEntries(),
+      ...elements,
+      ...added.map((entry) => ({ ...entry, family: `Add: ${entry.family.toLowerCase()}` })),
+    ],
+    empty: "Nothing matches",
+  });
+}
+
+// What can be done with the selection.
+export function openSelectionCommands(at: Point, shortcuts: readonly Shortcut[]): void {
+  useChooser.getState().open({
+    label: "Commands for the selection",
+    placeholder: "Command",
+    at,
+    entries: [...commandEntries(shortcuts.filter(({ canvas }) => canvas === true)), ...alignmentEntries()],
+    empty: "No command matches",
+  });
+}
+
+function commandEntries(shortcuts: readonly Shortcut[]): ListEntry[] {
+  return shortcuts.map(({ keys, does, run }) => ({
+    id: `command ${does}`,
+    family: "Commands",
+    title: does,
+    note: keys.map((key) => keysText(key)).join(" or "),
+    run,
+  }));
+}
+
+function alignmentEntries(): ListEntry[] {
+  return ALIGNMENTS.map((alignment) => ({
+    id: `command ${alignment.does}`,
+    family: "Align and distribute",
+    title: alignment.does,
+    run: () => align(alignment),
+  }));
+}
