@@ -207,6 +207,36 @@ def test_other_versions_are_an_error_unless_accepted(
     assert files.load_record(tmp_path / "run").sizes["time"] == 9
 
 
+def finite(path: Path, number: int) -> int:
+    """Return how many copies have a sample of that number."""
+    values = files.load_record(path)["u.activation"].values[..., number : number + 1, :]
+    return int(np.isfinite(values).all(-1).sum())
+
+
+@pytest.mark.parametrize("case", ["single", "pieces"])
+@pytest.mark.parametrize("accepted", [False, True])
+def test_samples_after_the_stored_state_are_dropped_where_differences_are_accepted(
+    case: str, accepted: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The state of the run is that of a step before its last samples, as after a kill."""
+    given: dict[str, Any] = {"record": "u", "every": 5, "seed": 3, **CASES[case]}
+    path, pieces = tmp_path / "run", 2 if case == "pieces" else 1
+    with monkeypatch.context() as elsewhere:
+        if accepted:
+            elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
+        with pytest.raises(Interrupted):
+            dd.simulate(model(), 40, out=path, progress=stopping(40 * (pieces - 1) + 10), **given)
+        state = (path / "record.zarr" / output.CHECKPOINT).read_bytes()
+        with pytest.raises(Interrupted):
+            dd.resume(path, progress=stopping(40 * (pieces - 1) + 30))
+    (path / "record.zarr" / output.CHECKPOINT).write_bytes(state)
+    later = finite(path, 6)
+    with pytest.raises(Interrupted):
+        dd.resume(path, progress=stopping(40 * (pieces - 1) + 16), accept=lambda found: True)
+    assert finite(path, 3) == later
+    assert finite(path, 6) == (later - (2 if pieces == 2 else 1) if accepted else later)
+
+
 def test_copies_that_diverge_are_nan_in_the_file(tmp_path: Path) -> None:
     made = model()
     given = {"record": ["u"], "every": 5, "sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0]}}

@@ -59,6 +59,8 @@ class RunOutput:
         force: whether an existing record, or the folder of a run, is replaced.
         snapshots: document time between two stored states; None: about every 30 s of wall time.
         resume: whether to continue an incomplete record.
+        cut: whether a resumed run drops the samples after its stored state at once: other versions or another
+            machine computed them.
 
     Raises:
         OutputExists: the path exists; with `force`: it is neither a record nor the folder of a run.
@@ -66,7 +68,12 @@ class RunOutput:
     """
 
     def __init__(
-        self, path: Path, force: bool = False, snapshots: float | None = None, resume: bool = False
+        self,
+        path: Path,
+        force: bool = False,
+        snapshots: float | None = None,
+        resume: bool = False,
+        cut: bool = False,
     ) -> None:
         # start-up time: these import xarray
         from deodar.recording import files, folder
@@ -75,7 +82,7 @@ class RunOutput:
         self.path = path
         self.record = files.locate(path)[0] if resume else folder.growing(path)
         self.state: tuple[dict[str, Any], list[np.ndarray]] | None = None
-        self.resumes, self.longer = resume, dict[str, Any]()
+        self.resumes, self.cuts, self.longer = resume, cut, dict[str, Any]()
         if resume:
             if (self.record / CHECKPOINT).exists():  # else the run begins again
                 self.state = checkpoint.read(self.record / CHECKPOINT)
@@ -156,8 +163,11 @@ class RunOutput:
         # start-up time: this imports xarray
         from deodar.recording.growing import GrowingRecord
 
-        lengths = self.state[0]["lengths"] if self.state is not None else {}
-        return GrowingRecord.resumed(self.record, lengths, self.longer)
+        about: dict[str, Any] = {"lengths": {}, "piece": -1} if self.state is None else self.state[0]
+        writer = GrowingRecord.resumed(self.record, about["lengths"], self.longer, self.cuts)
+        if self.cuts and about["piece"] >= 0:  # another piece may be longer than this one
+            writer.erase(self.part(int(about["piece"])).region, int(about["taken"]))
+        return writer
 
     def close(self) -> xarray.Dataset:
         """Complete the record and return it, opened."""

@@ -42,7 +42,8 @@ def resume(
         trust: whether functions that its document names may be imported and run.
         progress: as in `simulate`.
         accept: called with what differs from the versions and the machine of the record, if anything does;
-            returns whether to continue. None: differences are an error.
+            returns whether to continue. Samples after the stored state are then dropped at once. None:
+            differences are an error.
 
     Raises:
         RecordError: the record is complete and not made longer, another process writes it, or versions or
@@ -84,7 +85,7 @@ def resume(
             where=str(path),
             fix="Accept the differences: --yes, or accept=lambda differences: True",
         )
-    out = RunOutput(path, resume=True)
+    out = RunOutput(path, resume=True, cut=bool(found))
     if whole > settings["duration"]:
         out.lengthen(whole)
     asked = SimulationRequest(**settings)

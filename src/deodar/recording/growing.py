@@ -166,7 +166,11 @@ class GrowingRecord:
 
     @classmethod
     def resumed(
-        cls, path: Path, lengths: Mapping[str, int], settings: Mapping[str, Any] | None = None
+        cls,
+        path: Path,
+        lengths: Mapping[str, int],
+        settings: Mapping[str, Any] | None = None,
+        cut: bool = False,
     ) -> GrowingRecord:
         """Return a writer that continues an incomplete record, after `lengths` samples of each dimension.
 
@@ -176,16 +180,19 @@ class GrowingRecord:
             path: the record.
             lengths: number of samples of each growing dimension; 0 where a dimension is left out.
             settings: entries of the provenance that change from now on.
+            cut: whether later samples are dropped at once: they are not those that the rest will have.
 
         Raises:
             RecordError: another process writes the record.
         """
         self = cls.__new__(cls)
         self.path = path
-        self._open(lengths, {**(settings or {}), "complete": False})
+        self._open(lengths, {**(settings or {}), "complete": False}, cut)
         return self
 
-    def _open(self, lengths: Mapping[str, int], settings: Mapping[str, Any] | None = None) -> None:
+    def _open(
+        self, lengths: Mapping[str, int], settings: Mapping[str, Any] | None = None, cut: bool = False
+    ) -> None:
         path = self.path
         self._lock = _locked(path)
         try:
@@ -193,6 +200,8 @@ class GrowingRecord:
                 self._read(path, lengths)
                 if settings is not None:
                     self._settle(settings)
+                    if cut:
+                        self.known = dict(self.lengths)
                     self._commit(self.lengths)
         except BaseException:
             self._unlock()
@@ -344,12 +353,20 @@ class GrowingRecord:
 
     def blank(self, copy: Sequence[int]) -> None:
         """Set all values of one copy to NaN; called after `commit`."""
+        self.erase(tuple(slice(k, k + 1) for k in copy), 0)
+
+    def erase(self, region: Region, first: int) -> None:
+        """Set the values of copies to NaN, from sample number `first` on.
+
+        Called after `commit`, or before the first sample is added.
+        """
         with _writing(self.path):
             for name, array in self._arrays.items():
-                if axis := self._axis[name]:  # not the times
-                    length = self.lengths[self._dimension[name]]
-                    shape = [*[1] * axis, length, *array.shape[axis + 1 :]]
-                    start = [*copy, *[0] * (len(shape) - axis)]
+                count = self.known[self._dimension[name]] - first
+                if (axis := self._axis[name]) and count > 0:  # not the times
+                    copies = [part.stop - part.start for part in region]
+                    shape = [*copies, count, *array.shape[axis + 1 :]]
+                    start = [*(part.start for part in region), first, *[0] * (len(shape) - axis - 1)]
                     array.store(start, np.broadcast_to(array.dtype.type(np.nan), shape))
 
     def _resize(self) -> None:
@@ -396,15 +413,16 @@ class GrowingRecord:
     # ------------------------------------------------------------------------------- in the record's thread
 
     def _loop(self) -> None:
-        closing = False
+        closing, due = False, time.monotonic() + FLUSH_SECONDS
         while not closing:
             with self._changed:
                 self._changed.wait_for(
                     lambda: (
                         self._closing or self._asked > self._committed or self._bytes > PENDING_BYTES // 2
                     ),
-                    FLUSH_SECONDS,
+                    max(0.0, due - time.monotonic()),
                 )
+                due = time.monotonic() + FLUSH_SECONDS  # from here on: writing may take long
                 waiting, self._waiting = self._waiting, []
                 closing, asked, lengths = self._closing, self._asked, dict(self.lengths)
             try:
