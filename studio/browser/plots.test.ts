@@ -119,6 +119,25 @@ test("a plot shows a field over time, also of a moment of the past", async () =>
   await shot(page, "plot-space-time");
 });
 
+test("a plot shows the interaction kernel while a slider moves", async () => {
+  const { page } = studio;
+  await choose(page, "Menu of this plot", "Interaction kernel");
+  const drawing = chart("Interaction kernel of u", "Interaction kernel of u");
+  const readout = plot("Interaction kernel of u").locator(".plot-readout");
+  await plot("Interaction kernel of u").getByText("Press play").waitFor({ state: "detached" });
+  const over = plot("Interaction kernel of u").locator(".u-over");
+  const room = await over.boundingBox();
+  await over.hover({ position: { x: (room?.width ?? 0) / 2, y: 20 } });
+  const before = await drawn(drawing);
+  // near 12 / (sqrt(2 pi) 5): the amplitude is the integral
+  await expect.poll(() => readout.textContent()).toMatch(/^lag in x .*\s0\.9\d\d$/);
+  const u = observer.element("u").id;
+  await observer.ask({ type: "set", element: u, parameter: "kernel.0.amplitude", value: 24 });
+  await expect.poll(() => readout.textContent()).toMatch(/\s1\.[89]\d\d$/);
+  expect(await drawn(drawing)).not.toBe(before);
+  await shot(page, "plot-kernel");
+});
+
 test("a plot shows the time courses of a node and of another element", async () => {
   const { page } = studio;
   await reopen(page, observer, "node.json");

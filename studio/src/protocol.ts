@@ -405,7 +405,8 @@ export type EditExperiment = {
 
 // An element of the document.
 //
-// `axes` lists for each port the keys of its axes, if they are known.
+// `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
+// injected; `kernel`: whether the element has an interaction kernel.
 export type ElementView = {
   id: string;
   path: string;
@@ -418,6 +419,7 @@ export type ElementView = {
   outputs: string[];
   axes: Record<string, string[]>;
   pushable: boolean;
+  kernel: boolean;
 };
 
 // Show the open record alone again.
@@ -1260,6 +1262,7 @@ export type ToServer =
   | Watch
   | WatchTrace
   | WatchRows
+  | WatchKernel
   | Unwatch
   | Drawn
   | NewExperiment
@@ -1345,6 +1348,18 @@ export type Watch = {
   other?: boolean;
   drawn?: string[];
   at?: Record<string, number>;
+};
+
+// Send the interaction kernel of an element over the lag, with its parameters as they are now.
+//
+// Of more than two axes it is sent at lag 0 on the others. `most` and `other` as in `watch`.
+export type WatchKernel = {
+  type: "kernel";
+  request?: number;
+  stream: number;
+  element: string;
+  most?: number;
+  other?: boolean;
 };
 
 // Send the values of a port along one axis over time, thinned to at most `most` samples (0: all).

@@ -39,6 +39,13 @@ def test_a_section_names_the_axes_that_are_drawn_and_those_with_a_maximum() -> N
     assert section.folded(AXES) == (HUE,)
 
 
+def test_axes_of_the_same_name_are_drawn_and_cut_apart() -> None:
+    weights = ARRAY[:, :4, 0, 0]
+    assert [a.name for a in Section().split((X, X))[0]] == ["x", "x 2"]
+    assert np.array_equal(Section(("x 2",), (("x", 10.0),)).take(weights, (X, X)), weights[3])
+    assert [a.name for a in Section(("x 2",)).folded((X, X))] == ["x"]
+
+
 def test_a_section_ignores_axes_that_the_array_does_not_have() -> None:
     assert Section(("lost", "y", "y"), (("gone", 1.0),)).split((X, Y)) == ((Y,), (X,))
     assert Section(("lost",)).split((X, Y)) == ((X, Y), ())

@@ -17,6 +17,7 @@ import websockets
 
 import deodar as dd
 from deodar.live import engine
+from deodar.numerics.kernel_shape import kernel_shape
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.server import hub
 from deodar.server.state_store import StateStore
@@ -51,6 +52,32 @@ def test_a_page_watches_planes_and_rows_of_a_field_over_three_axes(root: Path) -
         rows = p.rows[4]
         assert rows is not None and np.array_equal(rows[-1, 1:], whole[3].max(axis=0))
         assert p.forms[4]["folded"] == ["y"] and p.forms[4]["shape"] == [7]
+
+    with studio(root) as address:
+        play(address, scene)
+
+
+def test_a_page_watches_the_kernel_of_a_field_as_its_parameters_are_now(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("open_file", path="selection.json")
+        u, left = p.element("u"), p.element("left")
+        shown = {e["path"]: e["kernel"] for e in p.document["elements"]}
+        assert shown == {"u": True, "left": False, "right": False}
+        await p.do("kernel", stream=1, element=u)
+        await p.do("kernel", stream=2, element=left)
+        await p.until(lambda: 1 in p.frames and 2 in p.lost)
+        assert "no interaction kernel" in p.lost[2]["problem"]["what"]
+        before, lags = p.frames[1][1], np.arange(-100, 101)
+        u_kernel = dd.load(root / "selection.json").get("u.kernel")
+        expected = kernel_shape(u_kernel, (dd.Axis("x", 0, 100, samples=101),))[1]
+        np.testing.assert_allclose(before, expected, rtol=1e-5, atol=1e-6)
+        assert p.forms[1]["axes"][0]["name"] == "lag in x" and lags[before.argmax()] == 0
+        await p.do("set", element=u, parameter="kernel.0.amplitude", value=24.0)
+        await p.until(lambda: np.allclose(p.frames[1][1], 2 * before, rtol=1e-5))
+        count = len([m for m in p.all if m["type"] == "announced"])
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 5)
+        assert len([m for m in p.all if m["type"] == "announced"]) == count
 
     with studio(root) as address:
         play(address, scene)

@@ -14,7 +14,8 @@ from deodar.numerics.axes import Axes, Axis
 class Section:
     """A part of an array: all samples along the drawn axes, one number for each of the others.
 
-    Names of axes that the array does not have are ignored, because a document can change while it is watched.
+    Axes of the same name have numbers (`distinct`). Names of axes that the array does not have are ignored,
+    because a document can change while it is watched.
 
     Args:
         drawn: names of the axes that are drawn, in the order of drawing; empty: the first ones.
@@ -29,6 +30,7 @@ class Section:
 
     def split(self, axes: Axes) -> tuple[Axes, Axes]:
         """Return the axes that are drawn, and the others."""
+        axes = distinct(axes)
         chosen = self._chosen(axes)
         return tuple(axes[d] for d in chosen), tuple(a for d, a in enumerate(axes) if d not in chosen)
 
@@ -39,6 +41,7 @@ class Section:
 
     def take(self, array: np.ndarray, axes: Axes) -> np.ndarray:
         """Return the values over the drawn axes."""
+        axes = distinct(axes)
         chosen, cut = self._chosen(axes), dict(self.at)
         rest = [d for d in range(array.ndim) if d not in chosen]
         array = array.transpose(*chosen, *rest)
@@ -53,6 +56,17 @@ class Section:
         names = [a.name for a in axes]
         chosen = [names.index(name) for name in dict.fromkeys(self.drawn) if name in names][: self.most]
         return chosen or list(range(min(self.most, len(axes))))
+
+
+def distinct(axes: Axes) -> Axes:
+    """Return the axes with different names: a second axis "x", as of weights between two fields, is "x 2"."""
+    names = [a.name for a in axes]
+    if len(set(names)) == len(names):
+        return axes
+    counts = [names[: d + 1].count(name) for d, name in enumerate(names)]
+    return tuple(
+        a if k == 1 else dc.replace(a, name=f"{a.name} {k}") for a, k in zip(axes, counts, strict=True)
+    )
 
 
 def nearest(axis: Axis, place: float) -> int:

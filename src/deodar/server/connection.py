@@ -201,7 +201,7 @@ class PageConnection:
     def _places(self, other: bool) -> set[PortKey]:
         """Return the ports whose frames the page watches, of the open record or of the other one."""
         watched = (s for s in self.page.streams.values() if s.request is None and s.other == other)
-        return {stream.place for stream in watched}
+        return {stream.place for stream in watched if stream.place is not None}
 
     async def _send_frames(
         self,

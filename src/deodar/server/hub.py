@@ -213,7 +213,7 @@ class Hub:
     def watch(self) -> None:
         """Make the engine publish the ports and time courses that all pages watch."""
         streams = [s for p in self.pages for s in p.streams.values()]
-        places = {s.place for s in streams if s.request is None}
+        places = {s.place for s in streams if s.request is None and s.place is not None}
         requests = list(dict.fromkeys(s.request for s in streams if s.request is not None))
         self.engine.call(lambda: self.engine.show(places, requests))
 

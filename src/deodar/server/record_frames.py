@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from deodar import registry
+from deodar.element import Element
 from deodar.elements.sensor import Sensor
 from deodar.errors import DeodarError, Problem
 from deodar.live.published import PublishedState
@@ -24,7 +25,7 @@ from deodar.recording.record import about
 from deodar.recording.repeat import world_of
 from deodar.recording.replay import Copy, RecordReader
 from deodar.server.file_thread import in_file_thread
-from deodar.server.source import FoundFrame
+from deodar.server.source import FoundFrame, element_of
 from deodar.session.port_reader import PortKey
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene, SceneBody
@@ -112,6 +113,9 @@ class RecordFrames:
 
     def axes(self, place: PortKey) -> Axes:
         return self.record.axes(place)
+
+    def element(self, ident: str) -> Element:
+        return element_of(self.record.document, ident)
 
     def absent(self, place: PortKey) -> Problem:
         return self._problems.get(place, Problem("", "has no sample at this moment"))

@@ -30,6 +30,7 @@ from deodar.server import experiment_requests as experiment_requests  # register
 from deodar.server.file_thread import in_file_thread
 from deodar.server.handlers import HANDLERS, handles
 from deodar.server.hub import Hub
+from deodar.server.kernel_stream import KernelStream
 from deodar.server.page import Page
 from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
@@ -455,6 +456,16 @@ async def _rows(hub: Hub, page: Page, m: to_server.WatchRows) -> None:
     section = Section((m.drawn,) if m.drawn else (), tuple(m.at.items()), most=1)
     request = TraceRequest(place, section=section)
     page.streams[m.stream] = Stream(m.stream, place, m.most, request, m.other)
+    hub.watch()
+
+
+@handles(to_server.WatchKernel)
+async def _kernel(hub: Hub, page: Page, m: to_server.WatchKernel) -> None:
+    _require_room(hub, page, m.stream)
+    stream, source = KernelStream(m.stream, m.element, m.most, m.other), hub.source(page)
+    # the first shape compiles the formula of the kernel, for up to seconds
+    await asyncio.to_thread(stream.compute, source)
+    page.streams[m.stream] = stream
     hub.watch()
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Protocol
 
+from deodar.element import Element
 from deodar.errors import ModelError, Problem
 from deodar.live.engine import Engine
 from deodar.live.published import PublishedState
 from deodar.live.ring import TimeSpan
 from deodar.live.trace import Trace, TraceRequest
 from deodar.model import find
+from deodar.model.document import Document
 from deodar.numerics.axes import Axes
 from deodar.session.port_reader import PortKey
 
@@ -41,6 +43,10 @@ class FrameSource(Protocol):
         """Return the axes of a port, or raise DeodarError: the port has no frames."""
         ...
 
+    def element(self, ident: str) -> Element:
+        """Return an element with its parameters as they are now, or raise DeodarError: it does not exist."""
+        ...
+
     def absent(self, place: PortKey) -> Problem:
         """Return why a port has no frame at the moment found last."""
         ...
@@ -60,6 +66,18 @@ class FrameSource(Protocol):
     def trace(self, request: TraceRequest) -> Trace | None:
         """Return a time course; None: it has no samples yet."""
         ...
+
+
+def element_of(document: Document, ident: str) -> Element:
+    """Return an element of a document.
+
+    Raises:
+        ModelError: the document has no element of this id.
+    """
+    entry = document.by_id().get(ident)
+    if entry is None:
+        raise ModelError("the element does not exist")
+    return entry.element
 
 
 class RunFrames:
@@ -96,6 +114,12 @@ class RunFrames:
             return program.axes(program.port(ident, port))
         except KeyError:
             raise ModelError(f"has no port {port!r}", where=ident) from None
+
+    def element(self, ident: str) -> Element:
+        session = self._engine.session
+        if session is None:
+            raise ModelError("no model runs yet")
+        return element_of(session.document, ident)
 
     def absent(self, place: PortKey) -> Problem:
         return Problem("", "has no values at this moment, because no page watched the port")

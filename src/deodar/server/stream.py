@@ -201,6 +201,11 @@ def _median(array: np.ndarray) -> float:
     return float(np.median(some)) if some.size else 0.0
 
 
+def thinned_shape(shape: Sequence[int], most: int) -> list[int]:
+    """Return the shape of an array that `thin` leaves."""
+    return [_thinned(n, most, len(shape)) for n in shape]
+
+
 def _thinned(samples: int, most: int, dimensions: int) -> int:
     """Return the number of samples that `thin` leaves; over one axis an even one, of pairs."""
     if most == 0 or samples <= max(2, most):

@@ -98,7 +98,8 @@ class AxisView(Data, frozen=True):
 class ElementView(Data, frozen=True):
     """An element of the document.
 
-    `axes` lists for each port the keys of its axes, if they are known.
+    `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
+    injected; `kernel`: whether the element has an interaction kernel.
     """
 
     id: Id
@@ -112,6 +113,7 @@ class ElementView(Data, frozen=True):
     outputs: list[str]
     axes: dict[str, list[str]]
     pushable: bool
+    kernel: bool
 
 
 class ConnectionView(Data, frozen=True):

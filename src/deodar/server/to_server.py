@@ -670,6 +670,19 @@ class WatchRows(Request, frozen=True, kw_only=True, tag="rows"):
 
 
 @MESSAGES.register
+class WatchKernel(Request, frozen=True, kw_only=True, tag="kernel"):
+    """Send the interaction kernel of an element over the lag, with its parameters as they are now.
+
+    Of more than two axes it is sent at lag 0 on the others. `most` and `other` as in `watch`.
+    """
+
+    stream: Count
+    element: Id
+    most: Count = 0
+    other: bool = False
+
+
+@MESSAGES.register
 class Unwatch(Request, frozen=True, kw_only=True, tag="unwatch"):
     """End a stream."""
 

@@ -223,6 +223,7 @@ def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mappin
         outputs=find.outputs(e),
         axes={port: [named.get(a, a.name) for a in axes] for port, axes in ports.items()},
         pushable=e.every == 1 and type(e.element).inject is not Element.inject,
+        kernel=e.element.convolution is not None and len(e.element.kernels()) > 0,
     )
 
 

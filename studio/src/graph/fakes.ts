@@ -16,6 +16,7 @@ export function fakeElement(path: string, kind = "Field", more: Partial<ElementV
     outputs: ["output"],
     axes: {},
     pushable: false,
+    kernel: false,
     ...more,
   };
 }

@@ -5,6 +5,7 @@ import { type ComponentType, useEffect, useState } from "react";
 import { FieldCurve } from "../plots/FieldCurve";
 import { HeatMap } from "../plots/HeatMap";
 import { isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import { Kernel } from "../plots/Kernel";
 import { PackagedPlot } from "../plots/PackagedPlot";
 import { Picture } from "../plots/Picture";
 import type { PlotProps } from "../plots/PlotFrame";
@@ -21,6 +22,7 @@ const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   heat: HeatMap,
   picture: Picture,
   space_time: SpaceTime,
+  kernel: Kernel,
 };
 
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
@@ -34,7 +36,7 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
   const offered = useStudio((state) =>
     element === undefined || state.document === null
       ? "course"
-      : plotKinds(portAxes(state.document, element, port), state.welcome?.plots).join(),
+      : plotKinds(portAxes(state.document, element, port), state.welcome?.plots, element.kernel).join(),
   );
   const visible = useVisible(api);
   const compared = useStudio((state) => state.comparison !== null);

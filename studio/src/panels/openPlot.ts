@@ -78,11 +78,11 @@ export function openTool(tool: Tool): void {
 
 export function plotTitle({ element, kind }: { element: string; kind: PlotKind | null }): string {
   const found = useStudio.getState().elements.get(element);
-  return found === undefined
-    ? "Plot"
-    : kind === "course" || kind === "space_time"
-      ? `${found.name} over time`
-      : found.name;
+  if (found === undefined) {
+    return "Plot";
+  }
+  const over = kind === "course" || kind === "space_time";
+  return over ? `${found.name} over time` : kind === "kernel" ? `Kernel of ${found.name}` : found.name;
 }
 
 type Plot = { element: string; kind: PlotKind; port: string };

@@ -53,6 +53,7 @@ const element = (
   outputs: Object.keys(axes).filter((port) => !inputs.includes(port)),
   axes,
   pushable: false,
+  kernel: false,
 });
 
 const documentOf = (...elements: ElementView[]) => ({ axes: AXES, elements }) as unknown as DocumentView;
@@ -69,6 +70,7 @@ describe("kinds of plots", () => {
     expect(plotKinds([x, y, hue])).toEqual(["heat", "course", "curve", "space_time"]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
+    expect(plotKinds([x], [], true)).toEqual(["curve", "course", "space_time", "kernel"]);
   });
 
   it("of packages come last, where the axes fit", () => {

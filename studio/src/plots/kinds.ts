@@ -2,7 +2,7 @@
 
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 
-export type OwnPlot = "course" | "curve" | "heat" | "picture" | "space_time";
+export type OwnPlot = "course" | "curve" | "heat" | "picture" | "space_time" | "kernel";
 
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;
@@ -13,6 +13,7 @@ export const PLOT_TITLES: Record<OwnPlot, string> = {
   heat: "Heat map",
   picture: "Picture",
   space_time: "Space-time plot",
+  kernel: "Interaction kernel",
 };
 
 const CHANNELS = 3;
@@ -24,8 +25,9 @@ export function portAxes(document: DocumentView, element: ElementView, port: str
   return found === undefined || found.includes(undefined) ? null : (found as AxisView[]);
 }
 
-// The kinds of plot for an array over these axes, the best one first; those of packages come last.
-export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = []): PlotKind[] {
+// The kinds of plot for an array over these axes, of an element with or without an interaction kernel; the
+// best one first, those of packages last.
+export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = [], kernel = false): PlotKind[] {
   if (axes === null || axes.length === 0) {
     return ["course"];
   }
@@ -34,7 +36,11 @@ export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = []): P
     : axes.length === 1
       ? ["curve", "course", "space_time"]
       : ["heat", "course", "curve", "space_time"];
-  return [...own, ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name)];
+  return [
+    ...own,
+    ...(kernel ? ["kernel"] : []),
+    ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
+  ];
 }
 
 // Whether a plot of a package can show an array over these axes.
