@@ -1,7 +1,7 @@
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { box, button, panel, select } from "./hands";
+import { box, button, panel, select, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -180,4 +180,50 @@ test("Ctrl+K goes to an element; a right click on a box lists what can be done w
   const list = page.getByRole("dialog", { name: "Commands for the selection" });
   await list.getByRole("option", { name: /^Duplicate/ }).click();
   await observer.until(() => paths() === "a,b,b2,u");
+});
+
+test("the inspector changes a parameter of several elements together, as one step of undo", async () => {
+  const { page } = studio;
+  await select(page, "a");
+  await box(page, "b").click({ position: { x: 20, y: 12 }, modifiers: ["Shift"] });
+  await panel(page, "Inspector").getByRole("heading", { name: "2 elements" }).waitFor();
+  await type(page, "amplitude", "7.5");
+  await observer.until(
+    () => observer.value("a", "amplitude") === 7.5 && observer.value("b", "amplitude") === 7.5,
+  );
+  await shot(page, "edit-many");
+  await page.locator(".react-flow__pane").click({ position: { x: 300, y: 20 } });
+  await page.keyboard.press("Control+z");
+  await observer.until(
+    () => observer.value("a", "amplitude") === 6 && observer.value("b", "amplitude") === 6,
+  );
+});
+
+test("a comment is written, moved and removed, and undo brings it back", async () => {
+  const { page } = studio;
+  const comments = () =>
+    Object.values(
+      (observer.document?.layout["comments"] ?? {}) as Record<string, { text: string; x: number }>,
+    );
+  await page.mouse.move(600, 250);
+  await page.keyboard.press("Shift+c");
+  const field = page.getByRole("textbox", { name: "Text of the comment" });
+  await field.fill("Inputs compete here.");
+  await page.locator(".react-flow__pane").click({ position: { x: 300, y: 20 } });
+  await observer.until(() => comments()[0]?.text === "Inputs compete here.");
+  const comment = page.locator(".graph-comment");
+  await shot(page, "edit-comment");
+  const before = comments()[0]?.x ?? 0;
+  const { x, y } = await placeOf(comment);
+  await page.mouse.move(x + 20, y + 50);
+  await page.mouse.down();
+  await page.mouse.move(x + 80, y + 70, { steps: 5 });
+  await page.mouse.up();
+  await observer.until(() => (comments()[0]?.x ?? 0) > before + 20);
+  await comment.hover();
+  await button(page, "Remove the comment").click();
+  await comment.waitFor({ state: "detached" });
+  await page.locator(".react-flow__pane").click({ position: { x: 300, y: 20 } });
+  await page.keyboard.press("Control+z");
+  await comment.getByText("Inputs compete here.").waitFor();
 });

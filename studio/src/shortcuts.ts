@@ -4,6 +4,7 @@ import { useEffect } from "react";
 
 import { copy, cut, duplicate, paste } from "./build/clipboard";
 import { openCommands } from "./build/commands";
+import { addComment } from "./build/commenting";
 import { connectByKeys } from "./build/connecting";
 import { groupSelected, selectAll, ungroupSelected } from "./build/grouping";
 import { openPalette } from "./build/palette";
@@ -74,6 +75,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Ctrl+D"], does: "Duplicate", run: duplicate, canvas: true },
   { keys: ["Ctrl+A"], does: "Select everything", run: selectAll, canvas: true },
   { keys: ["Ctrl+G", "G"], does: "Group", run: groupSelected, canvas: true },
+  { keys: ["Shift+C"], does: "Add a comment", run: () => addComment(), canvas: true },
   { keys: ["Shift+G"], does: "Ungroup", run: ungroupSelected, canvas: true },
   { keys: ["Ctrl+O"], does: "Open a file", run: open, always: true, typing: true },
   { keys: ["Ctrl+S"], does: "Save", run: () => save(), typing: true },

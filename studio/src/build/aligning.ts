@@ -3,7 +3,7 @@
 import type { Rect } from "../graph/layout";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { isEditable } from "./palette";
+import { isEditable } from "./editable";
 import { getStage } from "./stage";
 
 export type Boxes = Map<string, Rect>;

@@ -6,7 +6,7 @@ import type { Point } from "../graph/layout";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { showMade } from "./made";
-import { isEditable } from "./palette";
+import { isEditable } from "./editable";
 import { groupAt, pathOf } from "./placing";
 import { removeSelected } from "./removing";
 import { chosen } from "./selection";

@@ -7,7 +7,8 @@ import { ALIGNMENTS, align } from "./aligning";
 import { useChooser } from "./chooser";
 import { addElement } from "./edits";
 import type { ListEntry } from "./entries";
-import { isEditable, kindEntries, selectedOne, spotFor } from "./palette";
+import { isEditable } from "./editable";
+import { kindEntries, selectedOne, spotFor } from "./palette";
 import { getPointer, getStage } from "./stage";
 
 export function openCommands(shortcuts: readonly Shortcut[]): void {

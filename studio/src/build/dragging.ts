@@ -3,7 +3,7 @@
 import type { SceneNode } from "../graph/scene";
 import { copyTo, cornerOf } from "./clipboard";
 import { useStudio } from "../store";
-import { isEditable } from "./palette";
+import { isEditable } from "./editable";
 import { getStage } from "./stage";
 
 export function copyDragged(nodes: SceneNode[]): void {

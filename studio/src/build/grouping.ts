@@ -3,7 +3,7 @@
 import { keyOf } from "../graph/tree";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { isEditable } from "./palette";
+import { isEditable } from "./editable";
 import { pickGroup } from "./picked";
 import { chosen } from "./selection";
 import { getStage } from "./stage";

@@ -5,9 +5,11 @@ import type { Kinds } from "../inspector/leaf";
 import type { Kind } from "../protocol";
 import { useStudio } from "../store";
 import { useChooser } from "./chooser";
+import { addComment } from "./commenting";
 import { addElement, addPart } from "./edits";
 import type { WireEnds } from "./ends";
 import type { ListEntry } from "./entries";
+import { isEditable } from "./editable";
 import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
 import { SHAPES, shapeOf } from "./shapes";
 import { beside, near, type Placing, under } from "./placing";
@@ -69,12 +71,6 @@ export function selectedOne(): Selected | null {
   return found === undefined ? null : { id: found.id, name: found.name, kind: kinds.get(found.kind) };
 }
 
-// Whether the document can be changed: a record cannot, and without a connection nothing can.
-export function isEditable(): boolean {
-  const { document, connection } = useStudio.getState();
-  return document !== null && document.record == null && connection === "open";
-}
-
 // Open the palette at a position on the screen, without one at the pointer. An element is inserted into
 // `wire`, if that is given.
 export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): void {
@@ -88,9 +84,22 @@ export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): v
     label: wire === undefined ? "Add an element" : "Insert an element",
     placeholder: "Name, family or parameter",
     at,
-    entries: wire === undefined ? entries : entries.filter(({ kind }) => kind !== undefined && passes(kind)),
+    entries:
+      wire === undefined
+        ? [...entries, commentEntry(at)]
+        : entries.filter(({ kind }) => kind !== undefined && passes(kind)),
     empty: "No kind matches",
   });
+}
+
+function commentEntry(at: Point | null): ListEntry {
+  return {
+    id: "comment",
+    family: "On the canvas alone",
+    title: "Comment",
+    words: "note text",
+    run: () => addComment(at),
+  };
 }
 
 // A kind with an input, of which a connection can pass through the elements.

@@ -4,7 +4,7 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import { useChooser } from "./chooser";
 import { endsOf } from "./ends";
-import { isEditable } from "./palette";
+import { isEditable } from "./editable";
 import { usePicked } from "./picked";
 import { chosen } from "./selection";
 import { contentOf } from "./wires";

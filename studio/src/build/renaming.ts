@@ -5,7 +5,7 @@ import { create } from "zustand";
 import type { Rect } from "../graph/layout";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { isEditable } from "./palette";
+import { isEditable } from "./editable";
 import { usePicked } from "./picked";
 import { pathOf } from "./placing";
 import { getStage } from "./stage";

@@ -30,6 +30,7 @@ import { useStudio } from "../store";
 import { place, unfold } from "./arrange";
 import { Box } from "./Box";
 import { Card } from "./Card";
+import { Comment } from "./Comment";
 import { Controls, FIT, GLIDE_MS } from "./Controls";
 import { EmptyHint } from "./EmptyHint";
 import { Folded } from "./Folded";
@@ -44,7 +45,7 @@ import { useStructure } from "./structure";
 import { useNodes } from "./useNodes";
 import { WireEdge } from "./WireEdge";
 
-const NODES: NodeTypes = { box: Box, frame: Frame, folded: Folded };
+const NODES: NodeTypes = { box: Box, frame: Frame, folded: Folded, comment: Comment };
 const EDGES: EdgeTypes = { wire: WireEdge };
 const ARROW = {
   markerEnd: { type: MarkerType.ArrowClosed, width: 14, height: 14, color: "var(--graph-wire)" },
@@ -150,14 +151,16 @@ function Canvas({ structure }: { structure: Structure }) {
             event.preventDefault();
             if (type === "box" && !useStudio.getState().selected.includes(id)) {
               useStudio.getState().select([id]);
-            } else if (type !== "box") {
+            } else if (type === "frame" || type === "folded") {
               pickGroup(groupKey(id), false);
+            } else if (type === "comment") {
+              return;
             }
             openSelectionCommands({ x: event.clientX, y: event.clientY }, SHORTCUTS);
           }}
           onNodeClick={(event, { id, type }) => {
             useHover.getState().close();
-            if (type !== "box") {
+            if (type === "frame" || type === "folded") {
               pickGroup(groupKey(id), event.shiftKey || event.ctrlKey || event.metaKey);
             }
           }}

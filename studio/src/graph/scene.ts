@@ -5,6 +5,7 @@ import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
 import type { DocumentView, ElementView, Kind } from "../protocol";
 import { boxSize, portHeight, readBoxes, readFolded } from "./boxes";
 import { chains, type Chain } from "./chains";
+import { type CanvasComment, readComments } from "./comments";
 import { FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
 import { lanes } from "./lanes";
 import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
@@ -26,7 +27,8 @@ export type WireData = { pills: string[]; reads: string; count: number; lane: nu
 export type BoxNode = Node<BoxData, "box">;
 export type FrameNode = Node<GroupData, "frame">;
 export type FoldedNode = Node<GroupData, "folded">;
-export type SceneNode = BoxNode | FrameNode | FoldedNode;
+export type CommentNode = Node<{ comment: string; text: string }, "comment">;
+export type SceneNode = BoxNode | FrameNode | FoldedNode | CommentNode;
 export type Wire = Edge<WireData, "wire">;
 
 export type GraphScene = {
@@ -58,7 +60,7 @@ export function scene(structure: Structure, kinds: Map<string, Kind>): GraphScen
   const wires = wiresOf(chained.edges, found, names);
   lanes(wires, (node) => rectOf(node, where, sizes));
   return {
-    nodes: nodesOf(found.root, names, kinds, sizes, where),
+    nodes: [...nodesOf(found.root, names, kinds, sizes, where), ...readComments(layout).map(commentNode)],
     wires,
     tree: found,
     places: where,
@@ -104,6 +106,26 @@ function nodesOf(
     return group.folded ? [own] : [own, ...nodesOf(group, names, kinds, sizes, where)];
   });
   return [...groups, ...boxes];
+}
+
+// Ids of comments cannot be those of elements.
+export const commentId = (node: string): string => node.slice("comment:".length);
+
+function commentNode({ id, text, x, y, width, height }: CanvasComment): CommentNode {
+  return {
+    id: `comment:${id}`,
+    type: "comment",
+    position: { x, y },
+    width,
+    height,
+    measured: { width, height },
+    handles: [],
+    data: { comment: id, text },
+    selectable: false,
+    focusable: false,
+    ariaLabel: `Comment: ${text}`,
+    zIndex: 2,
+  };
 }
 
 type Stand = { position: Point; parentId?: string };

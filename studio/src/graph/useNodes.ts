@@ -3,10 +3,11 @@
 
 import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { changeComment } from "../build/commenting";
 import { useStudio } from "../store";
 import { place } from "./arrange";
 import { differ, moved } from "./moved";
-import type { GraphScene, SceneNode } from "./scene";
+import { commentId, type GraphScene, type SceneNode } from "./scene";
 
 // Steps by arrow keys that follow each other are one change.
 const KEYS_MS = 500;
@@ -31,6 +32,7 @@ export function useNodes(scene: GraphScene) {
   const settle = useCallback(() => {
     window.clearTimeout(timer.current);
     const { nodes: now, scene: of } = latest.current;
+    moveComments(now, of.nodes);
     const boxes = moved(now, of.tree, of.places);
     if (differ(boxes, of.places)) {
       // If it was refused, all boxes return to their positions in the document.
@@ -65,6 +67,16 @@ export function useNodes(scene: GraphScene) {
   }, []);
 
   return { nodes: shown, onNodesChange, settle, reset };
+}
+
+function moveComments(now: SceneNode[], before: SceneNode[]): void {
+  const known = new Map(before.map((node) => [node.id, node.position]));
+  for (const { id, type, position } of now) {
+    const was = known.get(id);
+    if (type === "comment" && was !== undefined && (was.x !== position.x || was.y !== position.y)) {
+      void changeComment(commentId(id), { at: [Math.round(position.x), Math.round(position.y)] });
+    }
+  }
 }
 
 // The selection of xyflow becomes that of the store. Couplings on edges are not nodes: xyflow

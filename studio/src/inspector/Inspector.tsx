@@ -1,10 +1,11 @@
-// The inspector of the selected element, or of the document without a selection.
+// The inspector of the selected element, of several together, or of the document without a selection.
 
 import "./inspector.css";
 
 import { useStudio } from "../store";
 import { DocumentInspector } from "./DocumentInspector";
 import { ElementInspector } from "./ElementInspector";
+import { ManyInspector } from "./ManyInspector";
 
 export function Inspector() {
   const selected = useStudio((state) => state.selected);
@@ -14,19 +15,18 @@ export function Inspector() {
   if (!open) {
     return <div className="inspector inspector-empty">No document is open.</div>;
   }
-  if (selected.length > 1) {
-    return (
-      <div className="inspector inspector-empty">
-        {selected.length} elements are selected. Select one to see its parameters.
-      </div>
-    );
-  }
   return (
     <div className="inspector" inert={record}>
       {record && (
         <p className="inspector-record">Parameters of the record; its model can be run and changed.</p>
       )}
-      {only === undefined ? <DocumentInspector /> : <ElementInspector key={only} id={only} />}
+      {only === undefined ? (
+        <DocumentInspector />
+      ) : selected.length > 1 ? (
+        <ManyInspector key={selected.join()} ids={selected} />
+      ) : (
+        <ElementInspector key={only} id={only} />
+      )}
     </div>
   );
 }

@@ -13,7 +13,7 @@ export type Place = {
   own: boolean;
   timeUnit: string;
   // Sends a parameter that is not one of an element of the document; without pins and links.
-  send?: (path: string, value: unknown) => Promise<Answer>;
+  send?: (path: string, value: unknown, gesture: number) => Promise<Answer>;
   // The names that a text may be, where its declaration says what it names.
   names?: (of: Names) => string[];
 };

@@ -38,7 +38,9 @@ export function useSetting<T>(
   const send = useCallback(
     async (value: T, gesture: number): Promise<Answer> => {
       if (place !== undefined) {
-        return place(parameter, value);
+        const answer = await place(parameter, value, gesture);
+        setProblem(answer.problems?.[0] ?? null);
+        return answer;
       }
       noteChange(element, parameter);
       const { answer } = await socket.ask({ type: "set", element, parameter, value, gesture });

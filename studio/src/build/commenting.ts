@@ -1,0 +1,33 @@
+// Comments on the canvas: they are part of the layout, and no part of the model.
+
+import { create } from "zustand";
+
+import type { Point } from "../graph/layout";
+import type { Answer } from "../protocol";
+import { request } from "../socket";
+import { isEditable } from "./editable";
+import { getPointer, getStage } from "./stage";
+
+// The comment that was added just now, whose text is edited at once.
+export const useNewComment = create<{ comment: string }>(() => ({ comment: "" }));
+
+type Change = { text?: string; at?: [number, number]; size?: [number, number] };
+
+export async function addComment(at: Point | null = getPointer()): Promise<void> {
+  const stage = getStage();
+  if (!isEditable() || stage === null) {
+    return;
+  }
+  const { left, top, width, height } = stage.around.getBoundingClientRect();
+  const place = stage.toFlow(at ?? { x: left + width / 2, y: top + height / 2 });
+  const position = [Math.round(place.x), Math.round(place.y)];
+  const { made = [] } = await request({ type: "comment", text: "Comment", at: position });
+  useNewComment.setState({ comment: made[0] ?? "" });
+}
+
+export function changeComment(comment: string, change: Change): Promise<Answer> {
+  return request({ type: "comment", comment, ...change });
+}
+
+export const removeComment = (comment: string): Promise<Answer> =>
+  request({ type: "comment", comment, remove: true });
