@@ -542,6 +542,29 @@ export type Gallery = {
   recoveries: Recovery[];
 };
 
+// Save the present values of the parameters as a preset under a new name.
+export type KeepPreset = {
+  type: "keep_preset";
+  request?: number;
+  session?: number;
+  name: string;
+};
+
+// Save the present state of the run as a snapshot under a new name.
+export type KeepSnapshot = {
+  type: "keep_snapshot";
+  request?: number;
+  session?: number;
+  name: string;
+};
+
+// The snapshots and presets of the open document, the newest first.
+export type KeptFiles = {
+  type: "kept_files";
+  snapshots: SnapshotView[];
+  presets: PresetView[];
+};
+
 // A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 //
 // `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
@@ -597,6 +620,12 @@ export type ListFolder = {
   type: "list_folder";
   request?: number;
   path?: string;
+};
+
+// List snapshots and presets again; a `kept_files` message follows if the list changed.
+export type ListKept = {
+  type: "list_kept";
+  request?: number;
 };
 
 // A problem or a warning: what is wrong, where, what to type, and the element concerned, if any.
@@ -848,6 +877,14 @@ export type PortEnd = {
   port?: string;
 };
 
+// Stored values of parameters: path below the root, time of saving (ISO 8601), size in bytes.
+export type PresetView = {
+  name: string;
+  path: string;
+  saved: string;
+  size: number;
+};
+
 // Add an input to an element until `release`.
 //
 // The input is a Gaussian around `center` (axis units), or constant over the axes if that is None.
@@ -941,6 +978,15 @@ export type RemoveElements = {
   connections?: Ends[];
 };
 
+// Delete a snapshot or a preset.
+export type RemoveKept = {
+  type: "remove_kept";
+  request?: number;
+  session?: number;
+  sort: "preset" | "snapshot";
+  name: string;
+};
+
 // Remove an object from the world.
 export type RemoveObject = {
   type: "remove_object";
@@ -971,6 +1017,14 @@ export type ResetRun = {
   type: "reset";
   request?: number;
   seed?: number | null;
+};
+
+// Return to a snapshot: states, time, noise, world and parameters; the run pauses.
+export type ReturnTo = {
+  type: "return_to";
+  request?: number;
+  session?: number;
+  name: string;
 };
 
 // Time and status of the run. Sent after the frames of the same number, and whenever something changes.
@@ -1119,6 +1173,14 @@ export type SetParameter = {
   gesture?: number;
 };
 
+// A stored snapshot: document time, time of saving (ISO 8601), size in bytes.
+export type SnapshotView = {
+  name: string;
+  time: number;
+  saved: string;
+  size: number;
+};
+
 // Set the ratio of document time to wall time: 1 is real time, None as fast as possible.
 export type Speed = {
   type: "speed";
@@ -1180,6 +1242,7 @@ export type ToPage =
   | Gallery
   | Opened
   | FileProblems
+  | KeptFiles
   | Comparison
   | Changed
   | Checked
@@ -1245,6 +1308,11 @@ export type ToServer =
   | Lengthen
   | Seek
   | RunFrom
+  | ListKept
+  | KeepSnapshot
+  | ReturnTo
+  | KeepPreset
+  | RemoveKept
   | ChooseCopy
   | SeekFrames
   | StartRecord

@@ -12,6 +12,7 @@ import type {
   ElementView,
   ExperimentView,
   Gallery,
+  KeptFiles,
   Kind,
   ListedProblem,
   ToPage,
@@ -48,6 +49,8 @@ export type Studio = {
   experiment: ExperimentView | null;
   // The rows of its run, as they arrive.
   trials: { run: number; rows: TrialRow[] };
+  // The snapshots and presets of the open document, as listed last.
+  kept: KeptFiles | null;
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -76,6 +79,7 @@ export const useStudio = create<Studio>((set) => ({
   comparison: null,
   experiment: null,
   trials: { run: 0, rows: [] },
+  kept: null,
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -121,6 +125,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { fileProblems: message.problems.length > 0 ? message : null };
     case "clock":
       return { clock: message };
+    case "kept_files":
+      return { kept: message };
     case "comparison":
       return { comparison: message.path === "" ? null : message };
     case "costs":

@@ -35,6 +35,7 @@ from deodar.session.pace import Pace, require_longest
 from deodar.session.port_reader import PortKey, PortReader, port_reader
 from deodar.session.run import require_step
 from deodar.session.session import Session
+from deodar.session.snapshot import SessionSnapshot
 from deodar.worlds._base import World
 
 T = TypeVar("T")
@@ -200,6 +201,26 @@ class Engine:
             session.dt = session.document.step
         self._make()
         return session.document
+
+    def snapshot(self) -> SessionSnapshot:
+        """Return the whole state of the run."""
+        return self._require().snapshot()
+
+    def restore(self, snapshot: SessionSnapshot) -> None:
+        """Return to a snapshot, and begin a new past. The run pauses.
+
+        Raises:
+            ParameterError: the snapshot is of another model.
+        """
+        session = self._require()
+        self.play(False)
+        self._target, self.injection = None, None
+        session.restore(snapshot)
+        if session.next_dt != session.document.step:  # a step that was lengthened
+            session.dt = session.document.step
+        self.failure = ((), ())
+        self.restart()
+        self._make()
 
     def _report(self, done: int, steps: int) -> None:
         if self._closed:

@@ -68,6 +68,22 @@ def write(path: Path, about: Mapping[str, Any], arrays: Sequence[np.ndarray], ki
     output.write(path, content.getvalue(), durable=False)
 
 
+def header(path: Path) -> JsonObject:
+    """Return the text of a state without its arrays.
+
+    Raises:
+        RecordError: there is no such file, or it is damaged.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            about = codec.parse(bytes(archive[HEADER]).decode())
+    except (ValueError, KeyError, OSError, EOFError, zipfile.BadZipFile) as error:
+        raise RecordError(f"cannot be read ({type(error).__name__}: {error})", where=str(path)) from None
+    if not isinstance(about, dict):
+        raise RecordError("is damaged: its text is not an object", where=str(path))
+    return about
+
+
 def read(path: Path, kind: str) -> tuple[JsonObject, list[np.ndarray]]:
     """Return the text and the arrays of a state.
 

@@ -36,6 +36,7 @@ from deodar.server.to_page import (
     Fits,
     Folder,
     Gallery,
+    KeptFiles,
     ListedProblem,
     Opened,
     RunClock,
@@ -284,6 +285,7 @@ class PageConnection:
             self._new("checked", project.checker.found, out)
         self._new("costs", self._hub.costs(), out)
         self._new("comparison", project.compared(), out)
+        self._new("kept_files", project.kept, out)
         self._new("experiment", self._hub.experiment.view(), out)
         rows = self._hub.experiment.rows_after(*self._rows)
         if rows is not None:
@@ -301,6 +303,7 @@ class PageConnection:
         self,
         what: str,
         message: Gallery
+        | KeptFiles
         | FileProblems
         | Checked
         | RunClock

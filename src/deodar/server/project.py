@@ -26,15 +26,16 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
 from deodar.recording.replay import RecordReader
-from deodar.server import content, record_frames, view
+from deodar.server import content, kept_files, record_frames, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.comparison import RecordComparison
 from deodar.server.embodiment import Embodiment
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
+from deodar.server.kept_files import KeptFolder
 from deodar.server.recent_changes import RecentChanges
 from deodar.server.state_store import StateStore
-from deodar.server.to_page import Changed, Comparison, DocumentView, ListedProblem
+from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -69,6 +70,7 @@ class OpenProject:
         record: the open record, whose document `model` has; None: the document runs.
         comparison: the comparison of the open record with another one.
         scene: the view of the record's world at its start, and a sentence on what it does not contain.
+        kept: the snapshots and presets of the document, as listed last.
         checker: finds the warnings after changes of single parameters.
     """
 
@@ -97,6 +99,7 @@ class OpenProject:
         self.checker = Checker(
             lambda: (self.version, None if self.model is None else self.model.document), self.queue, changed
         )
+        self.kept = kept_files.NOTHING
         self._name = ""
         self._saved: Document | None = None
         self._kept: Document | None = None
@@ -288,7 +291,7 @@ class OpenProject:
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.file_problems, self.failure, self.busy = ("", ()), (), ""
-        self.record, self.scene = None, (None, "")
+        self.record, self.scene, self.kept = None, (None, ""), kept_files.NOTHING
         self.end_comparison()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
@@ -433,6 +436,50 @@ class OpenProject:
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.branch(time)))
         await self._follow_run()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.play(True)))
+
+    async def list_kept(self) -> None:
+        """Read the list of snapshots and presets of the open document again."""
+        doc = None if self.model is None or self.record is not None else self.model.document
+        found: list[KeptFiles] = [kept_files.NOTHING]
+        if doc is not None:
+            await try_in_file_thread(lambda: found.append(KeptFolder(self.workspace, doc.name).listed()))
+        self.kept = found[-1]
+        self._changed()
+
+    async def keep_snapshot(self, name: str) -> Path:
+        """Save the present state of the run under a new name; return the file."""
+        self.require_run()
+        snapshot = await asyncio.wrap_future(self.engine.call(self.engine.snapshot))
+        folder = KeptFolder(self.workspace, self._require().document.name)
+        path = await in_file_thread(lambda: folder.save_snapshot(name, snapshot), name)
+        await self.list_kept()
+        return path
+
+    async def keep_preset(self, name: str) -> Path:
+        """Save the present values of the parameters under a new name; return the file."""
+        doc = self._require_model().document
+        path = await in_file_thread(lambda: KeptFolder(self.workspace, doc.name).save_preset(name, doc), name)
+        await self.list_kept()
+        return path
+
+    async def return_to(self, name: str) -> None:
+        """Return to a snapshot; its parameters are one step of undo.
+
+        Raises:
+            UnknownName: there is none of this name.
+            ParameterError: it is of another model.
+        """
+        self.require_run()
+        folder = KeptFolder(self.workspace, self._require().document.name)
+        snapshot = await in_file_thread(lambda: folder.snapshot(name, self.trust), name)
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.restore(snapshot)))
+        await self._follow_run()
+
+    async def remove_kept(self, sort: kept_files.Sort, name: str) -> None:
+        """Delete a snapshot or a preset."""
+        folder = KeptFolder(self.workspace, self._require_model().document.name)
+        await in_file_thread(lambda: folder.remove(sort, name), name)
+        await self.list_kept()
 
     async def _follow_run(self) -> None:
         """Take over the parameters of the running session into the document, as one step of undo."""

@@ -277,6 +277,34 @@ async def _run_from(hub: Hub, page: Page, m: to_server.RunFrom) -> None:
     page.seek(None)
 
 
+@handles(to_server.ListKept)
+async def _list_kept(hub: Hub, page: Page, m: to_server.ListKept) -> None:
+    await hub.project.list_kept()
+
+
+@handles(to_server.KeepSnapshot)
+async def _keep_snapshot(hub: Hub, page: Page, m: to_server.KeepSnapshot) -> Answer:
+    path = await hub.project.keep_snapshot(m.name)
+    return Answer(request=m.request, file=hub.workspace.shown(path))
+
+
+@handles(to_server.ReturnTo)
+async def _return_to(hub: Hub, page: Page, m: to_server.ReturnTo) -> None:
+    await hub.project.return_to(m.name)
+    page.seek(None)
+
+
+@handles(to_server.KeepPreset)
+async def _keep_preset(hub: Hub, page: Page, m: to_server.KeepPreset) -> Answer:
+    path = await hub.project.keep_preset(m.name)
+    return Answer(request=m.request, file=hub.workspace.shown(path))
+
+
+@handles(to_server.RemoveKept)
+async def _remove_kept(hub: Hub, page: Page, m: to_server.RemoveKept) -> None:
+    await hub.project.remove_kept(m.sort, m.name)
+
+
 @handles(to_server.Seek)
 async def _seek(hub: Hub, page: Page, m: to_server.Seek) -> None:
     page.seek(m.time)

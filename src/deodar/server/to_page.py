@@ -271,6 +271,32 @@ class FileProblems(Message, frozen=True, tag="file_problems"):
     problems: list[ListedProblem]
 
 
+class SnapshotView(Data, frozen=True):
+    """A stored snapshot: document time, time of saving (ISO 8601), size in bytes."""
+
+    name: str
+    time: float
+    saved: str
+    size: int
+
+
+class PresetView(Data, frozen=True):
+    """Stored values of parameters: path below the root, time of saving (ISO 8601), size in bytes."""
+
+    name: str
+    path: str
+    saved: str
+    size: int
+
+
+@MESSAGES.register
+class KeptFiles(Message, frozen=True, tag="kept_files"):
+    """The snapshots and presets of the open document, the newest first."""
+
+    snapshots: list[SnapshotView]
+    presets: list[PresetView]
+
+
 class DifferenceView(Data, frozen=True):
     """The first moment at which a port of two records differs, and the sample with the largest difference.
 

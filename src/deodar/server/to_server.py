@@ -495,6 +495,40 @@ class RunFrom(DocumentRequest, frozen=True, kw_only=True, tag="run_from"):
 
 
 @MESSAGES.register
+class ListKept(Request, frozen=True, kw_only=True, tag="list_kept"):
+    """List snapshots and presets again; a `kept_files` message follows if the list changed."""
+
+
+@MESSAGES.register
+class KeepSnapshot(DocumentRequest, frozen=True, kw_only=True, tag="keep_snapshot"):
+    """Save the present state of the run as a snapshot under a new name."""
+
+    name: Text
+
+
+@MESSAGES.register
+class ReturnTo(DocumentRequest, frozen=True, kw_only=True, tag="return_to"):
+    """Return to a snapshot: states, time, noise, world and parameters; the run pauses."""
+
+    name: Text
+
+
+@MESSAGES.register
+class KeepPreset(DocumentRequest, frozen=True, kw_only=True, tag="keep_preset"):
+    """Save the present values of the parameters as a preset under a new name."""
+
+    name: Text
+
+
+@MESSAGES.register
+class RemoveKept(DocumentRequest, frozen=True, kw_only=True, tag="remove_kept"):
+    """Delete a snapshot or a preset."""
+
+    sort: Literal["snapshot", "preset"]
+    name: Text
+
+
+@MESSAGES.register
 class ChooseCopy(Request, frozen=True, kw_only=True, tag="choose_copy"):
     """Show another trial or point of a sweep of the open record: the index along one of its dimensions."""
 

@@ -14,12 +14,19 @@ export async function takeValues(): Promise<boolean> {
   if (chosen === null || (chosen instanceof File && isTooLarge(chosen))) {
     return false;
   }
-  const answer = await sent(chosen);
+  return shown(await sent(chosen), typeof chosen === "string" ? lastPart(chosen) : chosen.name);
+}
+
+// Applies the values of a file below the root, and shows those that did not match.
+export async function applyPreset(path: string): Promise<boolean> {
+  return shown(await sent(path), lastPart(path));
+}
+
+async function shown(answer: Answer, file: string): Promise<boolean> {
   if (!done(answer)) {
     return false;
   }
   const { carried = 0, unmatched = [] } = answer;
-  const file = typeof chosen === "string" ? lastPart(chosen) : chosen.name;
   if (unmatched.length === 0) {
     useStudio.getState().notify({ what: takenText(carried, file) }, "info");
     return carried > 0;

@@ -26,6 +26,7 @@ import {
   stop,
   useReplay,
 } from "./replay";
+import { KeptMenu } from "./KeptMenu";
 import { ReplaySpeed } from "./ReplaySpeed";
 import { RunFromButton } from "./RunFromButton";
 import classes from "./Timeline.module.css";
@@ -150,6 +151,7 @@ export function Timeline() {
               : ""}
         </span>
       </div>
+      {!record && <KeptMenu />}
       {!record && <RunFromButton />}
       {!record && (
         <Tooltip label="Back to the present">
