@@ -61,6 +61,7 @@ SCRIPT = [
     "Probe",
     "save_snapshot",
     "load_snapshot",
+    "session_at",
     "Experiment",
     "save",
     "load",

@@ -162,6 +162,7 @@ from deodar.recording.files import save_record as save_record
 from deodar.recording.probe import Probe as Probe
 from deodar.registry import register as register
 from deodar.session.session import Session as Session
+from deodar.session.session_at import session_at as session_at
 from deodar.session.snapshot_file import load_snapshot as load_snapshot
 from deodar.session.snapshot_file import save_snapshot as save_snapshot
 from deodar.worlds._base import Signal as Signal

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import dataclasses as dc
 import time
-from collections.abc import Callable
 
 import jax
 import numpy as np
 
 from deodar.errors import RecordError
-from deodar.parameters import FrozenArray
+from deodar.session.repeat_changes import StepProgress, is_push, repeat_changes
 from deodar.session.session import Change, Session
 from deodar.session.snapshot import SessionSnapshot
 from deodar.worlds._base import World
@@ -30,15 +29,9 @@ MOST_BYTES = 256 * 2**20
 PAUSE = 0.5
 """Longest wall time between two exchanges that counts as running, in seconds."""
 
-TOGETHER = 0.05
-"""Wall time of the steps between two reports of progress, in seconds."""
-
-Progress = Callable[[int, int], None]
-"""Function that is called with the number of steps taken and their total."""
-
 
 @dc.dataclass
-class _Stored:
+class _BranchState:
     """A state, its world, and the changes of the session since, up to the next state."""
 
     snapshot: SessionSnapshot
@@ -62,7 +55,7 @@ class BranchStates:
 
     def __init__(self, interval: float = INTERVAL, most: int = MOST_BYTES) -> None:
         self._interval, self._most = interval, most
-        self._stored: list[_Stored] = []
+        self._stored: list[_BranchState] = []
         self._seen = 0
         self._last: Change | None = None
         self._wall, self._now, self._due = 0.0, 0.0, 0.0
@@ -98,7 +91,7 @@ class BranchStates:
             self._too_large = nbytes
             self._stored.clear()
             return
-        self._stored.append(_Stored(snapshot, session.world, self._wall, nbytes))
+        self._stored.append(_BranchState(snapshot, session.world, self._wall, nbytes))
         self._due = self._wall + max(self._interval, (time.perf_counter() - now) / SHARE)
         while len(self._stored) > 1 and self._stored[1].wall < self._wall - SECONDS:
             self._stored.pop(0)
@@ -120,7 +113,7 @@ class BranchStates:
                 for change in new
             ]
 
-    def branch(self, session: Session, tick: int, progress: Progress) -> None:
+    def branch(self, session: Session, tick: int, progress: StepProgress) -> None:
         """Take a session back to an earlier tick; later states are forgotten.
 
         The state has the bits that it had at this tick, also where parameters were changed before, inputs
@@ -183,59 +176,6 @@ class BranchStates:
         gaps, ages = walls[2:] - walls[:-2], self._wall - walls[1:-1]
         k = int(np.argmin(gaps / np.maximum(ages, 1e-9))) + 1
         self._stored[k - 1].changes += self._stored.pop(k).changes
-
-
-def is_push(change: Change) -> bool:
-    """Return whether a change is an injected input, which lasts for steps."""
-    return change.what.startswith("push ")
-
-
-def repeat_changes(session: Session, changes: list[Change], tick: int, progress: Progress) -> None:
-    """Advance a session to a tick, as fast as possible, with changes at their ticks.
-
-    Raises:
-        RecordError: a change cannot be repeated.
-    """
-    first, left = session.tick, list(changes)
-    together = 1
-    while True:
-        while left and left[0].tick <= session.tick:
-            repeat_change(session, left.pop(0), tick)
-        if session.tick >= tick:
-            return
-        end = left[0].tick if left else tick
-        began, n = time.perf_counter(), min(end - session.tick, together)
-        session.step(n)
-        seconds = time.perf_counter() - began
-        together = max(1, min(2 * together, round(n * TOGETHER / max(seconds, 1e-9))))
-        progress(session.tick - first, tick - first)
-
-
-def repeat_change(session: Session, change: Change, tick: int) -> None:
-    """Make a change of a journal again; an injected input lasts at most up to `tick`."""
-    what, value = change.what, change.value
-    verb, _, name = what.partition(" ")
-    if what == "document":
-        session.edit(value)
-    elif what == "dt":
-        session.dt = value
-    elif what == "world":
-        session.world = value
-    elif verb == "push":
-        amount, n = value
-        session.inject(
-            name, amount.data if isinstance(amount, FrozenArray) else amount, min(n, tick - session.tick)
-        )
-    elif verb == "world.move":
-        session.move(name, value)
-    elif verb == "world.place":
-        session.place(name, *value)
-    elif verb == "world.remove":
-        session.remove(name)
-    elif what in ("reset", "restore"):
-        raise RecordError(f"The run cannot continue from this moment: a {what} lies before it")
-    else:
-        session.set(what, value.data if isinstance(value, FrozenArray) else value)
 
 
 def size(snapshot: SessionSnapshot) -> int:

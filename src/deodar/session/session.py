@@ -165,7 +165,10 @@ class Session:
         """
         entry = find.element(self.document, path_of(path))
         self.require_injection(entry.id)
-        self.journal.append(Change(self.tick, f"push {entry.path}", (FrozenArray(amount), n)))
+        frozen = FrozenArray(amount)
+        # as the journal has it, so that a repetition has the same bits
+        given = frozen.data if frozen.shape else float(frozen.data)
+        self.journal.append(Change(self.tick, f"push {entry.path}", (frozen, n)))
         g, r = self._run.program.plan.row[entry.id]
         for _ in range(n):
             dt, recorder, self._recorder = self.dt, self._recorder, None
@@ -173,7 +176,7 @@ class Session:
                 self.step()
             finally:
                 self._recorder = recorder
-            self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), amount, dt) or state)
+            self._run.put_row(g, r, entry.element.inject(state := self._run.row(g, r), given, dt) or state)
             if recorder is not None:  # a sample at this tick contains the injected input
                 recorder.note()
                 recorder.sample(self._run)

@@ -1,0 +1,125 @@
+"""Sessions that continue a recorded run from one of its moments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from deodar import codec
+from deodar.errors import RecordError
+from deodar.model import find
+from deodar.model.model import Model
+from deodar.session.repeat_changes import repeat_changes
+from deodar.session.run import whole
+from deodar.session.session import Change, Session
+from deodar.worlds._base import World
+
+if TYPE_CHECKING:
+    import xarray
+
+NOT_REPEATED = ("document", "dt", "world", "reset", "restore")
+"""Changes of a session that a record does not describe completely."""
+
+
+def session_at(
+    path: str | Path,
+    time: float,
+    world: World | None = None,
+    trust: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Session:
+    """Return a session in the state that a recorded run had at a time.
+
+    The run is repeated from its start, with the changes of a recorded session, and compared with the record
+    at the last sample before that time. The session continues with the same noise.
+
+    Args:
+        path: the record of a single run, or of a session from its start.
+        time: document time; a whole number of steps after the start.
+        world: the world of its sensors; None: that of the record, opened again.
+        trust: whether functions that its document names may be imported and run.
+        progress: called with the number of steps taken and their total.
+
+    Raises:
+        RecordError: the record has several trials or points of a sweep, or began during a session, or a
+            change in it cannot be repeated; or the repeated run has other values than the record.
+        TimeError: the time is before the start, or not a whole number of steps after it.
+        Untrusted: its document names a function, and `trust` is not given.
+    """
+    # start-up time: these import xarray
+    from deodar.recording import files
+    from deodar.recording.record import about
+    from deodar.recording.repeat import request, world_of
+
+    data = files.open_record(Path(path))
+    made = about(data)
+    changes: list[Change] = []
+    if "session" in made:
+        model, settings = _of_session(data, made, trust)
+        changes = _changes(data)
+    else:
+        model, settings = request(data, trust)
+    if settings.get("trials") is not None or settings.get("sweep"):
+        raise RecordError(
+            "has several trials or points of a sweep, which were computed together; a session of one of them"
+            " would have other last digits",
+            where=str(path),
+            fix="Record a single run",
+        )
+    options = {
+        key: settings[key] for key in ("dt", "seed", "precision", "device", "accuracy") if key in settings
+    }
+    session = Session(model, world=world or world_of(data), **options)
+    tick = whole(time - session.time, session.dt, "the time from the start")
+    repeat_changes(
+        session, [c for c in changes if c.tick <= tick], tick, progress or (lambda done, steps: None)
+    )
+    _require_same(session, data, str(path))
+    return session
+
+
+def _of_session(data: xarray.Dataset, made: Any, trust: bool) -> tuple[Model, dict[str, Any]]:
+    from deodar.recording import provenance  # start-up time: this imports xarray
+
+    if made["session"]["tick"] != 0:
+        raise RecordError(
+            f"began at step {made['session']['tick']} of a session, whose state it does not contain",
+            fix="Start recording before the first step, or save a snapshot",
+        )
+    settings = {key: made[key] for key in ("dt", "seed", "precision")}
+    return Model(document=provenance.document(made), trusted=trust), settings
+
+
+def _changes(data: xarray.Dataset) -> list[Change]:
+    given: Any = codec.parse(str(data.attrs.get("changes", "[]")))
+    changes = [Change(int(c["tick"]), str(c["what"]), c["value"]) for c in given]
+    for change in changes:
+        if change.what in NOT_REPEATED:
+            raise RecordError(
+                f"the change of {change.what!r} at step {change.tick} cannot be repeated from the record"
+            )
+    return changes
+
+
+def _require_same(session: Session, data: xarray.Dataset, where: str) -> None:
+    """Raise RecordError if the record has other values at the present time of the session."""
+    from deodar.recording.record import time_dimension  # start-up time: this imports xarray
+
+    for name, variable in data.data_vars.items():
+        dimension = time_dimension(variable)
+        times = np.asarray([]) if dimension is None else data[dimension].values
+        k = np.flatnonzero(times == session.time)
+        if not len(k):
+            continue
+        entry, port = find.port(session.document, str(name))
+        if variable.isel({dimension: int(k[0])}).values.tobytes() != (
+            session.read(f"{entry.path}.{port}").tobytes()
+        ):
+            raise RecordError(
+                f"the repeated run has other values of {name} at {session.time:g} than the record",
+                where=where,
+                fix="Use the versions and the machine of the record: deodar run RECORD lists what differs",
+            )
