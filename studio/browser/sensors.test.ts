@@ -5,7 +5,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { button, drop, openExample, png } from "./hands";
 import type { Observer } from "./observer";
-import { startStudio, type Studio } from "./studio";
+import { shot, startStudio, type Studio } from "./studio";
 
 let studio: Studio;
 let observer: Observer;
@@ -34,9 +34,68 @@ test("a picture that is dropped on the page is what the sensor reads, and the ru
   expect(observer.time).toBeGreaterThanOrEqual(before);
 });
 
-test("a picture below the folder can be chosen in the header", async () => {
-  writeFileSync(join(studio.folder, "blue.png"), png(40, 40, [0, 0, 255]));
-  await button(studio.page, "The sensors read Picture: red.png; choose another picture").click();
-  await studio.page.getByRole("dialog").getByRole("button", { name: "blue.png" }).click();
+test("a picture below the folder can be chosen in the header, with a preview", async () => {
+  const { page, folder } = studio;
+  writeFileSync(join(folder, "blue.png"), png(40, 40, [0, 0, 255]));
+  const before = observer.time;
+  await button(page, "World: Picture: red.png; choose another one").click();
+  const dialog = page.getByRole("dialog");
+  expect(await dialog.getByLabel("Kind of world").inputValue()).toBe("Picture");
+  await dialog.getByRole("button", { name: "blue.png" }).click();
+  await dialog.getByRole("img", { name: "Preview of the world" }).waitFor();
+  await shot(page, "world-picture");
+  await dialog.getByRole("button", { name: "Use this world" }).click();
   await observer.until(() => observer.clock?.world === "Picture: blue.png");
+  await observer.until(() => channel(0) === 0 && channel(2) === 1);
+  expect(observer.running).toBe(true);
+  expect(observer.time).toBeGreaterThanOrEqual(before);
 });
+
+test("a world that lacks a sensor of the model is shown and cannot be used", async () => {
+  const { page } = studio;
+  await button(page, "World: Picture: blue.png; choose another one").click();
+  const dialog = page.getByRole("dialog");
+  await dialog.getByLabel("Kind of world").selectOption("Arena");
+  await dialog.getByLabel("layout").selectOption("z");
+  await dialog.getByText("This world has no picture, which the model needs.").waitFor();
+  expect(await dialog.getByRole("button", { name: "Use this world" }).isDisabled()).toBe(true);
+  await shot(page, "world-arena");
+  await page.setViewportSize({ width: 390, height: 800 });
+  await shot(page, "world-arena-390");
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await dialog.getByRole("button", { name: "Cancel" }).click();
+  expect(observer.clock?.world).toBe("Picture: blue.png");
+});
+
+test("an arena is chosen with its settings while a robot drives, and the run continues", async () => {
+  const { page } = studio;
+  writeFileSync(join(studio.folder, "driving.json"), JSON.stringify(DRIVING));
+  await observer.ask({ type: "open_file", path: "driving.json", discard: true });
+  await observer.runs();
+  await button(page, "Play").click();
+  await observer.until(() => observer.time > 0);
+  const before = observer.time;
+  await button(page, "World: Arena: an example; choose another one").click();
+  const dialog = page.getByRole("dialog");
+  await dialog.getByLabel("layout").selectOption("z");
+  await dialog.getByText("Settings").click();
+  await dialog.getByLabel("unit", { exact: true }).fill("cm");
+  await dialog.getByRole("img", { name: "Preview of the world" }).waitFor();
+  await dialog.getByRole("button", { name: "Use this world" }).click();
+  await observer.until(() => observer.clock?.world === "Arena: z");
+  await observer.until(() => observer.world.now.scene?.unit === "cm");
+  expect(observer.running).toBe(true);
+  expect(observer.time).toBeGreaterThanOrEqual(before);
+});
+
+const DRIVING = {
+  deodar: 1,
+  name: "driving",
+  dt: 64,
+  axes: {},
+  elements: {
+    left: { kind: "Motor", id: "00000002", axes: [], motor: "left" },
+    right: { kind: "Motor", id: "00000004", axes: [], motor: "right" },
+  },
+  connections: [],
+};

@@ -82,6 +82,7 @@ export type Answer = {
   carried?: number;
   unmatched?: string[];
   imported?: string;
+  preview?: WorldPreview | null;
   version?: number;
   made?: string[];
   group?: string[];
@@ -517,7 +518,8 @@ export type FittingKindView = {
   port: string;
 };
 
-// Content of a folder below the root; `records` are files, and folders that are not in `folders`.
+// Content of a folder below the root; `records` are files, and folders that are not in `folders`; `others`
+// are further files.
 export type Folder = {
   type: "folder";
   request: number;
@@ -526,6 +528,7 @@ export type Folder = {
   files: string[];
   pictures: string[];
   records: string[];
+  others: string[];
 };
 
 // Delete stored unsaved edits.
@@ -569,7 +572,9 @@ export type KeptFiles = {
 //
 // `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
 // parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
-// parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens.
+// parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens,
+// `names` what it opens besides files, and `settings` the values that it is made from; empty: it cannot be
+// opened.
 export type Kind = {
   name: string;
   room: string;
@@ -581,6 +586,8 @@ export type Kind = {
   levels: Record<string, Record<string, string>>;
   example: unknown;
   opens: string[];
+  names: string[];
+  settings: WorldSettingView[];
 };
 
 // Open the model of the experiment again, after the record of a trial.
@@ -883,6 +890,15 @@ export type PresetView = {
   path: string;
   saved: string;
   size: number;
+};
+
+// Open a world as `use_world` does, without using it; the answer has its `preview`.
+export type PreviewWorld = {
+  type: "preview_world";
+  request?: number;
+  kind: string;
+  path: string;
+  settings?: Record<string, unknown>;
 };
 
 // Add an input to an element until `release`.
@@ -1322,6 +1338,7 @@ export type ToServer =
   | PushInput
   | Release
   | UseWorld
+  | PreviewWorld
   | UseWorldContent
   | WatchWorld
   | MoveObject
@@ -1382,13 +1399,16 @@ export type Unwatch = {
   stream: number;
 };
 
-// Use a world of a kind, opened with a file below the root.
+// Use a world of a kind, opened with a file below the root, or with another argument of `open`.
+//
+// `settings` are further arguments of its constructor.
 export type UseWorld = {
   type: "use_world";
   request?: number;
   session?: number;
   kind: string;
   path: string;
+  settings?: Record<string, unknown>;
 };
 
 // Use a world of a kind, made from the content (base64) of a file that was dropped on the page.
@@ -1399,6 +1419,7 @@ export type UseWorldContent = {
   kind: string;
   name: string;
   content: string;
+  settings?: Record<string, unknown>;
 };
 
 // Send a port of an element as frames, thinned to at most `most` samples along each axis (0: all).
@@ -1478,6 +1499,19 @@ export type Welcome = {
   plots: PlotView[];
 };
 
+// What a world looks like: from above, or what its sensor reads, as bytes (base64) of rows of pixels.
+//
+// `missing` lists sensors and motors of the document that the world does not have.
+export type WorldPreview = {
+  sensors: string[];
+  motors: string[];
+  missing: string[];
+  scene: SceneView | null;
+  width: number;
+  height: number;
+  pixels: string;
+};
+
 // The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 //
 // `note` is a sentence on what a record does not contain of the world.
@@ -1485,4 +1519,12 @@ export type WorldScene = {
   type: "scene";
   scene: SceneView | null;
   note?: string;
+};
+
+// A setting of a world; `form` is the type of its value, `file` a file that it opens.
+export type WorldSettingView = {
+  name: string;
+  form: "file" | "flag" | "number" | "numbers" | "text";
+  meaning: string;
+  default: unknown;
 };

@@ -12,6 +12,7 @@ from deodar.codec import Json
 from deodar.docstring import Docstring
 from deodar.element import Element
 from deodar.kinds.parameter import ParameterDescription, describe_parameter, plain
+from deodar.kinds.world_settings import WorldSetting, world_settings
 from deodar.parameters import Parameter, Part, parameters, positional
 from deodar.worlds._base import World
 
@@ -38,6 +39,8 @@ class Description:
         reference: where the equation comes from; "" where the docstring says: no reference.
         example: a value to start from, where the kind stands inside an element; None otherwise.
         opens: endings of the files that a world opens.
+        names: names that a world opens besides files.
+        settings: arguments of a world that can be opened.
     """
 
     name: str
@@ -55,6 +58,8 @@ class Description:
     reference: str
     example: Json
     opens: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    settings: tuple[WorldSetting, ...] = ()
 
     @property
     def public_name(self) -> str:
@@ -99,6 +104,8 @@ def describe(cls: type, known: Mapping[str, type] | None = None) -> Description:
         reference="" if reference == "no reference" else reference,
         example=plain(example) if example is not None and not isinstance(example, Element) else None,
         opens=cls.opens if issubclass(cls, World) else (),
+        names=tuple(cls.names()) if issubclass(cls, World) else (),
+        settings=world_settings(cls, described),
     )
 
 

@@ -5,19 +5,28 @@ from __future__ import annotations
 import base64
 import binascii
 import tempfile
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
 
 from deodar import registry
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError, did_you_mean
+from deodar.kinds.world_settings import require_settings
 from deodar.model.document import Document
+from deodar.numerics.axes import Axis
 from deodar.recording.opened import opened
 from deodar.recording.provenance import described
+from deodar.server import scene
+from deodar.server.to_page import WorldPreview
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 
 MOST_BYTES = 32 * 2**20
+PREVIEW = (Axis("x", 0, 159, 160), Axis("y", 0, 119, 120), Axis("channel", 0, 2, 3))
 
 
 class Embodiment:
@@ -32,6 +41,7 @@ class Embodiment:
 
     def __init__(self, chosen: World | None = None) -> None:
         self.chosen = chosen
+        self._dropped: tempfile.TemporaryDirectory[str] | None = None
         self.label = ""
         self._name = (
             ""
@@ -62,32 +72,93 @@ class Embodiment:
         self.label = self._name
         return self.chosen
 
-    def open(self, kind: str, path: Path, name: str) -> World:
-        """Choose a world of a kind, made from a file; `name` is the name that messages show."""
+    def kind(self, name: str) -> type[World]:
+        """Return the class of a world."""
         kinds = registry.kinds("worlds")
-        if kind not in kinds:
-            raise WorldError(f"there is no world {kind!r}", fix=did_you_mean(kind, kinds))
+        if name not in kinds:
+            raise WorldError(f"there is no world {name!r}", fix=did_you_mean(name, kinds))
+        return kinds[name]
+
+    def open(self, kind: str, argument: str, name: str, settings: Mapping[str, Any]) -> World:
+        """Return a world of a kind, made from an argument; `name` is the name that messages show."""
+        cls = self.kind(kind)
+        require_settings(cls, settings)
         try:
-            self.chosen = opened(kinds[kind], str(path))
+            if not settings:
+                return opened(cls, argument)
+            make = cast("Callable[..., World]", cls)
+            with errors_of(cls, "open", argument):
+                return make(int(argument) if not cls.opens and argument.isdecimal() else argument, **settings)
         except WorldError as error:
             raise WorldError(
                 error.problems[0].what, where=name, fix=error.problems[0].fix
             ) from error.__cause__
-        self.label = self._name = _named(kind, name)
-        return self.chosen
 
-    def open_content(self, kind: str, name: str, content: str) -> World:
-        """Choose a world of a kind, made from the content (base64) of the file `name`."""
+    def open_content(self, kind: str, name: str, content: str, settings: Mapping[str, Any]) -> World:
+        """Return a world of a kind, made from the content (base64) of the file `name`."""
         try:
             data = base64.b64decode(content, validate=True)
         except (binascii.Error, ValueError):
             raise WorldError("the content is not base64", where=name) from None
         if len(data) > MOST_BYTES:
             raise WorldError(f"is larger than {MOST_BYTES // 2**20} MiB", where=name)
-        with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            path = Path(folder) / f"dropped{Path(name).suffix}"
-            path.write_bytes(data)
-            return self.open(kind, path, name)
+        # worlds may read their files later, too
+        self._dropped = self._dropped or tempfile.TemporaryDirectory(prefix="deodar-")
+        path = Path(tempfile.mkdtemp(dir=self._dropped.name)) / f"dropped{Path(name).suffix}"
+        path.write_bytes(data)
+        return self.open(kind, str(path), name, settings)
+
+    def close(self) -> None:
+        """Remove the files that were dropped on the page."""
+        if self._dropped is not None:
+            self._dropped.cleanup()
+            self._dropped = None
+
+    def choose(self, world: World, kind: str, name: str, doc: Document) -> None:
+        """Choose a world for a document.
+
+        Raises:
+            WorldError: the world lacks a sensor or motor of the document; the world in use stays.
+        """
+        if lacking := missing(world, doc):
+            raise WorldError(
+                f"the world {kind} has no {', '.join(map(repr, lacking))}",
+                where=name,
+                fix="Choose a world with all sensors and motors of the model",
+            )
+        self.chosen = world
+        self.label = self._name = _named(kind, name)
+
+
+def missing(world: World, doc: Document) -> list[str]:
+    """Return the sensors and motors of a document that a world does not have."""
+    return sorted(signals(doc) - {*world.sensors, *world.motors})
+
+
+def preview(world: World, doc: Document | None) -> WorldPreview:
+    """Return what a world looks like: from above, or else what its first sensor of any shape reads."""
+    picture = np.zeros((0, 0, 3))
+    try:
+        with errors_of(type(world), "preview"):
+            world.reset(0)
+            seen = world.scene()
+            free = [name for name, signal in world.sensors.items() if signal.shape is None]
+            if seen is None and free:
+                picture = world.sense(free[0], PREVIEW, 0.0).transpose(1, 0, 2)
+    finally:
+        close = getattr(world, "close", None)
+        if callable(close):
+            close()
+    pixels = (np.clip(picture, 0, 1) * 255).astype(np.uint8)
+    return WorldPreview(
+        sensors=list(world.sensors),
+        motors=list(world.motors),
+        missing=[] if doc is None else missing(world, doc),
+        scene=scene.scene(seen).scene,
+        width=pixels.shape[1],
+        height=pixels.shape[0],
+        pixels=base64.b64encode(pixels.tobytes()).decode(),
+    )
 
 
 def signals(doc: Document) -> set[str]:

@@ -12,7 +12,7 @@ from deodar.live.compilation import CompileTimes
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
 from deodar.server import gallery, plots, templates, view
-from deodar.server.embodiment import Embodiment
+from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import try_in_file_thread
 from deodar.server.open_experiment import OpenExperiment
 from deodar.server.page import Page
@@ -127,7 +127,7 @@ class Hub:
             compiling=self._compiling(),
             failure=self.project.failures(),
             world=self.embodiment.label,
-            senses=session is not None and bool(session.program.plan.sensors),
+            senses=session is not None and bool(signals(session.document)),
             pushing="" if injection is None else injection.element,
             timeline=timeline,
             recording=self._recording(session),
@@ -246,3 +246,4 @@ class Hub:
         await self.project.keep()
         await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.engine.close)
+        self.embodiment.close()

@@ -30,7 +30,7 @@ from deodar.server import content, kept_files, record_frames, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.comparison import RecordComparison
-from deodar.server.embodiment import Embodiment
+from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.kept_files import KeptFolder
 from deodar.server.recent_changes import RecentChanges
@@ -492,13 +492,17 @@ class OpenProject:
             self._gesture = None
             self._moved()
 
-    async def embody(self, world: World) -> None:
-        """Use another world, at once or, if the document has no sensors, as soon as a document has some."""
+    async def embody(self, world: World, kind: str, name: str) -> None:
+        """Use another world, at once or, if the document has no sensors, as soon as a document has some.
+
+        Raises:
+            WorldError: the world lacks a sensor or motor of the document.
+        """
         model, session = self._require_model(), self.engine.session
-        self.embodiment.world(model.document)
+        self.embodiment.choose(world, kind, name, model.document)
         if session is None:
             self.queue.start_task(self._restart())
-        elif session.program.plan.sensors:
+        elif signals(session.document):
             await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
         self._changed()
 

@@ -27,6 +27,7 @@ from deodar.recording import places
 from deodar.server import build_requests as build_requests  # registers its handlers
 from deodar.server import content, figure_file, gallery, to_server
 from deodar.server import experiment_requests as experiment_requests  # registers its handlers
+from deodar.server.embodiment import preview
 from deodar.server.file_thread import in_file_thread
 from deodar.server.handlers import HANDLERS, handles
 from deodar.server.hub import Hub
@@ -415,20 +416,32 @@ def _blob(axes: Axes, m: to_server.PushInput) -> np.ndarray:
 
 @handles(to_server.UseWorld)
 async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
+    world = await in_file_thread(lambda: _world(hub, m), m.path)
+    await hub.project.embody(world, m.kind, m.path)
+
+
+@handles(to_server.PreviewWorld)
+async def _preview_world(hub: Hub, page: Page, m: to_server.PreviewWorld) -> Answer:
+    model = hub.project.model
+    doc = None if model is None else model.document
+    shown = await in_file_thread(lambda: preview(_world(hub, m), doc), m.path)
+    return Answer(request=m.request, preview=shown)
+
+
+def _world(hub: Hub, m: to_server.UseWorld | to_server.PreviewWorld) -> World:
+    """Open a world with a file below the root, a name that it knows, or another text."""
+    cls = hub.embodiment.kind(m.kind)
+    if not cls.opens or m.path in cls.names():
+        return hub.embodiment.open(m.kind, m.path, m.path, m.settings)
     place = hub.workspace.inside(m.path)
-
-    def read() -> World:
-        hub.workspace.require_file(place)
-        return hub.embodiment.open(m.kind, place, m.path)
-
-    world = await in_file_thread(read, m.path)
-    await hub.project.embody(world)
+    hub.workspace.require_file(place)
+    return hub.embodiment.open(m.kind, str(place), m.path, m.settings)
 
 
 @handles(to_server.UseWorldContent)
 async def _use_world_content(hub: Hub, page: Page, m: to_server.UseWorldContent) -> None:
-    world = await asyncio.to_thread(hub.embodiment.open_content, m.kind, m.name, m.content)
-    await hub.project.embody(world)
+    world = await asyncio.to_thread(hub.embodiment.open_content, m.kind, m.name, m.content, m.settings)
+    await hub.project.embody(world, m.kind, m.name)
 
 
 @handles(to_server.WatchWorld)

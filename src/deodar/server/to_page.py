@@ -49,12 +49,23 @@ class ParameterForm(Data, frozen=True):
     names: Names = ""
 
 
+class WorldSettingView(Data, frozen=True):
+    """A setting of a world; `form` is the type of its value, `file` a file that it opens."""
+
+    name: str
+    form: Literal["file", "text", "number", "flag", "numbers"]
+    meaning: str
+    default: Any
+
+
 class Kind(Data, frozen=True):
     """A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 
     `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
     parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
-    parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens.
+    parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens,
+    `names` what it opens besides files, and `settings` the values that it is made from; empty: it cannot be
+    opened.
     """
 
     name: str
@@ -67,6 +78,8 @@ class Kind(Data, frozen=True):
     levels: dict[str, dict[str, str]]
     example: Any
     opens: list[str]
+    names: list[str]
+    settings: list[WorldSettingView]
 
 
 class ExperimentForms(Data, frozen=True):
@@ -593,9 +606,26 @@ class Lost(Message, frozen=True, tag="lost"):
     problem: ListedProblem
 
 
+class WorldPreview(Data, frozen=True):
+    """What a world looks like: from above, or what its sensor reads, as bytes (base64) of rows of pixels.
+
+    `missing` lists sensors and motors of the document that the world does not have.
+    """
+
+    sensors: list[str]
+    motors: list[str]
+    missing: list[str]
+    scene: SceneView | None
+    width: int
+    height: int
+    pixels: str
+
+
 @MESSAGES.register
 class Folder(Message, frozen=True, tag="folder"):
-    """Content of a folder below the root; `records` are files, and folders that are not in `folders`."""
+    """Content of a folder below the root; `records` are files, and folders that are not in `folders`;
+    `others` are further files.
+    """
 
     request: int
     path: str
@@ -603,6 +633,7 @@ class Folder(Message, frozen=True, tag="folder"):
     files: list[str]
     pictures: list[str]
     records: list[str]
+    others: list[str]
 
 
 class OfferView(Data, frozen=True):
@@ -667,6 +698,7 @@ class Answer(Message, frozen=True, tag="answer"):
     carried: int = 0
     unmatched: list[str] = []
     imported: str = ""
+    preview: WorldPreview | None = None
     version: int = 0
     made: list[Id] = []
     group: list[str] = []

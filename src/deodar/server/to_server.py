@@ -605,10 +605,23 @@ class Release(Request, frozen=True, kw_only=True, tag="release"):
 
 @MESSAGES.register
 class UseWorld(DocumentRequest, frozen=True, kw_only=True, tag="use_world"):
-    """Use a world of a kind, opened with a file below the root."""
+    """Use a world of a kind, opened with a file below the root, or with another argument of `open`.
+
+    `settings` are further arguments of its constructor.
+    """
 
     kind: Text
     path: Text
+    settings: dict[str, Any] = {}
+
+
+@MESSAGES.register
+class PreviewWorld(Request, frozen=True, kw_only=True, tag="preview_world"):
+    """Open a world as `use_world` does, without using it; the answer has its `preview`."""
+
+    kind: Text
+    path: Text
+    settings: dict[str, Any] = {}
 
 
 @MESSAGES.register
@@ -618,6 +631,7 @@ class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world
     kind: Text
     name: Text
     content: str
+    settings: dict[str, Any] = {}
 
 
 @MESSAGES.register

@@ -153,6 +153,7 @@ class Workspace:
             files=_ending(inside, DOCUMENTS),
             pictures=_ending(inside, PICTURES),
             records=records,
+            others=_others(inside, records),
         )
 
     def target(self, path: str) -> Path:
@@ -169,6 +170,12 @@ class Workspace:
 
 def _ending(entries: Iterable[os.DirEntry[str]], suffixes: tuple[str, ...]) -> list[str]:
     return [e.name for e in entries if e.name.lower().endswith(suffixes) and _is(e.is_file)]
+
+
+def _others(entries: Iterable[os.DirEntry[str]], records: list[str]) -> list[str]:
+    known = (*DOCUMENTS, *PICTURES)
+    others = [e for e in entries if not e.name.lower().endswith(known) and e.name not in records]
+    return [e.name for e in others if _is(e.is_file)]
 
 
 def _is_record(path: Path) -> bool:

@@ -171,6 +171,11 @@ class World:
         raise WorldError(f"the world {cls.__name__} cannot be opened from the command line")
 
     @classmethod
+    def names(cls) -> list[str]:
+        """Return the names that `open` accepts besides files, such as those of built-in arenas."""
+        return []
+
+    @classmethod
     def again(cls, described: Mapping[str, Json]) -> World:
         """Open a world again from the description that `describe` returned."""
         file = described.get("file")

@@ -66,6 +66,8 @@ export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): 
     levels: {},
     example: null,
     opens: [],
+    names: [],
+    settings: [],
     ...more,
   };
 }

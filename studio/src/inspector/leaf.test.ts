@@ -36,6 +36,8 @@ const kind = (name: string, parameters: ParameterForm[]): [string, Kind] => [
     levels: {},
     example: null,
     opens: [],
+    names: [],
+    settings: [],
   },
 ];
 

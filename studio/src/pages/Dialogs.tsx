@@ -11,6 +11,7 @@ import { ReplaceDialog } from "./ReplaceDialog";
 import { SaveAsDialog } from "./SaveAsDialog";
 import { ShortcutsDialog } from "./ShortcutsDialog";
 import { TakenDialog } from "./TakenDialog";
+import { WorldDialog } from "../world/WorldDialog";
 import { UnsavedDialog } from "./UnsavedDialog";
 import { type Asked, useDialogs } from "./dialogs";
 
@@ -56,6 +57,8 @@ function contentOf(asked: Asked) {
       return <NotesDialog />;
     case "shortcuts":
       return <ShortcutsDialog />;
+    case "world":
+      return <WorldDialog {...asked} />;
   }
 }
 
@@ -83,6 +86,8 @@ function titleOf(asked: Asked): string {
       return "Notes";
     case "shortcuts":
       return "Keys and mouse";
+    case "world":
+      return "World of the sensors and motors";
   }
 }
 

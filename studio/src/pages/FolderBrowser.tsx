@@ -14,6 +14,8 @@ type Props = {
   path: string;
   listing: ReturnType<typeof useFolder>;
   wants: "files" | "pictures" | "records";
+  // Endings of the files that are shown in place of those.
+  endings?: string[];
   onFolder: (path: string) => void;
   onFile: (path: string) => void;
   // A file that is marked, by its path.
@@ -28,6 +30,7 @@ export function FolderBrowser({
   path,
   listing: { folder, problem },
   wants,
+  endings,
   onFolder,
   onFile,
   marked,
@@ -46,7 +49,13 @@ export function FolderBrowser({
   }, [path]);
   const FileIcon = wants === "files" ? IconFileText : IconPhoto;
   const at = (name: string) => joined(folder?.path ?? path, name);
-  const names = wants === "records" ? [] : (folder?.[wants] ?? []);
+  const all = [...(folder?.files ?? []), ...(folder?.pictures ?? []), ...(folder?.others ?? [])];
+  const names =
+    endings !== undefined
+      ? all.filter((name) => endings.some((ending) => name.toLowerCase().endsWith(ending)))
+      : wants === "records"
+        ? []
+        : (folder?.[wants] ?? []);
   const runs = records ? [] : (folder?.records ?? []).filter((name) => !name.endsWith(".nc"));
   const folders = [...(folder?.folders ?? []), ...runs];
   const empty = folder !== null && folder.folders.length + folder.records.length + names.length === 0;
@@ -105,13 +114,15 @@ export function FolderBrowser({
         ))}
         {empty && (
           <li className={classes.empty}>
-            {wants === "pictures"
-              ? "No pictures here"
-              : wants === "records"
-                ? "No records here"
-                : records
-                  ? "No documents (.json, .deodar) or records here"
-                  : "No documents (.json, .deodar) here"}
+            {endings !== undefined
+              ? `No files here that end in ${endings.join(", ")}`
+              : wants === "pictures"
+                ? "No pictures here"
+                : wants === "records"
+                  ? "No records here"
+                  : records
+                    ? "No documents (.json, .deodar) or records here"
+                    : "No documents (.json, .deodar) here"}
           </li>
         )}
         {problem !== null && (

@@ -22,6 +22,8 @@ type Conversations = {
   // The notes of the document, with the report on a file of another tool.
   notes: { question: null; answer: null };
   shortcuts: { question: null; answer: null };
+  // The world that the sensors read, or one to use.
+  world: { question: null; answer: null };
 };
 
 type Name = keyof Conversations;
@@ -51,6 +53,7 @@ const CANCELLED: { [K in Name]: AnswerTo<K> } = {
   taken: "keep",
   notes: null,
   shortcuts: null,
+  world: null,
 };
 
 // Asks the user. An open question is cancelled.

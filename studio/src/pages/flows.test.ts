@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it } from "vitest";
 
 import type { DocumentView, Kind } from "../protocol";
 import { useStudio } from "../store";
-import { choosePicture, leave, open, save, saveAs, takeFile } from "./flows";
+import { leave, open, save, saveAs, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
 
 const document: DocumentView = {
@@ -33,6 +33,8 @@ const picture: Kind = {
   levels: {},
   example: null,
   opens: [".png"],
+  names: [],
+  settings: [],
 };
 const arena: Kind = { ...picture, name: "Arena", title: "Arena", opens: [".json"] };
 const worlds = new Map([arena, picture].map((kind) => [kind.name, kind]));
@@ -203,13 +205,5 @@ describe("a dropped file", () => {
     expect(await takeFile(large)).toBe(false);
     expect(sent).toEqual([]);
     expect(notices()).toHaveLength(3);
-  });
-
-  it("can be chosen below the root instead", async () => {
-    useStudio.setState({ clock: senses, kinds: worlds });
-    server({});
-    person("pictures/a.png");
-    expect(await choosePicture()).toBe(true);
-    expect(sent).toEqual([{ type: "use_world", kind: "Picture", path: "pictures/a.png" }]);
   });
 });

@@ -132,11 +132,6 @@ export function isTooLarge(file: File): boolean {
   return file.size > MOST_BYTES;
 }
 
-export async function choosePicture(): Promise<boolean> {
-  const chosen = await ask("choose", { wants: "pictures" });
-  return chosen !== null && showToSensors(chosen, typeof chosen === "string" ? chosen : chosen.name);
-}
-
 // Let the sensors read a file by the kind of world that opens it: below the root by its path, otherwise its
 // content.
 async function showToSensors(file: string | File, name: string): Promise<boolean> {
@@ -182,7 +177,7 @@ function refuse(problem: ListedProblem): boolean {
   return false;
 }
 
-async function base64(file: File): Promise<string> {
+export async function base64(file: File): Promise<string> {
   const bytes = new Uint8Array(await file.arrayBuffer());
   const parts: string[] = [];
   for (let i = 0; i < bytes.length; i += 0x8000) {

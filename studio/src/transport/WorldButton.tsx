@@ -1,9 +1,9 @@
-// What the sensors read, and a way to show them another picture. Only where something senses.
+// The world that the sensors read and the motors move, and a way to choose another one.
 
 import { Button, Tooltip } from "@mantine/core";
-import { IconPhoto } from "@tabler/icons-react";
+import { IconWorld } from "@tabler/icons-react";
 
-import { choosePicture } from "../pages/flows";
+import { ask } from "../pages/dialogs";
 import { useStudio } from "../store";
 import classes from "./Transport.module.css";
 
@@ -15,8 +15,8 @@ export function WorldButton() {
   }
   const blind = world === "";
   const reads = blind
-    ? "The sensors read nothing yet. Choose a picture, or drop one on the page."
-    : `The sensors read ${world}. Choose another.`;
+    ? "The sensors read nothing yet. Choose a world, or drop a picture on the page."
+    : `The world is ${world}. Choose another.`;
   return (
     <Tooltip label={reads}>
       <Button
@@ -26,11 +26,11 @@ export function WorldButton() {
         maw={{ base: 110, lg: 170 }}
         px={6}
         fw={500}
-        leftSection={<IconPhoto size={15} />}
-        aria-label={blind ? "Choose a picture" : `The sensors read ${world}; choose another picture`}
-        onClick={() => void choosePicture()}
+        leftSection={<IconWorld size={15} />}
+        aria-label={blind ? "Choose a world" : `World: ${world}; choose another one`}
+        onClick={() => void ask("world", null)}
       >
-        <span className="one-line">{blind ? "Picture…" : world}</span>
+        <span className="one-line">{blind ? "World…" : world}</span>
       </Button>
     </Tooltip>
   );

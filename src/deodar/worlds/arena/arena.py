@@ -29,7 +29,7 @@ from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
-from deodar.worlds.arena.layout import UNITS, load, make
+from deodar.worlds.arena.layout import UNITS, builtin, load, make
 from deodar.worlds.arena.objects import ArenaObjects
 from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
@@ -462,6 +462,10 @@ class Arena(PureWorld):
         }
         digest = hashlib.sha256(codec.line(said, ascii=True, sort=True).encode()).hexdigest()
         return {"world": "Arena", "file": self.source, **said, "sha256": digest}
+
+    @classmethod
+    def names(cls) -> list[str]:
+        return list(builtin())
 
     @classmethod
     def open(cls, argument: str) -> Arena:
