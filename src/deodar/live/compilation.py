@@ -14,7 +14,7 @@ ALIKE = 2.0
 
 MOST_SIZES = 64
 
-Phase = Literal["planning", "compiling"]
+CompilePhase = Literal["planning", "compiling"]
 
 
 class Compilation:
@@ -27,7 +27,7 @@ class Compilation:
     """
 
     def __init__(self, expected: float | None) -> None:
-        self.phase: Phase = "planning"
+        self.phase: CompilePhase = "planning"
         self.expected = expected
         self._began = time.monotonic()
 
