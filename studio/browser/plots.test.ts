@@ -259,6 +259,22 @@ test("a plot is exported as a picture file", async () => {
   expect(png.length).toBeGreaterThan(5000);
 });
 
+test("a plot is exported as a table", async () => {
+  const { page } = studio;
+  await step(300);
+  await plot("Curves of u").getByText("Press play").waitFor({ state: "detached" });
+  const coming = page.waitForEvent("download");
+  await choose(page, "Menu of this plot", "Export CSV");
+  const download = await coming;
+  expect(download.suggestedFilename()).toBe("u_Curves.csv");
+  const lines = readFileSync(await download.path(), "utf8")
+    .trimEnd()
+    .split("\n");
+  expect(lines[0]).toBe("x (deg),activation,output");
+  expect(lines).toHaveLength(102);
+  expect(lines[101]).toMatch(/^100,-?\d+\.\d+,\d/);
+});
+
 test("the right button and the key I make a peak while they are held", async () => {
   const { page } = studio;
   for (const path of ["left", "right"]) {

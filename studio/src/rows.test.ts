@@ -34,6 +34,12 @@ it("rows are spread over a range of time, with gaps where there are none", () =>
   expect([...rows.spread([0, 30], 6)]).toEqual([Number.NaN, 1, 1, 2, 2, Number.NaN]);
 });
 
+it("the rows within a range of time are read one after another", () => {
+  const rows = new Rows();
+  rows.add(frame(10, 0, 1, 2, 5, 3, 4, 10, 5, 6), 2);
+  expect(rows.within([12, 20])).toEqual({ times: [15, 20], values: [3, 4, 5, 6] });
+});
+
 it("only the newest rows are kept", () => {
   const rows = new Rows();
   for (let i = 0; i <= 2 * 16_384; i++) {

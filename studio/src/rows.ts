@@ -63,6 +63,19 @@ export class Rows {
     return out;
   }
 
+  // The rows within a range of time.
+  within([first, last]: readonly [number, number]): { times: number[]; values: number[] } {
+    const times: number[] = [];
+    const values: number[] = [];
+    this.times.forEach((time, i) => {
+      if (time >= first && time <= last) {
+        times.push(time);
+        values.push(...(this.rows[i] ?? []));
+      }
+    });
+    return { times, values };
+  }
+
   // The last row up to a moment; null if there is none.
   at(time: number): { time: number; values: Float32Array } | null {
     let low = 0;

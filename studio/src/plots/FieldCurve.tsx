@@ -201,6 +201,7 @@ export function FieldCurve(props: PlotProps) {
           )}
         </>
       }
+      table={() => ({ header: [x === null ? "" : axisLabel(x), ...curves], columns: data.current })}
       exportAs={() => {
         if (chart.current !== null) {
           const { width, height } = chart.current;

@@ -9,9 +9,10 @@ import type { Live, Wish } from "../streams";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
+import { plane } from "./exportCsv";
 import { exportPng } from "./exportPng";
 import { attachInjection } from "./injection";
-import { axisLabel, cell, edges, runsDown } from "./kinds";
+import { axisLabel, cell, edges, points, runsDown } from "./kinds";
 import { pushAmplitude } from "./levels";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
@@ -149,6 +150,15 @@ export function HeatMap(props: PlotProps) {
           )}
         </>
       }
+      table={() => {
+        const { frame: values, form: shown } = newest.current ?? {};
+        return values == null || shown == null
+          ? null
+          : {
+              header: [axisLabel(x), axisLabel(y), port],
+              columns: plane(points(x, shown.shape[0]), points(y, shown.shape[1]), values.values),
+            };
+      }}
       exportAs={() => {
         if (chart.current !== null && heat.current !== null) {
           const { width, height } = chart.current;

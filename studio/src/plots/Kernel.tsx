@@ -6,6 +6,7 @@ import type uPlot from "uplot";
 import type { Live, Wish } from "../streams";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { portColor } from "./colors";
+import { plane as planeRows } from "./exportCsv";
 import { exportPng } from "./exportPng";
 import { axisLabel, cell, edges, points } from "./kinds";
 import { axis, frame, type Look } from "./look";
@@ -142,6 +143,19 @@ export function Kernel(props: PlotProps) {
           set={(next) => set({ range: next })}
         />
       }
+      table={() => {
+        const values = newest.current?.frame?.values;
+        if (x === null || values === undefined) {
+          return null;
+        }
+        const places = points(x, form?.shape[0]);
+        return y === null
+          ? { header: [axisLabel(x), "weight"], columns: [places, values] }
+          : {
+              header: [axisLabel(x), axisLabel(y), "weight"],
+              columns: planeRows(places, points(y, form?.shape[1]), values),
+            };
+      }}
       exportAs={() => {
         if (chart.current !== null) {
           const { width, height } = chart.current;

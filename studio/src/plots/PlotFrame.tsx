@@ -2,11 +2,18 @@
 // or a word why there is none.
 
 import { ActionIcon, Menu, NativeSelect, Popover, Tooltip } from "@mantine/core";
-import { IconAdjustmentsHorizontal, IconDots, IconFileDescription, IconPhotoDown } from "@tabler/icons-react";
+import {
+  IconAdjustmentsHorizontal,
+  IconDots,
+  IconFileDescription,
+  IconPhotoDown,
+  IconTableDown,
+} from "@tabler/icons-react";
 import type { ReactNode } from "react";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { exportCsv, type Table } from "./exportCsv";
 import { type PlotKind, titleOf } from "./kinds";
 import type { PlotParams, PlotSettings } from "./settings";
 import type { Streaming } from "./useStreams";
@@ -35,6 +42,8 @@ type PlotFrameProps = PlotProps & {
   controls?: ReactNode;
   streaming: Streaming;
   exportAs: () => void;
+  // The values that are drawn; missing: the plot has none as numbers.
+  table?: () => Table | null;
   children: ReactNode;
 };
 
@@ -52,6 +61,7 @@ export function PlotFrame(props: PlotFrameProps) {
     streaming,
     change,
     exportAs,
+    table,
     children,
   } = props;
   const range = props.settings.range === null ? null : [...props.settings.range];
@@ -110,6 +120,20 @@ export function PlotFrame(props: PlotFrameProps) {
             <Menu.Item leftSection={<IconPhotoDown size={15} />} disabled={!seen} onClick={exportAs}>
               Export PNG
             </Menu.Item>
+            {table !== undefined && (
+              <Menu.Item
+                leftSection={<IconTableDown size={15} />}
+                disabled={!seen}
+                onClick={() => {
+                  const values = table();
+                  if (values !== null) {
+                    exportCsv(`${element.path} ${titleOf(kind, packaged)}`, values);
+                  }
+                }}
+              >
+                Export CSV
+              </Menu.Item>
+            )}
             <Menu.Item
               leftSection={<IconFileDescription size={15} />}
               onClick={() => void saveFigure({ element: element.id, port, kind, range })}

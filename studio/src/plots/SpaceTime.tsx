@@ -12,8 +12,9 @@ import type { Wish } from "../streams";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
+import { plane } from "./exportCsv";
 import { exportPng } from "./exportPng";
-import { axisLabel, cell, edges, isPicture } from "./kinds";
+import { axisLabel, cell, edges, isPicture, points } from "./kinds";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { drawMoment } from "./momentLine";
@@ -172,6 +173,14 @@ export function SpaceTime(props: PlotProps) {
           />
         </>
       }
+      table={() => {
+        const { times, values } = rows.current.within(span.current);
+        const time = timeUnit === "" ? "time" : `time (${timeUnit})`;
+        return {
+          header: [time, axisLabel(x), port],
+          columns: plane(times, points(x, rows.current.width), values),
+        };
+      }}
       exportAs={() => {
         if (chart.current !== null && map.current !== null) {
           const { width, height } = chart.current;

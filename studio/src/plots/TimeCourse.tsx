@@ -156,6 +156,10 @@ export function TimeCourse(props: PlotProps) {
           set={set}
         />
       }
+      table={() => ({
+        header: [timeUnit === "" ? "time" : `time (${timeUnit})`, ...labels],
+        columns: data.current,
+      })}
       exportAs={() => {
         if (chart.current !== null) {
           const { width, height } = chart.current;

@@ -2,6 +2,7 @@
 
 import uPlot from "uplot";
 import { font, type Look, paperLook } from "./look";
+import { saveFile } from "./save";
 import type { ChartOptions } from "./useChart";
 
 export type LegendEntry = { label: string; color: string };
@@ -115,13 +116,5 @@ function drawLegend(ctx: CanvasRenderingContext2D, places: ReturnType<typeof pla
 }
 
 function save(canvas: HTMLCanvasElement, title: string): void {
-  canvas.toBlob((blob) => {
-    if (blob !== null) {
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(blob);
-      link.download = `${title.replace(/[^\p{L}\p{N}]+/gu, "_").replace(/^_+|_+$/g, "") || "plot"}.png`;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-    }
-  }, "image/png");
+  canvas.toBlob((blob) => blob !== null && saveFile(blob, title, "png"), "image/png");
 }

@@ -3,8 +3,6 @@
 import type { Announced, AxisView } from "../protocol";
 import { stepOf } from "./kinds";
 
-export type Section = { drawn: string[]; at: Record<string, number> };
-
 // All axes of the array of a stream: the drawn ones first, then the others.
 export function allAxes(form: Announced | null): AxisView[] {
   return form === null ? [] : [...form.axes, ...form.rest];
