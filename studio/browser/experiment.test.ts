@@ -1,7 +1,11 @@
 import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { button, panel } from "./hands";
+import { button, choose, panel } from "./hands";
 import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -54,6 +58,19 @@ async function open(name: string): Promise<void> {
   await dialog.waitFor({ state: "detached" });
 }
 
+async function fill(box: Locator, text: string): Promise<void> {
+  await box.fill(text);
+  await box.press("Enter");
+}
+
+/** Choose one of the names that a field lists. */
+async function pick(box: Locator, name: string): Promise<void> {
+  await box.click();
+  await studio.page.getByRole("option", { name, exact: true }).click();
+}
+
+const written = (name: string): string => readFileSync(join(studio.folder, name), "utf8");
+
 test("an experiment opens from the list of files, runs, and shows each condition", async () => {
   const { page } = studio;
   await open("two-targets.json");
@@ -82,4 +99,74 @@ test("a row opens the record of its trial, and the model comes back", async () =
   await shown().getByRole("button", { name: "Back to the model" }).click();
   await page.getByRole("toolbar", { name: "Run", exact: true }).waitFor();
   await shown().getByRole("row", { selected: true }).waitFor({ state: "detached" });
+});
+
+test("an experiment is built with the mouse, and its file is the one that Python writes", async () => {
+  const { page } = studio;
+  await choose(page, "More for the experiment", "New");
+  const field = (name: string) =>
+    shown()
+      .getByRole("textbox", { name, exact: true })
+      .or(shown().getByRole("combobox", { name, exact: true }));
+  await status(/^20 trials$/);
+  await fill(field("limit"), "600");
+  await fill(field("trials"), "25");
+
+  await button(page, "Add to Factors").click();
+  await fill(field("Name of factor"), "distance");
+  await shown().getByRole("region", { name: "Factor distance" }).getByText("Named levels").click();
+  await fill(field("Name of level 1 of distance"), "near");
+  for (const path of ["left.center", "right.center", "preshape.center"])
+    await pick(field("Add a parameter to distance"), path);
+  await button(page, "Add a level to distance").click();
+  await fill(field("Name of level 2 of distance"), "far");
+  const values = { left: ["46", "35"], right: ["54", "65"], preshape: ["46", "35"] };
+  for (const [name, [near, far]] of Object.entries(values)) {
+    await fill(field(`${name}.center at near`), near as string);
+    await fill(field(`${name}.center at far`), far as string);
+  }
+  await button(page, "Add to Factors").click();
+  await fill(field("Name of factor"), "preshape");
+  await pick(field("Parameter of preshape"), "preshape.amplitude");
+  await fill(field("Level 1 of preshape"), "0");
+  await button(page, "Add a level to preshape").click();
+  expect(await field("Level 2 of preshape").inputValue()).toBe("1");
+
+  await choose(page, "Add to Conditions", "Appears");
+  await fill(field("Name of appears"), "detected");
+  const card = shown().getByRole("region", { name: "Appears detected" });
+  await card.getByText("an Appears needs 'field'", { exact: false }).waitFor();
+  await status(/^cannot run yet$/);
+  await card.scrollIntoViewIfNeeded();
+  await shot(page, "experiment-problem");
+  await pick(field("detected.field"), "u");
+  await button(page, "Add to Measures").click();
+  await fill(field("Name of measure"), "place");
+  await pick(field("place.of"), "u.activation");
+  await pick(field("place.reduce"), "place");
+  await fill(field("place.threshold"), "-2.5");
+  await status(/^100 trials$/);
+  await shot(page, "experiment-built");
+
+  await button(page, "Save the experiment").click();
+  const dialog = page.getByRole("dialog");
+  await fill(dialog.getByRole("textbox", { name: "Name" }), "built");
+  await expect.poll(() => button(page, "Save the experiment").isDisabled()).toBe(true);
+  expect(await page.getByText("changed on another page").count()).toBe(0);
+  expect(written("built.json")).toBe(written("two-targets.json"));
+});
+
+test("the panel fits a narrow window, in both colour schemes", async () => {
+  const { page } = studio;
+  await page.emulateMedia({ colorScheme: "dark" });
+  await button(page, "Run the experiment").click();
+  await status(/^100 of 100 trials, complete$/);
+  await shot(page, "experiment-dark");
+  await page.setViewportSize({ width: 640, height: 800 });
+  await shot(page, "experiment-narrow-dark");
+  await page.emulateMedia({ colorScheme: "light" });
+  await shown().getByText("Design", { exact: true }).click();
+  await shot(page, "experiment-narrow");
+  const wide = await shown().evaluate((element) => element.scrollWidth - element.clientWidth);
+  expect(wide).toBeLessThanOrEqual(0);
 });

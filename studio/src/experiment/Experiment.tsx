@@ -119,7 +119,7 @@ function Head({ experiment }: { experiment: ExperimentView }) {
         >
           Save
         </Button>
-        <span className="grow one-line dim" role="status" title={file}>
+        <span className="experiment-status grow one-line dim" role="status" title={file}>
           {statusText(present, trials, problems.length)}
         </span>
         <DotsMenu label="More for the experiment">

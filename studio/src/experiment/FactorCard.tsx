@@ -169,7 +169,6 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
         </tbody>
       </table>
       <NameBox
-        key={paths.length}
         label={`Add a parameter to ${name}`}
         value=""
         placeholder="add a parameter"

@@ -2,19 +2,33 @@
 
 import { ask } from "../pages/dialogs";
 import { done, leave } from "../pages/flows";
+import { same } from "../inspector/part";
 import type { Answer } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import type { Data } from "./draft";
 
-// Replace the plain data; a change of another page in between is an error.
-export async function edit(change: (data: Data) => Data): Promise<Answer> {
-  const experiment = useStudio.getState().experiment;
-  const data = change((experiment?.data ?? {}) as Data);
-  const { answer } = await socket.ask({ type: "edit_experiment", data, version: experiment?.version ?? 0 });
-  done(answer);
-  return answer;
+// The last change that was sent: the next one is made of the data after it.
+let before: Promise<unknown> = Promise.resolve();
+
+// Change the plain data; a change of another page in between is an error.
+export function edit(change: (data: Data) => Data): Promise<Answer> {
+  const sent = before.then(async () => {
+    const experiment = useStudio.getState().experiment;
+    const old = (experiment?.data ?? {}) as Data;
+    const data = change(old);
+    if (same(data, old)) {
+      return NOTHING;
+    }
+    const { answer } = await socket.ask({ type: "edit_experiment", data, version: experiment?.version ?? 0 });
+    done(answer);
+    return answer;
+  });
+  before = sent.catch(() => undefined);
+  return sent;
 }
+
+const NOTHING: Answer = { type: "answer", request: 0 };
 
 export async function open(): Promise<void> {
   const path = await ask("choose", { wants: "experiments" });

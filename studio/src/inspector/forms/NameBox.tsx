@@ -1,7 +1,7 @@
 // A text field with the names that are valid; another name can be typed.
 
 import { Autocomplete } from "@mantine/core";
-import { useState } from "react";
+import { useRef, useState } from "react";
 
 type NameBoxProps = {
   label: string;
@@ -13,6 +13,13 @@ type NameBoxProps = {
 
 export function NameBox({ label, value, names, placeholder = "choose or type", onCommit }: NameBoxProps) {
   const [draft, setDraft] = useState<string | null>(null);
+  // The list writes a chosen name into the field as well, which is no draft.
+  const chosen = useRef(false);
+  const choose = (text: string) => {
+    chosen.current = true;
+    queueMicrotask(() => (chosen.current = false));
+    take(text);
+  };
   const take = (text: string) => {
     setDraft(null);
     if (text !== value) {
@@ -35,8 +42,8 @@ export function NameBox({ label, value, names, placeholder = "choose or type", o
       comboboxProps={{ shadow: "md" }}
       // all names are listed until one is typed
       filter={draft === null ? ({ options }) => options : undefined}
-      onChange={setDraft}
-      onOptionSubmit={take}
+      onChange={(text) => !chosen.current && setDraft(text)}
+      onOptionSubmit={choose}
       onKeyDown={(event) => {
         if (event.key === "Enter" && draft !== null && !event.defaultPrevented) {
           take(draft);
