@@ -30,6 +30,8 @@ const kind = (name: string, parameters: ParameterForm[]): Kind => ({
   levels: {},
   example: null,
   opens: [],
+  names: [],
+  settings: [],
   ...({} as object),
 });
 const KINDS = [
