@@ -185,7 +185,7 @@ export type Changed = {
   redo: number;
 };
 
-// Problems and warnings of a version of the document that pages know from `changed` messages.
+// Problems and warnings of a version of the document that pages know from `changed` or `edited` messages.
 //
 // A whole document (`opened`) contains its own problems.
 export type Checked = {
@@ -404,6 +404,35 @@ export type EditExperiment = {
   version: number;
 };
 
+// The difference to the previous version of the document.
+//
+// The page removes the elements in `removed` with their connections, and the connections in `disconnected`.
+// It replaces `elements` that it knows, then inserts the others at the index that `added` has for their ids,
+// and `connected` at theirs, in this order. What is None did not change. `layout` has the keys of the layout
+// that changed, None for removed ones, and `layout_entries` the entries that changed inside keys whose values
+// are objects. `problems`: None as long as the structure had none and has none; `checked` messages with
+// warnings follow. `cost` is the cost of the edit.
+export type Edited = {
+  type: "edited";
+  version: number;
+  elements: ElementView[];
+  added: Record<string, number>;
+  removed: string[];
+  disconnected: EndsView[];
+  connected: PlacedConnection[];
+  groups: string[][] | null;
+  axes: AxisView[] | null;
+  parameters: DocumentParameterView[] | null;
+  general: GeneralView | null;
+  layout: Record<string, unknown>;
+  layout_entries: Record<string, Record<string, unknown>>;
+  problems: ListedProblem[] | null;
+  unsaved: boolean;
+  undo: number;
+  redo: number;
+  cost: "live" | "rebuild" | "recompile";
+};
+
 // An element of the document.
 //
 // `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
@@ -436,6 +465,14 @@ export type Ends = {
   source_port?: string;
   target: string;
   target_port?: string;
+};
+
+// The ends of a connection.
+export type EndsView = {
+  source: string;
+  source_port: string;
+  target: string;
+  target_port: string;
 };
 
 // An entry of the gallery; `picture` is an address on the server, or empty.
@@ -543,6 +580,14 @@ export type Gallery = {
   type: "gallery";
   recent: string[];
   recoveries: Recovery[];
+};
+
+// General properties of the document, as in `DocumentView`.
+export type GeneralView = {
+  title: string;
+  time_unit: string;
+  dt: number | null;
+  notes: string;
 };
 
 // Save the present values of the parameters as a preset under a new name.
@@ -857,6 +902,12 @@ export type PlaceObject = {
   y: number;
   width: number;
   height: number;
+};
+
+// A connection, with its index in the list of all.
+export type PlacedConnection = {
+  index: number;
+  connection: ConnectionView;
 };
 
 // Start or continue the run.
@@ -1261,6 +1312,7 @@ export type ToPage =
   | KeptFiles
   | Comparison
   | Changed
+  | Edited
   | Checked
   | RunClock
   | Costs

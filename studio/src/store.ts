@@ -19,6 +19,7 @@ import type {
   FileProblems,
   Welcome,
 } from "./protocol";
+import { patched } from "./patch";
 import { replaced } from "./values";
 
 // refused: the server was restarted with another token
@@ -117,6 +118,20 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
     }
     case "changed":
       return state.document === null ? {} : changed(state.document, message);
+    case "edited": {
+      if (state.document === null) {
+        return {};
+      }
+      const next = patched(state.document, message);
+      const elements = byId(next);
+      const selected = state.selected.filter((id) => elements.has(id));
+      return {
+        version: message.version,
+        document: next,
+        elements,
+        selected: selected.length === state.selected.length ? state.selected : selected,
+      };
+    }
     case "checked":
       return state.document === null || state.version !== message.version
         ? {}

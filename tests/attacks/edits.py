@@ -67,7 +67,7 @@ class Outcome:
 
 
 class Editor(Page):
-    """A page that keeps its document up to date from single changes, as the page in the browser does."""
+    """A page that knows the version of its document and of the problems in it."""
 
     version = -1
     checked = -1
@@ -76,23 +76,11 @@ class Editor(Page):
         await super()._take(m)
         if m["type"] == "opened":
             self.version = self.checked = m["version"]
+        elif m["type"] in ("edited", "changed"):
+            self.version = m["version"]
         elif m["type"] == "checked":
             self.checked = m["version"]
             self.document["problems"] = m["problems"]
-        elif m["type"] == "changed":
-            self.version = m["version"]
-            element = next(e for e in self.document["elements"] if e["id"] == m["element"])
-            element["values"] = replaced(element["values"], m["parameter"].split("."), m["value"])
-            self.document.update({key: m[key] for key in ("unsaved", "undo", "redo")})
-
-
-def replaced(values: Any, path: list[str], value: Any) -> Any:
-    """Return nested values with another one at a path."""
-    if not path:
-        return value
-    if isinstance(values, list):
-        return [replaced(v, path[1:], value) if i == int(path[0]) else v for i, v in enumerate(values)]
-    return {**values, path[0]: replaced(values[path[0]], path[1:], value)}
 
 
 def small() -> dd.Model:

@@ -53,6 +53,53 @@ def studio(
         assert not thread.is_alive(), "the studio did not stop"
 
 
+def replaced(values: Any, path: list[str], value: Any) -> Any:
+    """Return nested values with another one at a path."""
+    if not path:
+        return value
+    if isinstance(values, list):
+        return [replaced(v, path[1:], value) if i == int(path[0]) else v for i, v in enumerate(values)]
+    return {**values, path[0]: replaced(values[path[0]], path[1:], value)}
+
+
+def tuned(document: dict[str, Any], m: dict[str, Any]) -> dict[str, Any]:
+    """Return the document after the message `changed`."""
+    path = m["parameter"].split(".")
+    elements = [
+        {**e, "values": replaced(e["values"], path, m["value"])} if e["id"] == m["element"] else e
+        for e in document["elements"]
+    ]
+    return {**document, "elements": elements, **{key: m[key] for key in ("unsaved", "undo", "redo")}}
+
+
+def patched(document: dict[str, Any], m: dict[str, Any]) -> dict[str, Any]:
+    """Return the document after the message `edited`."""
+    new = {e["id"]: e for e in m["elements"]}
+    elements = [new.get(e["id"], e) for e in document["elements"] if e["id"] not in m["removed"]]
+    for ident, index in sorted(m["added"].items(), key=lambda item: item[1]):
+        elements.insert(index, new[ident])
+    connections = [
+        c
+        for c in document["connections"]
+        if {k: v for k, v in c.items() if k != "reads"} not in m["disconnected"]
+        and not {c["source"], c["target"]} & set(m["removed"])
+    ]
+    for placed in m["connected"]:
+        connections.insert(placed["index"], placed["connection"])
+    layout = {**document["layout"], **m["layout"]}
+    for key, entries in m["layout_entries"].items():
+        layout[key] = {k: v for k, v in {**layout[key], **entries}.items() if v is not None}
+    return {
+        **document,
+        "elements": elements,
+        "connections": connections,
+        "layout": {k: v for k, v in layout.items() if v is not None},
+        **{key: m[key] for key in ("groups", "axes", "parameters", "problems") if m[key] is not None},
+        **(m["general"] or {}),
+        **{key: m[key] for key in ("unsaved", "undo", "redo")},
+    }
+
+
 class Page:
     """A page and its present state; `draws=False` simulates a page that has stalled."""
 
@@ -108,6 +155,10 @@ class Page:
             self.lost[m["stream"]] = m
         elif m["type"] == "opened":
             self._late = True
+        elif m["type"] in ("edited", "changed"):
+            self._late = self._late or m["type"] == "edited"
+            document = (patched if m["type"] == "edited" else tuned)(self.document, m)
+            self.said["opened"] = self.said["opened"] | {"document": document, "version": m["version"]}
         elif m["type"] == "clock":
             self.clocks += 1
             self._late = False

@@ -16,7 +16,7 @@ def check(doc: Document) -> list[Problem]:
     """Return all problems of the structure; without any, the warnings and the problems of the document's own
     step.
     """
-    found, nodes = _structure(doc)
+    nodes, found = structure(doc)
     return found or judge(doc, nodes)
 
 
@@ -24,7 +24,7 @@ def problems(doc: Document) -> list[Problem]:
     """Return the problems that prevent every run at any step, without warnings. An empty list: it
     compiles.
     """
-    return _structure(doc)[0]
+    return structure(doc)[1]
 
 
 def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
@@ -41,6 +41,7 @@ def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
     return sorted(dict.fromkeys(found), key=lambda p: (p.severity, place.get(p.where, len(place))))
 
 
-def _structure(doc: Document) -> tuple[list[Problem], list[Node]]:
+def structure(doc: Document) -> tuple[list[Node], list[Problem]]:
+    """Return the resolved nodes and the problems that prevent every run."""
     nodes, found = resolve(doc)
-    return found or order(nodes)[1], nodes
+    return nodes, found or order(nodes)[1]

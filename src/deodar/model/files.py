@@ -21,7 +21,7 @@ from deodar import codec, registry
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.model import output, package
 from deodar.model.document import KEYS, VERSION, Document
-from deodar.model.parts import axes_in, kinds_in, to_json
+from deodar.model.parts import arrays_in, axes_in, kinds_in, to_json
 from deodar.model.paths import display
 from deodar.model.reader import from_data
 from deodar.numerics.axes import Axis
@@ -94,6 +94,15 @@ def axes(doc: Document) -> dict[str, Axis]:
     for e in doc.entries:
         for axis in axes_in(e.element):
             axis_key(table, axis)
+    return table
+
+
+def arrays(doc: Document) -> dict[str, FrozenArray]:
+    """Return the arrays of a document by their keys, as `to_data` does."""
+    table: dict[str, FrozenArray] = {}
+    for e in doc.entries:
+        for array in arrays_in(e.element):
+            _key(table, "array", array)
     return table
 
 
@@ -322,6 +331,7 @@ def unpack(content: bytes, name: str) -> dict[str, FrozenArray]:
 
 
 __all__ = [
+    "arrays",
     "axes",
     "axis_data",
     "axis_key",

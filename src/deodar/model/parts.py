@@ -110,6 +110,17 @@ def axes_in(part: Any) -> Iterator[Axis]:
                     yield from axes_in(inner)
 
 
+def arrays_in(part: Any) -> Iterator[FrozenArray]:
+    """Yield the arrays of a part and of the parts inside it, in the order of the fields."""
+    for p in parameters(type(part)):
+        value = getattr(part, p.name) if p.form in ("array", "part", "parts") else None
+        if isinstance(value, FrozenArray):
+            yield value
+        elif value is not None:
+            for inner in value if p.form == "parts" else [value]:
+                yield from arrays_in(inner)
+
+
 def _plain(
     p: Parameter, value: Any, axis_key: Callable[[Any], str], array_key: Callable[[FrozenArray], str]
 ) -> Any:

@@ -38,7 +38,6 @@ from deodar.server.to_page import (
     Gallery,
     KeptFiles,
     ListedProblem,
-    Opened,
     RunClock,
     TimelineView,
     WorldScene,
@@ -274,7 +273,9 @@ class PageConnection:
         if (self._session, self._version) != now:
             changes = project.changes_since(self._session, self._version)
             if changes is None:
-                out.append(Opened(session=project.session, version=project.version, document=project.view()))
+                whole = await project.opened()
+                out.append(whole)
+                now = whole.session, whole.version
                 self._new("gallery", await self._hub.gallery(), out)
             else:
                 out.extend(changes)

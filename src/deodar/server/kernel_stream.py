@@ -10,7 +10,7 @@ from deodar.live.trace import Trace
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernel_shape import kernel_shape
 from deodar.numerics.kernels._base import Kernel
-from deodar.server import frames, view
+from deodar.server import converted, frames, view
 from deodar.server.source import FrameSource
 from deodar.server.stream import thin, thinned_shape
 from deodar.server.to_page import Announced, Lost
@@ -69,8 +69,8 @@ class KernelStream:
         return Announced(
             stream=self.number,
             shape=thinned_shape(self._weights.shape, self._most),
-            axes=[view.axis(a) for a in self._lags],
-            rest=[view.axis(a) for a in shown[1][2:]],
+            axes=[converted.axis(a) for a in self._lags],
+            rest=[converted.axis(a) for a in shown[1][2:]],
             folded=[],
             channels=False,
         )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses as dc
+from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -26,16 +27,17 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
 from deodar.recording.replay import RecordReader
-from deodar.server import content, kept_files, record_frames, view
+from deodar.server import content, converted, kept_files, record_frames, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.comparison import RecordComparison
+from deodar.server.converted import Converted, Status
 from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.kept_files import KeptFolder
-from deodar.server.recent_changes import RecentChanges
+from deodar.server.recent_changes import Change, RecentChanges
 from deodar.server.state_store import StateStore
-from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem
+from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem, Opened
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -106,6 +108,9 @@ class OpenProject:
         self._digest = ""
         self._gesture: object = None
         self._recent = RecentChanges()
+        self._converted: deque[Converted] = deque(maxlen=3)  # that of the last version, and coming ones
+        self._converting = asyncio.Lock()
+        self._opened: Opened | None = None
         self._attempt = 0
 
     # ------------------------------------------------------------------------------------------------ looking
@@ -115,20 +120,39 @@ class OpenProject:
         """Counter that increases when a document is opened or closed."""
         return self.queue.session
 
-    def view(self) -> DocumentView | None:
-        """Return the document for the page; None if none is open."""
-        if self.model is None:
-            return None
-        history = self.model.history
-        file = "" if self.file is None else self.workspace.shown(self.file)
-        shown = view.document(self.model.document, file, self.unsaved, history.depth, history.ahead)
-        if self.record is None:
-            return shown
-        record = view.record(self.record, self.workspace.shown(self.record.path))
-        elements = [msgspec.structs.replace(e, pushable=False) for e in shown.elements]
-        return msgspec.structs.replace(shown, record=record, problems=[], elements=elements)
+    async def opened(self) -> Opened:
+        """Return the whole document as a message, without one if none is open.
 
-    def changes_since(self, session: int, version: int) -> list[Changed] | None:
+        It is converted in a thread, once for all pages.
+        """
+        async with self._converting:
+            now = (self.session, self.version)
+            if self._opened is None or (self._opened.session, self._opened.version) != now:
+                self._opened = await self._convert_whole()
+            return self._opened
+
+    async def _convert_whole(self) -> Opened:
+        session, version, model, opened = self.session, self.version, self.model, self.record
+        if model is None:
+            return Opened(session=session, version=version, document=None)
+        doc, history = model.document, model.history
+        file = "" if self.file is None else self.workspace.shown(self.file)
+        status = (self.unsaved, history.depth, history.ahead)
+        before = self._converted[-1] if self._converted else None
+
+        def convert() -> tuple[Converted, DocumentView]:
+            made = converted.convert(doc, before)
+            return made, view.document(doc, file, *status, made)
+
+        made, shown = await asyncio.to_thread(convert)
+        self._converted.append(made)
+        if opened is not None:
+            record = view.record(opened, self.workspace.shown(opened.path))
+            elements = [msgspec.structs.replace(e, pushable=False) for e in shown.elements]
+            shown = msgspec.structs.replace(shown, record=record, problems=[], elements=elements)
+        return Opened(session=session, version=version, document=shown)
+
+    def changes_since(self, session: int, version: int) -> list[Change] | None:
         """Return the changes from a version to the present one; None if a page needs the whole document."""
         return self._recent.between(version, self.version) if session == self.session else None
 
@@ -292,6 +316,7 @@ class OpenProject:
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.file_problems, self.failure, self.busy = ("", ()), (), ""
         self.record, self.scene, self.kept = None, (None, ""), kept_files.NOTHING
+        self._converted.clear()
         self.end_comparison()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
 
@@ -514,22 +539,23 @@ class OpenProject:
         """Change parts of the layout."""
         model = self._require()
         merged = {k: v for k, v in {**model.document.layout, **layout}.items() if v is not None}
-        new = edit.arrange(model.document, merged)
+        before, new = model.document, edit.arrange(model.document, merged)
         if undoable:
             model.history.commit(new)
         else:
             model.history.amend(new)
         self._gesture = None
-        self._moved()
+        self._edited(before, "live")
 
     async def lay_out(self, how: Callable[[Document], Document]) -> None:
         """Apply a function that changes only the layout, as one step of undo; records have a layout too."""
         model = self._require()
-        new = how(model.document)
-        if new is not model.document:
+        before = model.document
+        new = how(before)
+        if new is not before:
             model.history.commit(new)
             self._gesture = None
-            self._moved()
+            self._edited(before, "live")
 
     def document(self) -> Document:
         """Return the open document, also that of a record; raise DocumentError if none is open."""
@@ -553,14 +579,16 @@ class OpenProject:
             return
         doc = history.document
         back(history)  # the history moves only after the engine has accepted the document
-        await self._adopt(doc)
+        before = history.document
+        cost = await self._adopt(doc)
         there(history)
         self._gesture = None
-        self._moved()
+        self._edited(before, cost)
 
     async def _commit(self, doc: Document, gesture: object, leaf: tuple[str, str, Any] | None = None) -> Cost:
         model = self._require_model()
-        if doc == model.document:
+        before = model.document
+        if doc is before or doc == before:
             return "live"
         cost = await self._adopt(doc)
         if gesture is not None and gesture == self._gesture:
@@ -569,7 +597,7 @@ class OpenProject:
             model.history.commit(doc)
         self._gesture = gesture
         if leaf is None or cost == "recompile":
-            self._moved()
+            self._edited(before, cost)
         else:
             self.version += 1
             element, parameter, value = leaf
@@ -600,7 +628,7 @@ class OpenProject:
                 self.busy = "compiling"
                 self.queue.start_task(self._restart())
             return "recompile"
-        if session.cost(doc) == "recompile" and problems(doc):
+        if session.cost(doc) == "recompile" and self._conversion(doc).problems:
             return "recompile"
         cost: Any = await asyncio.wrap_future(self.engine.call(lambda: self.engine.adopt(model, doc)))
         return cost
@@ -611,7 +639,7 @@ class OpenProject:
         async with self.queue.lock:  # waits until the edit is in the history
             if session != self.session or self.model is None:
                 return
-            if problems(self.model.document):
+            if self._conversion(self.model.document).problems:
                 self.busy = ""
                 self._changed()
                 return
@@ -635,6 +663,29 @@ class OpenProject:
         if self.model is None:
             raise DocumentError("no document is open")
         return self.model
+
+    def _conversion(self, doc: Document) -> Converted:
+        """Return a document as parts of messages; the last ones are kept."""
+        found = next((c for c in self._converted if c.document is doc), None)
+        if found is None:
+            found = converted.convert(doc, self._converted[-1] if self._converted else None)
+            self._converted.append(found)
+        return found
+
+    def _edited(self, before: Document, cost: Cost) -> None:
+        """Start a new version after an edit, which pages receive as a patch."""
+        model = self._require()
+        old, new = self._conversion(before), self._conversion(model.document)
+        status = Status(self.version + 1, self.unsaved, model.history.depth, model.history.ahead, cost)
+        found = converted.patch(old, new, status, lambda: view.problems(new.problems, model.document))
+        if found is None:
+            self._moved()
+            return
+        self.version += 1
+        self._recent.add(found)
+        self._changed()
+        if self.record is None:
+            self.checker.start()
 
     def _moved(self) -> None:
         """Start a new version, for which every page needs the whole document."""

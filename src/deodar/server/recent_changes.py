@@ -1,25 +1,27 @@
-"""Recent changes of single parameters, for pages that lag behind."""
+"""Recent changes of the document, for pages that lag behind."""
 
 from __future__ import annotations
 
 from collections import deque
 
-from deodar.server.to_page import Changed
+from deodar.server.to_page import Changed, Edited
+
+Change = Changed | Edited
 
 MOST = 256
 """Number of changes that a page may lag behind before the server sends the whole document."""
 
 
 class RecentChanges:
-    """The newest changes of single parameters.
+    """The newest changes: of single parameters (`Changed`), and patches (`Edited`).
 
-    Any other change clears them, and pages then need the whole document.
+    What a patch cannot express clears them, and pages then need the whole document.
     """
 
     def __init__(self) -> None:
-        self._changes: deque[Changed] = deque(maxlen=MOST)
+        self._changes: deque[Change] = deque(maxlen=MOST)
 
-    def add(self, change: Changed) -> None:
+    def add(self, change: Change) -> None:
         """Add a change."""
         self._changes.append(change)
 
@@ -27,7 +29,7 @@ class RecentChanges:
         """Remove all changes."""
         self._changes.clear()
 
-    def between(self, version: int, now: int) -> list[Changed] | None:
+    def between(self, version: int, now: int) -> list[Change] | None:
         """Return the changes from one version to another; None if these are not sufficient."""
         found = [change for change in self._changes if change.version > version]
         return found if len(found) == now - version else None

@@ -12,7 +12,7 @@ from deodar.live.published import PublishedState
 from deodar.live.section import Section
 from deodar.live.trace import Trace, TraceRequest
 from deodar.numerics.axes import Axes, Axis
-from deodar.server import frames, view
+from deodar.server import converted, frames, view
 from deodar.server.source import FrameSource
 from deodar.server.to_page import Announced, Lost
 from deodar.session.port_reader import PortKey
@@ -118,8 +118,8 @@ class Stream:
         return Announced(
             stream=self.number,
             shape=shape,
-            axes=[view.axis(a) for a in kept],
-            rest=[view.axis(a) for a in rest],
+            axes=[converted.axis(a) for a in kept],
+            rest=[converted.axis(a) for a in rest],
             folded=[] if channels else [a.name for a in self._section.folded(self._axes)],
             channels=channels,
         )

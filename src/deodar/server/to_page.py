@@ -357,9 +357,65 @@ class Changed(Message, frozen=True, tag="changed"):
     redo: int
 
 
+class EndsView(Data, frozen=True):
+    """The ends of a connection."""
+
+    source: Id
+    source_port: str
+    target: Id
+    target_port: str
+
+
+class PlacedConnection(Data, frozen=True):
+    """A connection, with its index in the list of all."""
+
+    index: int
+    connection: ConnectionView
+
+
+class GeneralView(Data, frozen=True):
+    """General properties of the document, as in `DocumentView`."""
+
+    title: str
+    time_unit: str
+    dt: float | None
+    notes: str
+
+
+@MESSAGES.register
+class Edited(Message, frozen=True, tag="edited"):
+    """The difference to the previous version of the document.
+
+    The page removes the elements in `removed` with their connections, and the connections in `disconnected`.
+    It replaces `elements` that it knows, then inserts the others at the index that `added` has for their ids,
+    and `connected` at theirs, in this order. What is None did not change. `layout` has the keys of the layout
+    that changed, None for removed ones, and `layout_entries` the entries that changed inside keys whose
+    values are objects. `problems`: None as long as the structure had none and has none; `checked` messages
+    with warnings follow. `cost` is the cost of the edit.
+    """
+
+    version: int
+    elements: list[ElementView]
+    added: dict[Id, int]
+    removed: list[Id]
+    disconnected: list[EndsView]
+    connected: list[PlacedConnection]
+    groups: list[list[str]] | None
+    axes: list[AxisView] | None
+    parameters: list[DocumentParameterView] | None
+    general: GeneralView | None
+    layout: dict[str, Any]
+    layout_entries: dict[str, dict[str, Any]]
+    problems: list[ListedProblem] | None
+    unsaved: bool
+    undo: int
+    redo: int
+    cost: Cost
+
+
 @MESSAGES.register
 class Checked(Message, frozen=True, tag="checked"):
-    """Problems and warnings of a version of the document that pages know from `changed` messages.
+    """Problems and warnings of a version of the document that pages know from `changed` or `edited` messages.
 
     A whole document (`opened`) contains its own problems.
     """

@@ -9,45 +9,35 @@ from typing import Any
 
 import msgspec
 
-from deodar.element import Element
 from deodar.errors import Problem as Wrong
 from deodar.experiments.design import KINDS, USUAL, Design
 from deodar.kinds.description import describe, descriptions
-from deodar.model import files, find, starting
-from deodar.model.check import check
+from deodar.model import files, starting
+from deodar.model.check import judge
 from deodar.model.document import Document, Entry
 from deodar.model.fits import Fit, FittingKind
 from deodar.model.parts import value_from_json
-from deodar.model.resolve import Node, resolve
-from deodar.numerics.axes import Axis
-from deodar.parameters import FrozenArray, Part
+from deodar.parameters import Part
 from deodar.recording.first_difference import FirstDifference
 from deodar.recording.replay import RecordReader
+from deodar.server import converted
 from deodar.server.comparison import RecordComparison
+from deodar.server.converted import Converted
 from deodar.server.to_page import (
-    AxisView,
     Comparison,
-    ConnectionView,
     CopyDimension,
     DifferenceView,
-    DocumentParameterView,
     DocumentView,
-    ElementView,
     ExperimentForms,
     Fits,
     FittingKindView,
     FitView,
     Kind,
-    LinkView,
     ListedProblem,
     OfferView,
     RecordView,
 )
 from deodar.server.to_server import FindFits
-
-BESIDE = ("kind", "id", "every")
-"""Keys of an element in a document that are not parameters."""
-
 
 LOOKS = ("panels", "folded")
 """Keys of the layout whose changes do not count as unsaved edits: positions of panels, folded groups."""
@@ -75,41 +65,24 @@ def experiment_forms() -> ExperimentForms:
     )
 
 
-def document(doc: Document, file: str, unsaved: bool, undo: int, redo: int) -> DocumentView:
-    """Convert a whole document."""
-    data, arrays = files.to_data(doc)
-    nodes = {n.id: n for n in resolve(doc)[0] if n.declared}
-    named = {_axis(data["axes"][key]): key for key in data["axes"]}
+def document(
+    doc: Document, file: str, unsaved: bool, undo: int, redo: int, known: Converted | None = None
+) -> DocumentView:
+    """Convert a whole document; `known`: what is converted already."""
+    made = converted.convert(doc) if known is None else known
     return DocumentView(
         file=file,
         title=doc.name,
         time_unit=doc.time_unit,
         dt=doc.dt,
         notes=doc.notes,
-        axes=[axis(a, key) for a, key in named.items()],
-        elements=[
-            _element(e, _with_ranges(data["elements"][e.path], arrays), nodes.get(e.id), named)
-            for e in doc.entries
-        ],
-        connections=[
-            ConnectionView(
-                source=c.source,
-                source_port=c.source_port,
-                target=c.target,
-                target_port=c.target_port,
-                reads=c.reads,
-            )
-            for c in doc.connections
-        ],
+        axes=converted.axes(made),
+        elements=list(made.elements.values()),
+        connections=[converted.connection(c) for c in doc.connections],
         groups=[list(g) for g in doc.groups],
-        parameters=[
-            DocumentParameterView(
-                name=k.name, value=k.value, links=[LinkView(element=i, parameter=p) for i, p in k.links]
-            )
-            for k in doc.parameters
-        ],
+        parameters=converted.parameters(doc),
         layout=dict(doc.layout),
-        problems=problems(check(doc), doc),
+        problems=problems(made.problems or judge(doc, made.nodes), doc),
         unsaved=unsaved,
         undo=undo,
         redo=redo,
@@ -176,27 +149,14 @@ def _difference(reader: RecordReader, found: FirstDifference) -> DifferenceView:
     )
 
 
-def axis(a: Axis, key: str = "") -> AxisView:
-    """Convert an axis; `key` is its key in the document, empty if it has none."""
-    return AxisView(
-        key=key,
-        name=a.name,
-        lower=a.lower,
-        upper=a.upper,
-        samples=a.samples,
-        periodic=a.periodic,
-        unit=a.unit,
-    )
-
-
 def problems(
     found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()
 ) -> list[ListedProblem]:
     """Convert problems, each once for every element concerned: those named in its `where`, or in `paths`."""
-    entries = doc.entries if doc is not None else ()
+    ids = {} if doc is None else _ids(doc)
     out: list[ListedProblem] = []
     for p in found:
-        concerned = [e.id for path in (p.where, *paths) for e in entries if _names(path, e.path)] or [""]
+        concerned = [i for path in (p.where, *paths) for i in _named(path, ids)] or [""]
         out += [
             ListedProblem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity)
             for ident in dict.fromkeys(concerned)
@@ -204,47 +164,18 @@ def problems(
     return out
 
 
-def _names(where: str, path: str) -> bool:
-    """Return whether the `where` of a problem names an element: `u`, `u.tau` or `u (script.py:3)`."""
-    return where == path or where.startswith((f"{path}.", f"{path} ("))
+def _ids(doc: Document) -> Mapping[str, Sequence[tuple[int, str]]]:
+    """Return the ids of the elements by their paths, with their positions in the document."""
+    out: dict[str, list[tuple[int, str]]] = {}
+    for k, e in enumerate(doc.entries):
+        out.setdefault(e.path, []).append((k, e.id))
+    return out
 
 
-def _element(e: Entry, data: Mapping[str, Any], node: Node | None, named: Mapping[Axis, str]) -> ElementView:
-    ports = {} if node is None else {**node.ins, **node.outs}
-    return ElementView(
-        id=e.id,
-        path=e.path,
-        name=e.names[-1],
-        group=list(e.group),
-        kind=type(e.element).__name__,
-        every=e.every,
-        values={k: v for k, v in data.items() if k not in BESIDE},
-        inputs=list(e.element.ports()),
-        outputs=find.outputs(e),
-        axes={port: [named.get(a, a.name) for a in axes] for port, axes in ports.items()},
-        pushable=e.every == 1 and type(e.element).inject is not Element.inject,
-        kernel=e.element.convolution is not None and len(e.element.kernels()) > 0,
-    )
-
-
-def _with_ranges(value: Any, arrays: Mapping[str, FrozenArray]) -> Any:
-    """Return a value with the shape and the range of every array that it refers to."""
-    if isinstance(value, list):
-        return [_with_ranges(v, arrays) for v in value]
-    if not isinstance(value, dict):
-        return value
-    if set(value) == {"array"} and value["array"] in arrays:
-        content = arrays[value["array"]].data
-        return value | {
-            "shape": list(content.shape),
-            "min": float(content.min()),
-            "max": float(content.max()),
-        }
-    return {key: _with_ranges(v, arrays) for key, v in value.items()}
-
-
-def _axis(data: Mapping[str, Any]) -> Axis:
-    return Axis(**data)
+def _named(where: str, ids: Mapping[str, Sequence[tuple[int, str]]]) -> list[str]:
+    """Return the elements that the `where` of a problem names: `u`, `u.tau` or `u (script.py:3)`."""
+    ends = [k for k in range(len(where)) if where[k] == "." or where[k : k + 2] == " ("]
+    return [i for _, i in sorted(hit for end in [*ends, len(where)] for hit in ids.get(where[:end], ()))]
 
 
 def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
@@ -252,7 +183,7 @@ def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
     axes = files.axes(doc)
     if "." not in parameter:
         value = starting.keyed(type(entry.element), parameter, value, axes)
-    arrays = files.to_data(doc)[1] if _names_array(value) else {}
+    arrays = files.arrays(doc) if _names_array(value) else {}
     return value_from_json(entry.element, parameter, value, f"{entry.path}.{parameter}", axes, arrays)
 
 
@@ -265,8 +196,8 @@ def _names_array(value: Any) -> bool:
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:
     """Convert the value of a parameter for the page."""
-    data, arrays = files.to_data(doc)
-    value = _with_ranges(data["elements"][doc.by_id()[element].path], arrays)
+    axes, arrays = {a: key for key, a in files.axes(doc).items()}, files.arrays(doc)
+    value: Any = converted.values(doc.by_id()[element].element, axes, arrays)
     for step in parameter.split("."):
         value = value[int(step)] if isinstance(value, list) else value[step]
     return value
