@@ -1,12 +1,13 @@
 """Attacks the studio and prints what became of it: `python benchmarks/attacks.py
-[edits|documents|messages|kills|records|soak ...] [--size N] [--seed N]`.
+[edits|undo|documents|messages|kills|records|soak ...] [--size N] [--seed N]`.
 
-`edits`: 8 pages edit one document at once, 10,000 edits. `documents`: 2,090 mutated documents. `messages`:
-3,614 hostile messages. `kills`: 50 kills while a page saves. `records`: 50 runs are killed while they record.
-`soak`: pages come and go for 600 seconds, and the studio must hold no more afterwards than before: memory,
-files and sockets, Python objects, tasks, threads, sessions, connections, with the limits in
-`tests/attacks/soak.py`. `--size` sets another number. The attacks are in `tests/attacks`; the tests run them
-in a quick form. Ends with 1 if an attack found something.
+`edits`: 8 pages edit one document at once, 10,000 edits. `undo`: 34 kinds of edits are made, undone and
+redone in 36,000 steps. `documents`: 2,090 mutated documents. `messages`: 3,614 hostile messages. `kills`: 50
+kills while a page saves. `records`: 50 runs are killed while they record. `soak`: pages come and go for 600
+seconds, and the studio must hold no more afterwards than before: memory, files and sockets, Python objects,
+tasks, threads, sessions, connections, with the limits in `tests/attacks/soak.py`. `--size` sets another
+number. The attacks are in `tests/attacks`; the tests run them in a quick form. Ends with 1 if an attack found
+something.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from tests.attacks import documents, edits, kills, messages, records, soak
+from tests.attacks import documents, edits, kills, messages, records, soak, undo
 
 
 def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
@@ -29,6 +30,15 @@ def _edits(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
         *found.errors,
         *found.differ,
     ]
+
+
+def _undo(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
+    found = [undo.attack(1000, seed + k) for k in range(max(1, size // 1000))]
+    errors = [error for outcome in found for error in outcome.errors]
+    return (
+        f"{sum(o.steps for o in found)} steps, {sum(sum(o.edits.values()) for o in found)} edits of"
+        f" {len({name for o in found for name in o.edits})} kinds, {sum(o.refused for o in found)} refused"
+    ), errors
 
 
 def _documents(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
@@ -61,6 +71,7 @@ def _soak(folder: Path, size: int, seed: int) -> tuple[str, list[str]]:
 
 ATTACKS: dict[str, tuple[Callable[[Path, int, int], tuple[str, list[str]]], int]] = {
     "edits": (_edits, 10_000),
+    "undo": (_undo, 36_000),
     "documents": (_documents, 2090),
     "messages": (_messages, 3614),
     "kills": (_kills, 50),

@@ -7,13 +7,19 @@ from pathlib import Path
 
 import pytest
 
-from tests.attacks import documents, kills, messages, records, soak
+from tests.attacks import documents, kills, messages, records, soak, undo
 
 
 def test_mutated_documents_are_read_or_refused_without_other_errors() -> None:
     outcome = documents.attack(150, seed=2)
     assert outcome.errors == []
     assert outcome.read > 5 and outcome.refused > 50
+
+
+def test_random_edits_are_undone_and_redone_to_the_same_bytes() -> None:
+    found = [undo.attack(250, seed) for seed in range(3)]
+    assert [error for outcome in found for error in outcome.errors] == []
+    assert len({name for outcome in found for name in outcome.edits}) >= 30
 
 
 def test_hostile_messages_are_answered_and_the_studio_continues(tmp_path: Path) -> None:

@@ -167,7 +167,7 @@ class Page:
 
     async def send(self, **message: Any) -> None:
         """Send a message."""
-        if message["type"] == "rows":
+        if message["type"] == "rows" and isinstance(message["stream"], int):
             self.rows[message["stream"]] = None
         await self.socket.send(json.dumps(message))
 

@@ -302,3 +302,67 @@ def test_comments_have_no_effect_on_the_model(root: Path) -> None:
 
     with studio(root, root / "selection.json") as address:
         play(address, scene)
+
+
+def test_an_unfinished_document_is_saved_opened_again_and_completed(root: Path) -> None:
+    async def first(p: Page) -> None:
+        await p.open("new")
+        await made(p, "add_element", kind="Gain")
+        assert "nothing is connected" in p.document["problems"][0]["what"]
+        await p.do("save", path="half")
+
+    async def second(p: Page) -> None:
+        await p.until(lambda: p.document)
+        gain = p.element("gain")
+        assert "nothing is connected" in p.document["problems"][0]["what"]
+        assert p.said["file_problems"]["problems"] == [] and not p.clock["busy"]
+        refused = await p.ask("play")
+        assert "nothing is connected" in refused["problems"][0]["what"]
+        await made(p, "add_element", kind="Field", target={"element": gain})
+        await p.runs()
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 5 and not p.clock["failure"])
+
+    with studio(root) as address:
+        play(address, first)
+    with studio(root, root / "half.json") as address:
+        play(address, second)
+
+
+def test_the_last_valid_document_keeps_running_while_others_have_problems(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+        await p.do("play")
+        (g,) = await made(p, "add_element", kind="Gain")
+        (s,) = await made(p, "add_element", kind="Sigmoid")
+        assert any(q["severity"] == "problem" for q in p.document["problems"])
+        before = p.clock["tick"]
+        await p.until(lambda: p.clock["tick"] > before + 20 and p.clock["running"])
+        await p.do("connect", source=u, target=g)
+        await p.do("connect", source=g, target=s)
+        await p.do("watch", stream=1, element=s, port="output")
+        await p.until(lambda: 1 in p.frames and p.clock["running"])
+        assert p.clock["failure"] == [] and p.clock["tick"] > before, "the states and the time have stayed"
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_an_edit_that_cannot_be_compiled_leaves_the_run_and_its_failure_ends_with_the_next_one(
+    root: Path,
+) -> None:
+    text = json.dumps({"deodar": 1, "elements": {"f": {"kind": "Function", "function": "no_such_module:f"}}})
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("play")
+        (f,) = await made(p, "paste", text=text)
+        await p.until(lambda: p.clock["failure"])
+        before = p.clock["tick"]
+        await p.until(lambda: p.clock["tick"] > before + 20 and p.clock["running"])
+        await p.do("remove", elements=[f])
+        await p.until(lambda: not p.clock["failure"] and p.clock["running"])
+
+    with studio(root, root / "selection.json", trust=True) as address:
+        play(address, scene)

@@ -89,6 +89,7 @@ class Engine:
         self._target: tuple[Model, Document] | None = None
         self._making: Future[Any] | None = None
         self._steps = 0
+        self._uncompiled = False
         self._compiler = ThreadPoolExecutor(2, "deodar-compiler")  # one to compile, one to measure
         self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
         self.session: Session | None = None
@@ -138,6 +139,7 @@ class Engine:
         self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.injection, self._target = session, None, None
         self.failure, self._reader, self._sample = ((), ()), None, None
+        self._uncompiled = False
         self._readers.clear()
         speed, self.pace, self.cost_report = self.pace.speed, Pace(), CostReport()
         self.pace.speed = speed
@@ -252,6 +254,7 @@ class Engine:
         if cost != "recompile":
             session.edit(document)
             self._target = None
+            self._forgive()
         else:
             self._target = (model, document)
             self._make()
@@ -442,6 +445,11 @@ class Engine:
         self.failure, self._stale = (said(error), paths), True
         self._changed()
 
+    def _forgive(self) -> None:
+        """Clear the failure of an edit that could not be compiled, after another edit that can."""
+        if self._uncompiled:
+            self._uncompiled, self.failure = False, ((), ())
+
     def _billed(self, session: Session, future: Future[StepCost]) -> None:
         if session is self.session:
             error = future.exception()
@@ -508,10 +516,11 @@ class Engine:
             elif self._target is not None and session.cost(self._target[1]) != "recompile":
                 session.edit(self._target[1])
                 self._target = None
-        except Exception as error:
-            self._target = None
-            self._fail(error)
+        except Exception as error:  # the program that runs continues
+            self._target, self._uncompiled = None, True
+            self.failure = (said(error), ())
             return None
+        self._forgive()
         if session.program is program:
             self._reader, self._sample = at_shown, at_sampled
             self._take_first(session)

@@ -163,7 +163,7 @@ def patch(
         disconnected=disconnected,
         connected=connected,
         groups=None if old.groups == new.groups else [list(g) for g in new.groups],
-        axes=None if before.axes == after.axes else axes(after),
+        axes=None if list(before.axes.items()) == list(after.axes.items()) else axes(after),
         parameters=None if old.parameters == new.parameters else parameters(new),
         general=_general(old, new),
         layout=layout,

@@ -22,7 +22,6 @@ from deodar.importers import examples, opening
 from deodar.live.compilation import Compilation
 from deodar.live.engine import Engine
 from deodar.model import edit, find
-from deodar.model.check import problems
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
@@ -35,7 +34,7 @@ from deodar.server.converted import Converted, Status
 from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.kept_files import KeptFolder
-from deodar.server.recent_changes import Change, RecentChanges
+from deodar.server.recent_changes import DocumentChange, RecentChanges
 from deodar.server.state_store import StateStore
 from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem, Opened
 from deodar.server.workspace import Workspace
@@ -152,7 +151,7 @@ class OpenProject:
             shown = msgspec.structs.replace(shown, record=record, problems=[], elements=elements)
         return Opened(session=session, version=version, document=shown)
 
-    def changes_since(self, session: int, version: int) -> list[Change] | None:
+    def changes_since(self, session: int, version: int) -> list[DocumentChange] | None:
         """Return the changes from a version to the present one; None if a page needs the whole document."""
         return self._recent.between(version, self.version) if session == self.session else None
 
@@ -287,8 +286,6 @@ class OpenProject:
         self._ask_unsaved(discard)
         try:
             doc = await in_file_thread(read, title)
-            if found := problems(doc):
-                raise DocumentError(found)
         except DeodarError as error:
             await self._refuse(title, error)
             return
@@ -298,6 +295,9 @@ class OpenProject:
         self._name, self._kept = self.store.new_name(), doc
         if file is not None:
             await try_in_file_thread(lambda: self.store.opened(file))
+        if self._conversion(doc).problems:  # it is shown and edited, and runs once it has none
+            self._moved()
+            return
         self.busy = "compiling"  # set before pages receive the document, so that no page considers it ready
         self._moved()
         self.queue.start_task(self._start())
@@ -445,9 +445,11 @@ class OpenProject:
 
     def require_run(self) -> None:
         """Raise DocumentError if no session runs and none is being compiled."""
-        self._require_model()
+        doc = self._require_model().document
         if self.engine.session is None and not self.busy:
-            raise DocumentError(self.failure or [Wrong("", "no document is open")])
+            raise DocumentError(
+                self.failure or self._conversion(doc).problems or [Wrong("", "the model does not run yet")]
+            )
 
     async def run_from(self, time: float) -> None:
         """Continue the run from an earlier moment of the last minute, with the parameters of that moment.

@@ -6,7 +6,7 @@ from collections import deque
 
 from deodar.server.to_page import Changed, Edited
 
-Change = Changed | Edited
+DocumentChange = Changed | Edited
 
 MOST = 256
 """Number of changes that a page may lag behind before the server sends the whole document."""
@@ -19,9 +19,9 @@ class RecentChanges:
     """
 
     def __init__(self) -> None:
-        self._changes: deque[Change] = deque(maxlen=MOST)
+        self._changes: deque[DocumentChange] = deque(maxlen=MOST)
 
-    def add(self, change: Change) -> None:
+    def add(self, change: DocumentChange) -> None:
         """Add a change."""
         self._changes.append(change)
 
@@ -29,7 +29,7 @@ class RecentChanges:
         """Remove all changes."""
         self._changes.clear()
 
-    def between(self, version: int, now: int) -> list[Change] | None:
+    def between(self, version: int, now: int) -> list[DocumentChange] | None:
         """Return the changes from one version to another; None if these are not sufficient."""
         found = [change for change in self._changes if change.version > version]
         return found if len(found) == now - version else None
