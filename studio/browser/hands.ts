@@ -42,15 +42,6 @@ export async function reopen(page: Page, observer: Observer, path: string): Prom
   await page.getByRole("toolbar", { name: "Run" }).waitFor();
 }
 
-/** Open an empty document, and wait until its canvas has replaced the one before. */
-export async function openEmpty(page: Page, observer: Observer): Promise<void> {
-  const pane = page.locator(".react-flow__pane");
-  if ((await pane.count()) > 0) await pane.evaluate((old) => old.setAttribute("data-old", ""));
-  await observer.ask({ type: "new", discard: true });
-  await page.locator(".react-flow__pane:not([data-old])").waitFor();
-  await page.getByText("This document has no elements yet.").waitFor();
-}
-
 /** Select an element on the canvas, so that the inspector shows it. */
 export async function select(page: Page, path: string): Promise<void> {
   await box(page, path).click({ position: { x: 20, y: 12 } });
@@ -93,7 +84,7 @@ export const file = (page: Page, item: string | RegExp): Promise<void> => choose
  * Measure the layout until two results agree: the inspector grows above its sliders while equations and
  * their fonts are loaded.
  */
-async function settled<T>(page: Page, measure: () => Promise<T>): Promise<T> {
+export async function settled<T>(page: Page, measure: () => Promise<T>): Promise<T> {
   let before: T;
   let now = await measure();
   do {

@@ -20,6 +20,7 @@ import { RecordNotes } from "./replay/RecordNotes";
 import { Timeline } from "./replay/Timeline";
 import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
+import { TourCard } from "./tour/TourCard";
 import { FailureBar } from "./transport/FailureBar";
 import classes from "./App.module.css";
 
@@ -36,6 +37,7 @@ export function App() {
       <Notices />
       <Dialogs />
       <DropArea />
+      <TourCard />
     </div>
   );
 }

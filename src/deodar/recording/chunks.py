@@ -23,7 +23,7 @@ from deodar.errors import RecordError
 from deodar.model import output
 from deodar.recording.slabs import Slab
 
-Place = tuple[int, ...]
+ChunkIndex = tuple[int, ...]
 """Number of a chunk along each axis."""
 
 COMPRESSORS = (zarr.codecs.BloscCodec(cname="lz4", clevel=1, shuffle="shuffle"), zarr.codecs.Crc32cCodec())
@@ -123,7 +123,7 @@ class ChunkedArray:
             found[*outer] = self.read(place)[*inner]
         return found
 
-    def _parts(self, start: Sequence[int], shape: Sequence[int]) -> Iterator[tuple[Place, Slab, Slab]]:
+    def _parts(self, start: Sequence[int], shape: Sequence[int]) -> Iterator[tuple[ChunkIndex, Slab, Slab]]:
         """Yield the chunks of a block, with the part of each chunk and where it is in the block."""
         stop = [first + n for first, n in zip(start, shape, strict=True)]
         ranges = [range(a // c, -(-b // c)) for a, b, c in zip(start, stop, self.chunks, strict=True)]
@@ -135,7 +135,7 @@ class ChunkedArray:
             outer = (slice(a - s, b - s) for a, b, s in zip(low, high, start, strict=True))
             yield place, tuple(inner), tuple(outer)
 
-    def _covers(self, place: Place, inner: Slab) -> bool:
+    def _covers(self, place: ChunkIndex, inner: Slab) -> bool:
         """Return whether a part of a chunk is all that the array has of it."""
         ends = (min(c, n - k * c) for k, c, n in zip(place, self.chunks, self.shape, strict=True))
         return all(
@@ -143,7 +143,7 @@ class ChunkedArray:
             for part, end, c in zip(inner, ends, self.chunks, strict=True)
         )
 
-    def write(self, place: Place, values: np.ndarray) -> None:
+    def write(self, place: ChunkIndex, values: np.ndarray) -> None:
         """Write a chunk beside its final path, and rename it.
 
         Raises:
@@ -160,7 +160,7 @@ class ChunkedArray:
                 self.folder.joinpath(parent).mkdir(exist_ok=True)
             output.replace(path, content)
 
-    def read(self, place: Place, room: np.ndarray | None = None) -> np.ndarray:
+    def read(self, place: ChunkIndex, room: np.ndarray | None = None) -> np.ndarray:
         """Return a chunk that may be changed: fill values if there is none.
 
         Args:
@@ -190,6 +190,6 @@ class ChunkedArray:
         """Return a chunk of fill values."""
         return np.full(self.chunks, self.fill, self.dtype)
 
-    def path(self, place: Place) -> Path:
+    def path(self, place: ChunkIndex) -> Path:
         """Return the file of a chunk."""
         return self.folder.joinpath("c", *map(str, place))

@@ -1,9 +1,10 @@
 // The first page: a file, a recent document, or an example.
 
 import { Button, Group } from "@mantine/core";
-import { IconArrowLeft, IconFile, IconFilePlus, IconFolderOpen } from "@tabler/icons-react";
+import { IconArrowLeft, IconFile, IconFilePlus, IconFolderOpen, IconWalk } from "@tabler/icons-react";
 
 import { useStudio } from "../store";
+import { startTour } from "../tour/tour";
 import { ExampleCard } from "./ExampleCard";
 import { Mark } from "./Mark";
 import { RecoveryCard } from "./RecoveryCard";
@@ -58,6 +59,14 @@ export function GalleryPage() {
               Empty document
             </Button>
             <span className={classes.hint}>or drop a file on this page</span>
+            <Button
+              variant="default"
+              ml="auto"
+              leftSection={<IconWalk size={17} />}
+              onClick={() => void startTour()}
+            >
+              Tour of five minutes
+            </Button>
           </Group>
           {recent.length > 0 && (
             <ul className={classes.recent} aria-label="Recent files">
