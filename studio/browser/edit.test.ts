@@ -1,7 +1,7 @@
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { box, button, panel, select, type } from "./hands";
+import { box, button, openEmpty, panel, select, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -17,8 +17,7 @@ beforeAll(async () => {
 // A stimulus that is connected with a field, and a second stimulus.
 beforeEach(async () => {
   const { page } = studio;
-  await observer.ask({ type: "new", discard: true });
-  await page.getByText("This document has no elements yet.").waitFor();
+  await openEmpty(page, observer);
   await observer.ask({ type: "add_element", kind: "GaussianStimulus", name: "a", at: [0, 0] });
   const [source = ""] = observer.document?.elements.map(({ id }) => id) ?? [];
   await observer.ask({

@@ -42,6 +42,15 @@ export async function reopen(page: Page, observer: Observer, path: string): Prom
   await page.getByRole("toolbar", { name: "Run" }).waitFor();
 }
 
+/** Open an empty document, and wait until its canvas has replaced the one before. */
+export async function openEmpty(page: Page, observer: Observer): Promise<void> {
+  const pane = page.locator(".react-flow__pane");
+  if ((await pane.count()) > 0) await pane.evaluate((old) => old.setAttribute("data-old", ""));
+  await observer.ask({ type: "new", discard: true });
+  await page.locator(".react-flow__pane:not([data-old])").waitFor();
+  await page.getByText("This document has no elements yet.").waitFor();
+}
+
 /** Select an element on the canvas, so that the inspector shows it. */
 export async function select(page: Page, path: string): Promise<void> {
   await box(page, path).click({ position: { x: 20, y: 12 } });
