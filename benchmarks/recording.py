@@ -3,7 +3,8 @@
 `memory`: a step while the activation is kept every ten steps, against a step while nothing is; CPU time, the
 smallest of all rounds, because disturbances only add to it. `file`: wall time that a frame of 50 x 50 samples
 adds to a run that writes each step into a file (limit 100 us). `probes`: wall time of a step of 20 fields,
-ten of them recorded into a file at every tenth step, against the same run without records (limit 1.10).
+ten of them recorded into a file at every tenth step, against the same run without records (limit 1.10), over
+runs of about 10 s; to create and close a record takes 0.1 s of them.
 `long`: memory of a process that records a field at every step, after a tenth of 10^7 steps and at their end,
 and its size without records. In each round both runs are made in turn, in one process. The runs of `memory`
 have one core; the others have a second one, on which a thread writes.
@@ -31,7 +32,7 @@ NAMES = {"W1_100": 300_000, "W1_200": 250_000, "W2_50": 25_000, "W4a": 30_000}
 """Workloads, and how many steps take 0.2 to 0.3 s, so that a run has several chunks."""
 
 EVERY = 10
-FRAMES, STEPS, LONG = 20_000, 60_000, 10**7
+FRAMES, STEPS, LONG = 20_000, 180_000, 10**7
 
 
 def step(run: Callable[[int], Any], n: int) -> float:
