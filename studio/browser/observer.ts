@@ -3,6 +3,7 @@
  * reads exact numbers.
  */
 import { decode, type Frame } from "../src/frames";
+import { patched } from "../src/patch";
 import type {
   Announced,
   Answer,
@@ -178,6 +179,12 @@ export class Observer {
         break;
       case "changed":
         this.change(message);
+        break;
+      case "edited":
+        if (this.document !== null) this.document = patched(this.document, message);
+        break;
+      case "checked":
+        if (this.document !== null) this.document = { ...this.document, problems: message.problems };
         break;
       case "announced":
       case "lost": {
