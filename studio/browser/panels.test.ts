@@ -60,6 +60,6 @@ test("a border that was moved meanwhile stays where it is", async () => {
   const width = async () => (await panel(studio.page, "Inspector").boundingBox())?.width ?? 0;
   await expect.poll(width).toBeGreaterThan(inspector.width + 60);
   await close("Costs");
-  expect(await width()).toBeGreaterThan(inspector.width + 60);
+  await expect.poll(width).toBeGreaterThan(inspector.width + 60);
   expect(await places()).not.toEqual(before);
 });

@@ -18,6 +18,7 @@ import { useView } from "./pages/view";
 import { ComparisonBar } from "./replay/ComparisonBar";
 import { RecordNotes } from "./replay/RecordNotes";
 import { Timeline } from "./replay/Timeline";
+import { forgetMoment } from "./replay/replay";
 import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
 import { TourCard } from "./tour/TourCard";
@@ -100,5 +101,6 @@ function useFreshStart(): void {
   const session = useStudio((state) => state.session);
   useEffect(() => {
     useView.setState({ gallery: false });
+    return forgetMoment;
   }, [session]);
 }

@@ -40,9 +40,7 @@ const timelineOf = (state: Studio) => state.clock?.timeline ?? null;
 export function Timeline() {
   const known = useThrottled(timelineOf, CALM_MS);
   const unit = useStudio((state) => state.document?.time_unit ?? "");
-  const session = useStudio((state) => state.session);
   const { playing, held } = useReplay();
-  useEffect(() => () => useReplay.setState({ playing: null, held: null, copy: {} }), [session]);
 
   const open = useStudio((state) => state.connection === "open");
   const before = useRef<number | null>(null);

@@ -109,6 +109,11 @@ export function chooseCopy(dimension: string, index: number): void {
   socket.post({ type: "choose_copy", dimension, index });
 }
 
+// Of another document neither a moment nor a trial is known.
+export function forgetMoment(): void {
+  useReplay.setState({ playing: null, held: null, copy: {} });
+}
+
 // After a new connection, whose page the server does not know yet.
 export function showAgain(time: number | null): void {
   for (const [dimension, index] of Object.entries(useReplay.getState().copy)) {
