@@ -129,13 +129,18 @@ class ElementView(Data, frozen=True):
     kernel: bool
 
 
-class ConnectionView(Data, frozen=True):
-    """A connection from an output port to an input port."""
+class EndsView(Data, frozen=True):
+    """The ends of a connection."""
 
     source: Id
     source_port: str
     target: Id
     target_port: str
+
+
+class ConnectionView(EndsView, frozen=True):
+    """A connection from an output port to an input port."""
+
     reads: str
 
 
@@ -355,15 +360,6 @@ class Changed(Message, frozen=True, tag="changed"):
     unsaved: bool
     undo: int
     redo: int
-
-
-class EndsView(Data, frozen=True):
-    """The ends of a connection."""
-
-    source: Id
-    source_port: str
-    target: Id
-    target_port: str
 
 
 class PlacedConnection(Data, frozen=True):

@@ -1,7 +1,7 @@
 // What the panel asks of the server.
 
 import { ask } from "../pages/dialogs";
-import { done, leave } from "../pages/flows";
+import { done, leave, type Saved, write, writeAs } from "../pages/flows";
 import { same } from "../inspector/part";
 import type { Answer } from "../protocol";
 import { request, socket } from "../socket";
@@ -44,32 +44,15 @@ export const stop = () => request({ type: "stop_experiment" });
 export const repeat = (trial: number) => leave({ type: "repeat_trial", trial });
 export const backToModel = () => request({ type: "leave_trial" });
 
-// Write the experiment, to its own file where the path is empty. True where it was written.
-export async function save(path = "", replace = false): Promise<boolean> {
-  const own = useStudio.getState().experiment?.file ?? "";
-  if (path === "" && own === "") {
-    return saveAs();
-  }
-  const { answer } = await socket.ask({ type: "save_experiment", path, replace });
-  if (answer.ask !== "replace") {
-    if (done(answer)) {
-      useStudio.getState().notify({ what: `Saved as ${answer.file || path || own}` }, "info");
-      return true;
-    }
-    return false;
-  }
-  switch (await ask("replace", { path: path || own, own: false })) {
-    case "replace":
-      return save(path, true);
-    case "elsewhere":
-      return saveAs();
-    case "cancel":
-      return false;
-  }
+function openExperiment(): Saved {
+  const { experiment } = useStudio.getState();
+  return {
+    file: experiment?.file ?? "",
+    name: String(experiment?.data?.["name"] ?? ""),
+    message: (path, replace) => ({ type: "save_experiment", path, replace }),
+    isOwn: () => false,
+  };
 }
 
-export async function saveAs(): Promise<boolean> {
-  const { experiment } = useStudio.getState();
-  const path = await ask("save_as", { path: experiment?.file || String(experiment?.data?.["name"] ?? "") });
-  return path === null ? false : save(path);
-}
+export const save = (): Promise<boolean> => write(openExperiment());
+export const saveAs = (): Promise<boolean> => writeAs(openExperiment());

@@ -1,39 +1,11 @@
 import { expect, test } from "vitest";
 
-import type { Kind, ParameterForm } from "../protocol";
+import { fakeForm, fakeKind } from "../graph/fakes";
+import type { ParameterForm } from "../protocol";
 import { add, type Data, partsOf, put, remove, rename, setAt } from "./draft";
 
-const form = (name: string, more: object = {}): ParameterForm => ({
-  name,
-  form: "number",
-  cost: "recompile",
-  meaning: "",
-  description: "",
-  symbol: "",
-  unit: "",
-  lower: null,
-  upper: null,
-  default: null,
-  optional: false,
-  choices: [],
-  of: [],
-  ...more,
-});
-const kind = (name: string, parameters: ParameterForm[]): Kind => ({
-  name,
-  room: "experiments",
-  title: name,
-  equation: [],
-  reference: "",
-  parameters,
-  ports: {},
-  levels: {},
-  example: null,
-  opens: [],
-  names: [],
-  settings: [],
-  ...({} as object),
-});
+const form = (name: string, more: Partial<ParameterForm> = {}) => fakeForm(name, "number", more);
+const kind = (name: string, parameters: ParameterForm[]) => fakeKind(name, "experiments", { parameters });
 const KINDS = [
   kind("Seen", [form("field")]),
   kind("Both", [form("of", { names: "event" })]),

@@ -13,6 +13,8 @@ import type {
   OpenText,
   ListedProblem,
   Recover,
+  Save,
+  SaveExperiment,
   RepeatTrial,
 } from "../protocol";
 import { request, socket } from "../socket";
@@ -75,36 +77,60 @@ export async function compare(): Promise<boolean> {
   return (answer.problems ?? []).length === 0;
 }
 
-// Write the document, to its own file where the path is empty. True where it was written.
-export async function save(path = "", replace = false): Promise<boolean> {
-  const own = useStudio.getState().document?.file ?? "";
-  if (path === "" && own === "") {
-    return saveAs();
+// Something that the server writes below the root.
+export type Saved = {
+  // Its own file; empty: none yet.
+  file: string;
+  // Its name where it has no file.
+  name: string;
+  message: (path: string, replace: boolean) => Save | SaveExperiment;
+  // Whether the dialog before a file is replaced is about its own file.
+  isOwn: (path: string) => boolean;
+};
+
+// Write it, to its own file where the path is empty. True where it was written.
+export async function write(saved: Saved, path = "", replace = false): Promise<boolean> {
+  const { file, message, isOwn } = saved;
+  if (path === "" && file === "") {
+    return writeAs(saved);
   }
-  const { answer } = await socket.ask({ type: "save", path, replace });
+  const { answer } = await socket.ask(message(path, replace));
   if (answer.ask !== "replace") {
     if (done(answer)) {
-      useStudio.getState().notify({ what: `Saved as ${answer.file || path || own}` }, "info");
+      useStudio.getState().notify({ what: `Saved as ${answer.file || path || file}` }, "info");
       return true;
     }
     return false;
   }
-  const choice = await ask("replace", { path: path || own, own: path === "" || path === own });
+  const choice = await ask("replace", { path: path || file, own: isOwn(path) });
   switch (choice) {
     case "replace":
-      return save(path, true);
+      return write(saved, path, true);
     case "elsewhere":
-      return saveAs();
+      return writeAs(saved);
     case "cancel":
       return false;
   }
 }
 
-export async function saveAs(): Promise<boolean> {
-  const document = useStudio.getState().document;
-  const path = await ask("save_as", { path: document?.file || document?.title || "" });
-  return path === null ? false : save(path);
+// Ask for a path, and write it there.
+export async function writeAs(saved: Saved): Promise<boolean> {
+  const path = await ask("save_as", { path: saved.file || saved.name });
+  return path === null ? false : write(saved, path);
 }
+
+function openDocument(): Saved {
+  const { file = "", title = "" } = useStudio.getState().document ?? {};
+  return {
+    file,
+    name: title,
+    message: (path, replace) => ({ type: "save", path, replace }),
+    isOwn: (path) => path === "" || path === file,
+  };
+}
+
+export const save = (path = ""): Promise<boolean> => write(openDocument(), path);
+export const saveAs = (): Promise<boolean> => writeAs(openDocument());
 
 // Opens a dropped or chosen file: a document, or a file for the sensors, such as a picture.
 export async function takeFile(file: File): Promise<boolean> {
