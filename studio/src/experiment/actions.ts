@@ -54,5 +54,6 @@ function openExperiment(): Saved {
   };
 }
 
-export const save = (): Promise<boolean> => write(openExperiment());
-export const saveAs = (): Promise<boolean> => writeAs(openExperiment());
+// A change that was made before is in the file.
+export const save = (): Promise<boolean> => before.then(() => write(openExperiment()));
+export const saveAs = (): Promise<boolean> => before.then(() => writeAs(openExperiment()));
