@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { frameOf, type PlanPoint, toPixels } from "../src/world/place";
+import { frameOf, type PlanPoint, toPixels } from "../src/world/plan";
 import { button, colours, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";

@@ -2,7 +2,7 @@
 // streams.ts.
 
 import { create } from "zustand";
-import type { TrialRow } from "./experiment/rows";
+import type { TrialRow } from "./experiment/trialRows";
 import type {
   Changed,
   Comparison,

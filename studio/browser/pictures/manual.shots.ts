@@ -9,7 +9,7 @@ import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
-import { frameOf, toPixels } from "../../src/world/place";
+import { frameOf, toPixels } from "../../src/world/plan";
 import { python } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
 

@@ -1,6 +1,6 @@
 // What a kind computes, below the list: its equation and the meaning of its parameters.
 
-import { Tex } from "../inspector/Tex";
+import { Tex } from "../widgets/Tex";
 import type { Kind } from "../protocol";
 
 const LINES = 2;

@@ -1,7 +1,7 @@
 // The palette: every registered kind, to add elements at the pointer and parts to the selected element.
 
 import type { Point } from "../graph/layout";
-import type { Kinds } from "../inspector/leaf";
+import type { Kinds } from "../inspector/parameters/leaf";
 import type { Kind } from "../protocol";
 import { useStudio } from "../store";
 import { useChooser } from "./chooser";

@@ -1,6 +1,6 @@
 // The small picture of a kind, chosen from its description: its equation, ports and parameters.
 
-import type { Kinds } from "../inspector/leaf";
+import type { Kinds } from "../inspector/parameters/leaf";
 import type { Kind } from "../protocol";
 import { isPart, isSource } from "./families";
 

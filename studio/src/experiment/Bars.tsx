@@ -1,7 +1,7 @@
 // The distribution of a column in each combination of levels: a histogram of numbers, bars of texts.
 
-import { numberText } from "../inspector/number";
-import { bins, type Column, conditionsOf, median, rangeOf, shares, type TrialRow } from "./rows";
+import { numberText } from "../inspector/numbers/number";
+import { bins, type Column, conditionsOf, median, rangeOf, shares, type TrialRow } from "./trialRows";
 
 // Of a drawing, which is stretched to the width that it has.
 const HEIGHT = 26;

@@ -3,18 +3,18 @@
 import { Menu } from "@mantine/core";
 import { useMemo } from "react";
 
-import { AddButton } from "../inspector/AddButton";
+import { AddButton } from "../widgets/AddButton";
 import { Fields } from "../inspector/forms/PartFields";
 import { TextBox } from "../inspector/forms/TextBox";
 import { PlaceContext } from "../inspector/place";
-import { ProblemText } from "../pages/ProblemText";
+import { ProblemText } from "../problems/ProblemText";
 import type { ExperimentForms, Kind } from "../protocol";
 import { useStudio } from "../store";
 import { edit } from "./actions";
 import { add, type Group, partsOf } from "./draft";
 import { FactorCard } from "./FactorCard";
 import { PartCard } from "./PartCard";
-import { useData, useDesignPlace } from "./place";
+import { useData, useDesignPlace } from "./cardPlace";
 import { otherProblems } from "./problems";
 
 // Parameters of the experiment that are always shown.

@@ -12,8 +12,8 @@ import {
 } from "@tabler/icons-react";
 import { useEffect, useState } from "react";
 
-import { DotsMenu } from "../inspector/DotsMenu";
-import { ProblemText } from "../pages/ProblemText";
+import { DotsMenu } from "../widgets/DotsMenu";
+import { ProblemText } from "../problems/ProblemText";
 import type { ExperimentView, RunView } from "../protocol";
 import { useStudio } from "../store";
 import { backToModel, close, create, open, run, save, saveAs, stop } from "./actions";

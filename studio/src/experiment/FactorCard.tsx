@@ -3,17 +3,17 @@
 import { ActionIcon, SegmentedControl } from "@mantine/core";
 import { IconX } from "@tabler/icons-react";
 
-import { AddButton } from "../inspector/AddButton";
+import { AddButton } from "../widgets/AddButton";
 import { NameBox } from "../inspector/forms/NameBox";
 import { TextBox } from "../inspector/forms/TextBox";
 import { typedValue, valueText } from "../inspector/forms/value";
-import { fresh, without } from "../inspector/part";
+import { fresh, without } from "../inspector/parameters/part";
 import { useStudio } from "../store";
 import type { Values } from "../values";
 import { edit } from "./actions";
 import { isNamed, mapLevels, type NamedLevels, type Part, pathsOf, put } from "./draft";
-import { Card } from "./PartCard";
-import { parametersOf, valueAt } from "./place";
+import { CardFrame } from "./PartCard";
+import { parametersOf, valueAt } from "./cardPlace";
 
 export function FactorCard({ part: { key, values } }: { part: Part }) {
   const elements = useStudio((state) => state.document?.elements) ?? [];
@@ -26,7 +26,7 @@ export function FactorCard({ part: { key, values } }: { part: Part }) {
     void commit(chosen === "named" ? { levels: { level: {} } } : { levels: [], path: "" });
   const factor = { name: key, names, elements, commit };
   return (
-    <Card group="factors" name={key} title="Factor" kinds={[]}>
+    <CardFrame group="factors" name={key} title="Factor" kinds={[]}>
       <SegmentedControl
         size="xs"
         aria-label={`What ${key} sets`}
@@ -42,7 +42,7 @@ export function FactorCard({ part: { key, values } }: { part: Part }) {
       ) : (
         <One {...factor} path={String(values["path"] ?? "")} levels={(values["levels"] ?? []) as unknown[]} />
       )}
-    </Card>
+    </CardFrame>
   );
 }
 

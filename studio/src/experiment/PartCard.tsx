@@ -3,17 +3,17 @@
 import { Menu } from "@mantine/core";
 import { IconTrash } from "@tabler/icons-react";
 
-import { DotsMenu } from "../inspector/DotsMenu";
+import { DotsMenu } from "../widgets/DotsMenu";
 import { Fields } from "../inspector/forms/PartFields";
 import { TextBox } from "../inspector/forms/TextBox";
 import { PlaceContext } from "../inspector/place";
-import { ProblemLine } from "../inspector/ProblemLine";
+import { ProblemLine } from "../widgets/ProblemLine";
 import type { Kind } from "../protocol";
 import { useStudio } from "../store";
 import type { Values } from "../values";
 import { edit } from "./actions";
 import { type Group, type Part, remove, rename } from "./draft";
-import { usePartPlace } from "./place";
+import { usePartPlace } from "./cardPlace";
 import { problemsAt } from "./problems";
 
 type PartCardProps = { group: Group; part: Part; kinds: Kind[]; usual: string };
@@ -24,11 +24,11 @@ export function PartCard({ group, part: { key, values }, kinds, usual }: PartCar
   const place = usePartPlace(group, key, values, forms);
   const shown = withDefaults(values, kind);
   return (
-    <Card group={group} name={key} title={kind?.title ?? String(values["kind"])} kinds={kinds}>
+    <CardFrame group={group} name={key} title={kind?.title ?? String(values["kind"])} kinds={kinds}>
       <PlaceContext.Provider value={place}>
         <Fields forms={forms} values={shown} prefix={`${key}.`} />
       </PlaceContext.Provider>
-    </Card>
+    </CardFrame>
   );
 }
 
@@ -45,7 +45,7 @@ type CardProps = {
 };
 
 // The frame of a card: its title, its name, a menu, and what is wrong with it.
-export function Card({ group, name, title, kinds, children }: CardProps) {
+export function CardFrame({ group, name, title, kinds, children }: CardProps) {
   const problems = useStudio((state) => state.experiment?.problems) ?? [];
   const own = problemsAt(problems, `${group}.${name}`);
   const label = group === "actions" ? `${title} ${Number(name) + 1}` : `${title} ${name}`;

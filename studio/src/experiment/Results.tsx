@@ -3,12 +3,12 @@
 import { UnstyledButton } from "@mantine/core";
 import { useMemo, useState } from "react";
 
-import { AddButton } from "../inspector/AddButton";
+import { AddButton } from "../widgets/AddButton";
 import { ChoiceBox } from "../inspector/forms/ChoiceBox";
 import { useStudio } from "../store";
 import { repeat } from "./actions";
 import { Bars } from "./Bars";
-import { cellText, type Column, columnsOf, type TrialRow } from "./rows";
+import { cellText, type Column, columnsOf, type TrialRow } from "./trialRows";
 
 // The rows that are shown first, and with each press on the button below them.
 const MORE = 200;

@@ -1,8 +1,8 @@
 // What the panel asks of the server.
 
-import { ask } from "../pages/dialogs";
-import { done, leave, type Saved, write, writeAs } from "../pages/flows";
-import { same } from "../inspector/part";
+import { ask } from "../dialogs/dialogs";
+import { done, leave, type Saved, write, writeAs } from "../files/flows";
+import { same } from "../inspector/parameters/part";
 import type { Answer } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";

@@ -1,6 +1,6 @@
 // The plain data of an experiment, and its changes: each returns new data.
 
-import { fresh, same, without } from "../inspector/part";
+import { fresh, same, without } from "../inspector/parameters/part";
 import type { Kind, ParameterForm } from "../protocol";
 import type { Values } from "../values";
 

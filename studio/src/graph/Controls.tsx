@@ -12,7 +12,7 @@ import {
 import { useReactFlow, type FitViewOptions } from "@xyflow/react";
 import type { ReactNode } from "react";
 import { openPalette } from "../build/palette";
-import { useOffline } from "../pages/NeedsServer";
+import { useOffline } from "../connection/NeedsServer";
 import { glide } from "./glide";
 
 type Props = { onSearch: () => void; onTidy: () => void };

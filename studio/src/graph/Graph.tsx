@@ -24,17 +24,17 @@ import { useStage } from "../build/useStage";
 import { useWires } from "../build/useWires";
 import { WiringHint } from "../build/WiringHint";
 import { openPlot } from "../panels/openPlot";
-import { useDialogs } from "../pages/dialogs";
+import { useDialogs } from "../dialogs/dialogs";
 import { SHORTCUTS } from "../shortcuts";
 import { useStudio } from "../store";
 import { place, unfold } from "./arrange";
 import { Box } from "./Box";
-import { Card } from "./Card";
-import { Comment } from "./Comment";
+import { ElementCard } from "./ElementCard";
+import { CommentBox } from "./CommentBox";
 import { Controls, FIT, GLIDE_MS } from "./Controls";
 import { EmptyHint } from "./EmptyHint";
 import { Folded } from "./Folded";
-import { Frame } from "./Frame";
+import { GroupFrame } from "./GroupFrame";
 import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
@@ -45,7 +45,7 @@ import { useStructure } from "./structure";
 import { useNodes } from "./useNodes";
 import { WireEdge } from "./WireEdge";
 
-const NODES: NodeTypes = { box: Box, frame: Frame, folded: Folded, comment: Comment };
+const NODES: NodeTypes = { box: Box, frame: GroupFrame, folded: Folded, comment: CommentBox };
 const EDGES: EdgeTypes = { wire: WireEdge };
 const ARROW = {
   markerEnd: { type: MarkerType.ArrowClosed, width: 14, height: 14, color: "var(--graph-wire)" },
@@ -213,7 +213,7 @@ function Canvas({ structure }: { structure: Structure }) {
             }}
           />
         )}
-        <Card />
+        <ElementCard />
         <WiringHint />
         <RenameBox />
       </div>

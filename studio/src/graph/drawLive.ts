@@ -3,7 +3,7 @@
 import { diverging, portColor, sequential, shade, type Shade } from "../plots/colors";
 import { paintCurve, paintHeat, paintPicture } from "../plots/paint";
 import type { Live } from "../streams";
-import { follow, open, type Span } from "./range";
+import { follow, open, type Span } from "./span";
 import { short } from "./facts";
 
 export type Canvas = {

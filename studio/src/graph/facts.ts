@@ -1,6 +1,6 @@
 // The content of an element's tooltip: its main parameters with their present values and units.
 
-import { unitText } from "../inspector/unit";
+import { unitText } from "../inspector/numbers/unit";
 import type { DocumentView, ElementView, Kind, ParameterForm } from "../protocol";
 
 export type Fact = { name: string; label: string; symbol: string; value: string };

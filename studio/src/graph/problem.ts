@@ -1,7 +1,7 @@
 // The problems of an element as text; empty without one. A warning marks an element too: it runs, but
 // probably not as intended.
 
-import { isWarning } from "../pages/problems";
+import { isWarning } from "../problems/severity";
 import type { ListedProblem } from "../protocol";
 import { useStudio, type Studio } from "../store";
 

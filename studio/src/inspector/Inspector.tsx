@@ -3,9 +3,9 @@
 import "./inspector.css";
 
 import { useStudio } from "../store";
-import { DocumentInspector } from "./DocumentInspector";
-import { ElementInspector } from "./ElementInspector";
-import { ManyInspector } from "./ManyInspector";
+import { DocumentInspector } from "./document/DocumentInspector";
+import { ElementInspector } from "./element/ElementInspector";
+import { ManyInspector } from "./element/ManyInspector";
 
 export function Inspector() {
   const selected = useStudio((state) => state.selected);

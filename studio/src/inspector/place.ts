@@ -4,7 +4,7 @@ import { createContext, useContext } from "react";
 
 import type { Answer, AxisView, DocumentParameterView, ParameterForm } from "../protocol";
 import { useStudio } from "../store";
-import { driver } from "./leaf";
+import { driver } from "./parameters/leaf";
 
 export type Place = {
   element: string;

@@ -5,11 +5,11 @@ import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type Dockview
 import "dockview-react/dist/styles/dockview.css";
 import { useEffect, useRef, useState, useSyncExternalStore } from "react";
 import { PalettePanel } from "../build/PalettePanel";
-import { Costs } from "../costs/Costs";
+import { CostsPanel } from "../costs/CostsPanel";
 import { Experiment } from "../experiment/Experiment";
 import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
-import { NeedsServer } from "../pages/NeedsServer";
+import { NeedsServer } from "../connection/NeedsServer";
 import { Pins } from "../pins/Pins";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -35,7 +35,7 @@ const COMPONENTS = {
   ),
   costs: () => (
     <NeedsServer>
-      <Costs />
+      <CostsPanel />
     </NeedsServer>
   ),
   palette: () => (

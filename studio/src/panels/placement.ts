@@ -2,13 +2,13 @@
 
 import type { AddPanelPositionOptions, DockviewApi, DockviewGroupPanel } from "dockview-react";
 
-export type Box = { width: number; height: number };
+export type PanelSize = { width: number; height: number };
 
 const WIDE = 640;
 const HIGH = 460;
 
 // Divides a box between its content and a new panel.
-export function share({ width, height }: Box): "right" | "below" | "within" {
+export function share({ width, height }: PanelSize): "right" | "below" | "within" {
   return width >= WIDE ? "right" : height >= HIGH ? "below" : "within";
 }
 
@@ -25,6 +25,6 @@ export function placeFor(api: DockviewApi): AddPanelPositionOptions | null {
   return graph === undefined ? null : { referencePanel: graph, direction: "below" };
 }
 
-function area({ width, height }: Box): number {
+function area({ width, height }: PanelSize): number {
   return width * height;
 }

@@ -3,10 +3,10 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type FormEvent } from "react";
 
-import { useLateFocus } from "../inspector/lateFocus";
-import { numberText, typedNumber } from "../inspector/number";
-import { ProblemLine } from "../inspector/ProblemLine";
-import type { SliderRange } from "../inspector/range";
+import { useLateFocus } from "../widgets/lateFocus";
+import { numberText, typedNumber } from "../inspector/numbers/number";
+import { ProblemLine } from "../widgets/ProblemLine";
+import type { SliderRange } from "../inspector/numbers/sliderRange";
 import { changedPin, keepPins, type Pin } from "./pins";
 
 type PinEditingProps = { what: "range" | "label"; pin: Pin; range: SliderRange; onDone: () => void };

@@ -3,8 +3,8 @@
 import { Menu } from "@mantine/core";
 import { IconArrowsHorizontal, IconPencil, IconPinnedOff, IconWand } from "@tabler/icons-react";
 
-import { DotsMenu } from "../inspector/DotsMenu";
-import { MoveItems } from "../inspector/MoveItems";
+import { DotsMenu } from "../widgets/DotsMenu";
+import { MoveItems } from "../widgets/MoveItems";
 
 type PinMenuProps = {
   path: string;

@@ -7,8 +7,8 @@ import "./pins.css";
 import { Menu } from "@mantine/core";
 import { useState } from "react";
 
-import { AddButton } from "../inspector/AddButton";
-import { moved } from "../inspector/part";
+import { AddButton } from "../widgets/AddButton";
+import { moved } from "../inspector/parameters/part";
 import { useStudio } from "../store";
 import { PinRow } from "./PinRow";
 import { isAt, keepPins, pinsOf, withPin } from "./pins";

@@ -3,8 +3,8 @@
 import { Button, CloseButton, Progress } from "@mantine/core";
 import { IconArrowsDiff } from "@tabler/icons-react";
 
-import { lastPart } from "../pages/paths";
-import { ProblemText } from "../pages/ProblemText";
+import { lastPart } from "../files/paths";
+import { ProblemText } from "../problems/ProblemText";
 import type { Comparison, DifferenceView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";

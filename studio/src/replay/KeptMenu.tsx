@@ -4,8 +4,8 @@ import { ActionIcon, Button, CloseButton, Group, Popover, Stack, TextInput, Tool
 import { IconBookmark } from "@tabler/icons-react";
 import { type FormEvent, useState } from "react";
 
-import { applyPreset } from "../pages/values";
-import { whenText } from "../pages/when";
+import { applyPreset } from "../files/presets";
+import { whenText } from "../files/when";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { timeText } from "../transport/format";

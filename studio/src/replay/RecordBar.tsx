@@ -3,7 +3,7 @@
 import { Button, NativeSelect, Tooltip } from "@mantine/core";
 import { IconArrowsDiff, IconMovie, IconPlayerPlay } from "@tabler/icons-react";
 
-import { compare, leave } from "../pages/flows";
+import { compare, leave } from "../files/flows";
 import type { RecordView } from "../protocol";
 import { chooseCopy, useReplay } from "./replay";
 import classes from "./RecordBar.module.css";

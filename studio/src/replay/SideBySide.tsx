@@ -2,7 +2,7 @@
 
 import type { ReactNode } from "react";
 
-import { lastPart } from "../pages/paths";
+import { lastPart } from "../files/paths";
 import { useStudio } from "../store";
 import { OtherRecord } from "./OtherRecord";
 import classes from "./Comparison.module.css";

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 
-import { leave } from "../pages/flows";
+import { leave } from "../files/flows";
 import { type Studio, useStudio } from "../store";
 import { STEPS } from "./steps";
 

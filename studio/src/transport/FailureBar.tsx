@@ -3,7 +3,7 @@
 import { Button } from "@mantine/core";
 import { IconAlertTriangle } from "@tabler/icons-react";
 
-import { ProblemText } from "../pages/ProblemText";
+import { ProblemText } from "../problems/ProblemText";
 import { useStudio } from "../store";
 import { reset } from "./run";
 import classes from "./FailureBar.module.css";

@@ -2,7 +2,7 @@
 
 import { Tooltip } from "@mantine/core";
 
-import { useOffline } from "../pages/NeedsServer";
+import { useOffline } from "../connection/NeedsServer";
 import { type Studio, useStudio } from "../store";
 import { compilingText, countText, factorText, timeText, unitText } from "./format";
 import { lateText, meterLines } from "./meter";

@@ -4,7 +4,7 @@ import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconPlayerRecordFilled, IconPlayerStopFilled } from "@tabler/icons-react";
 import { useEffect, useRef } from "react";
 
-import { leave } from "../pages/flows";
+import { leave } from "../files/flows";
 import { plottedPorts } from "../panels/openPlot";
 import { request } from "../socket";
 import { useStudio } from "../store";

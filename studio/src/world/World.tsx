@@ -29,7 +29,7 @@ import {
   objects,
   toWorld,
   under,
-} from "./place";
+} from "./plan";
 
 const HELP =
   "Drag an object. A double click places a box, Delete removes the selected one, arrow keys move it.";

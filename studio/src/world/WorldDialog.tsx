@@ -5,18 +5,18 @@ import "./world.css";
 import { Button, Checkbox, FileButton, Group, NativeSelect, NumberInput, TextInput } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 
-import { FolderBrowser } from "../pages/FolderBrowser";
-import { ProblemText } from "../pages/ProblemText";
-import type { Asking } from "../pages/dialogs";
-import { base64, isTooLarge } from "../pages/flows";
-import { lastPart } from "../pages/paths";
-import { useFolder } from "../pages/useFolder";
+import { FolderBrowser } from "../dialogs/FolderBrowser";
+import { ProblemText } from "../problems/ProblemText";
+import type { Asking } from "../dialogs/dialogs";
+import { base64, isTooLarge } from "../files/flows";
+import { lastPart } from "../files/paths";
+import { useFolder } from "../dialogs/useFolder";
 import { pageLook } from "../plots/look";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
 import { draw } from "./draw";
-import { frameOf } from "./place";
+import { frameOf } from "./plan";
 
 type SettingValues = Record<string, unknown>;
 

@@ -3,7 +3,7 @@
 import type { BodyView, BoxView, MarkView } from "../protocol";
 import { font, type Look } from "../plots/look";
 import type { Seen } from "./live";
-import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./place";
+import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./plan";
 
 const FLOOR = "#f5f5f0";
 const INK = "#1c2420";

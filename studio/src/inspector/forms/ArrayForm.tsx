@@ -1,16 +1,16 @@
 // An array: its shape and range, read only.
 
-import { numberText } from "../number";
-import { Row } from "../Row";
+import { numberText } from "../numbers/number";
+import { ParameterRow } from "../parameters/ParameterRow";
 import type { FormProps } from "./props";
 
 export function ArrayForm({ form, path, value }: FormProps) {
   return (
-    <Row form={form} path={path} value={value} inline onReset={() => undefined}>
+    <ParameterRow form={form} path={path} value={value} inline onReset={() => undefined}>
       <span className="dim one-line grow" title={arrayText(value)}>
         {arrayText(value)}
       </span>
-    </Row>
+    </ParameterRow>
   );
 }
 

@@ -4,9 +4,9 @@ import { MultiSelect } from "@mantine/core";
 
 import { useStudio } from "../../store";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { AxisLines, axisOption } from "./AxisLines";
 import type { FormProps } from "./props";
 
@@ -17,7 +17,7 @@ export function AxesForm({ form, path, value }: FormProps) {
   const keys = (value ?? []) as string[];
   const options = axes.map(axisOption);
   return (
-    <Row form={form} path={path} value={value} onReset={(standard) => void setting.commit(standard)}>
+    <ParameterRow form={form} path={path} value={value} onReset={(standard) => void setting.commit(standard)}>
       <MultiSelect
         className="grow"
         size="xs"
@@ -37,6 +37,6 @@ export function AxesForm({ form, path, value }: FormProps) {
       />
       <AxisLines axes={keys.flatMap((key) => axes.find((axis) => axis.key === key) ?? [])} />
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

@@ -2,9 +2,9 @@
 
 import { useStudio } from "../../store";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { AxisLines, axisOption } from "./AxisLines";
 import { ChoiceBox } from "./ChoiceBox";
 import type { FormProps } from "./props";
@@ -15,7 +15,7 @@ export function AxisForm({ form, path, value }: FormProps) {
   const axes = useStudio((state) => state.document?.axes) ?? [];
   const key = typeof value === "string" ? value : null;
   return (
-    <Row form={form} path={path} value={value} onReset={(standard) => void setting.commit(standard)}>
+    <ParameterRow form={form} path={path} value={value} onReset={(standard) => void setting.commit(standard)}>
       <ChoiceBox
         label={path}
         value={key}
@@ -25,6 +25,6 @@ export function AxisForm({ form, path, value }: FormProps) {
       />
       <AxisLines axes={axes.filter((axis) => axis.key === key)} />
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

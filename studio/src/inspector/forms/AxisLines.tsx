@@ -1,7 +1,7 @@
 // What axes are: name, range, samples.
 
 import type { AxisView } from "../../protocol";
-import { numberText } from "../number";
+import { numberText } from "../numbers/number";
 
 export function AxisLines({ axes }: { axes: AxisView[] }) {
   return (

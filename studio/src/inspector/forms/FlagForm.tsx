@@ -3,16 +3,22 @@
 import { Switch } from "@mantine/core";
 
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import type { FormProps } from "./props";
 
 export function FlagForm({ form, path, value }: FormProps) {
   const { element } = usePlace();
   const setting = useSetting(element, path, value, form.cost);
   return (
-    <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
+    <ParameterRow
+      form={form}
+      path={path}
+      value={value}
+      inline
+      onReset={(standard) => void setting.commit(standard)}
+    >
       <Switch
         size="xs"
         aria-label={path}
@@ -20,6 +26,6 @@ export function FlagForm({ form, path, value }: FormProps) {
         onChange={(event) => void setting.commit(event.currentTarget.checked)}
       />
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

@@ -2,12 +2,12 @@
 
 import type { ReactNode } from "react";
 
-import { NumberControl } from "../NumberControl";
+import { NumberControl } from "../numbers/NumberControl";
 import { usePlace, useDriver } from "../place";
-import { axesAt, sliderRange } from "../range";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
-import { unitText } from "../unit";
+import { axesAt, sliderRange } from "../numbers/sliderRange";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
+import { unitText } from "../numbers/unit";
 import type { FormProps } from "./props";
 
 // Longer units are beside the name.
@@ -27,7 +27,7 @@ export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
   const range = sliderRange(form, setting.value, { path, axes, own });
   const unit = unitText(form.unit, timeUnit, axesAt(axes, form, path));
   return (
-    <Row
+    <ParameterRow
       form={form}
       path={path}
       value={setting.value}
@@ -46,6 +46,6 @@ export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
         unit={unit.length > MOST_UNIT ? "" : unit}
         optional={form.optional}
       />
-    </Row>
+    </ParameterRow>
   );
 }

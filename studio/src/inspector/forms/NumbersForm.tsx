@@ -4,12 +4,12 @@ import { ActionIcon } from "@mantine/core";
 import { IconX } from "@tabler/icons-react";
 import { useState } from "react";
 
-import { AddButton } from "../AddButton";
-import { words } from "../part";
+import { AddButton } from "../../widgets/AddButton";
+import { words } from "../parameters/part";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { NumberRow } from "./NumberRow";
 import type { FormProps } from "./props";
 import { TextBox } from "./TextBox";
@@ -29,10 +29,16 @@ export function NumbersForm({ form, path, value }: FormProps) {
   };
   return (
     <>
-      <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
+      <ParameterRow
+        form={form}
+        path={path}
+        value={value}
+        inline
+        onReset={(standard) => void setting.commit(standard)}
+      >
         <span className="dim grow">{names.length === 0 ? "none" : ""}</span>
         <AddButton aria-label={`Add to ${words(path)}`} onClick={() => setNaming(true)} />
-      </Row>
+      </ParameterRow>
       <div className="nested">
         {names.map((name) => (
           <NumberRow

@@ -3,12 +3,12 @@
 import { ActionIcon } from "@mantine/core";
 import { IconArrowRight, IconX } from "@tabler/icons-react";
 
-import { AddButton } from "../AddButton";
-import { fresh, words } from "../part";
+import { AddButton } from "../../widgets/AddButton";
+import { fresh, words } from "../parameters/part";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import type { FormProps } from "./props";
 import { TextBox } from "./TextBox";
 
@@ -23,7 +23,7 @@ export function PairsForm({ form, path, value }: FormProps) {
     void commit([...pairs, [name, name]]);
   };
   return (
-    <Row
+    <ParameterRow
       form={form}
       path={path}
       value={value}
@@ -57,6 +57,6 @@ export function PairsForm({ form, path, value }: FormProps) {
       {pairs.length === 0 && <span className="dim grow">none</span>}
       <AddButton aria-label={`Add to ${words(path)}`} onClick={add} />
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

@@ -1,11 +1,11 @@
 // A part of a kind that can be chosen, with its own parameters below.
 
 import { useStudio } from "../../store";
-import { kindOf, recast } from "../part";
+import { kindOf, recast } from "../parameters/part";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { ChoiceBox } from "./ChoiceBox";
 import { PartFields } from "./PartFields";
 import type { FormProps } from "./props";
@@ -20,7 +20,13 @@ export function PartForm({ form, path, value }: FormProps) {
     void setting.commit(name === null ? null : recast(kinds, name, value));
   return (
     <>
-      <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
+      <ParameterRow
+        form={form}
+        path={path}
+        value={value}
+        inline
+        onReset={(standard) => void setting.commit(standard)}
+      >
         <ChoiceBox
           label={path}
           value={kind?.name ?? null}
@@ -29,7 +35,7 @@ export function PartForm({ form, path, value }: FormProps) {
           onCommit={choose}
         />
         <ProblemLine problem={setting.problem} />
-      </Row>
+      </ParameterRow>
       {kind !== undefined && (
         <div className="nested">
           <PartFields kind={kind.name} values={value} prefix={`${path}.`} />

@@ -6,9 +6,9 @@ import { IconChevronDown, IconChevronRight, IconTrash } from "@tabler/icons-reac
 import type { ParameterForm } from "../../protocol";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
-import { DotsMenu } from "../DotsMenu";
-import { MoveItems } from "../MoveItems";
-import { kindOf, recast, summary } from "../part";
+import { DotsMenu } from "../../widgets/DotsMenu";
+import { MoveItems } from "../../widgets/MoveItems";
+import { kindOf, recast, summary } from "../parameters/part";
 import { PartFields } from "./PartFields";
 
 type PartItemProps = {

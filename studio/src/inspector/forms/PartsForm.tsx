@@ -5,12 +5,12 @@ import { useState } from "react";
 
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
-import { AddButton } from "../AddButton";
-import { moved, without, words } from "../part";
+import { AddButton } from "../../widgets/AddButton";
+import { moved, without, words } from "../parameters/part";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { PartItem } from "./PartItem";
 import type { FormProps } from "./props";
 
@@ -25,7 +25,13 @@ export function PartsForm({ form, path, value }: FormProps) {
     setFolded((old) => (old.includes(i) ? old.filter((k) => k !== i) : [...old, i]));
   return (
     <>
-      <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
+      <ParameterRow
+        form={form}
+        path={path}
+        value={value}
+        inline
+        onReset={(standard) => void setting.commit(standard)}
+      >
         <span className="dim grow">{parts.length === 0 ? "none" : ""}</span>
         <Menu position="bottom-end" shadow="md" classNames={{ dropdown: "compact-menu" }}>
           <Menu.Target>
@@ -42,7 +48,7 @@ export function PartsForm({ form, path, value }: FormProps) {
             ))}
           </Menu.Dropdown>
         </Menu>
-      </Row>
+      </ParameterRow>
       {parts.map((part, i) => (
         <PartItem
           key={`${i} ${String(part["kind"])}`}

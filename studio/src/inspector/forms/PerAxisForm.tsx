@@ -3,9 +3,9 @@
 import { UnstyledButton } from "@mantine/core";
 
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { NumberRow } from "./NumberRow";
 import type { FormProps } from "./props";
 
@@ -35,7 +35,7 @@ export function PerAxisForm({ form, path, value }: FormProps) {
   }
   return (
     <>
-      <Row
+      <ParameterRow
         form={form}
         path={path}
         value={value}

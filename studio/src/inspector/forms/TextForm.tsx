@@ -1,9 +1,9 @@
 // Text, or one of a few words.
 
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { ChoiceBox } from "./ChoiceBox";
 import { NameBox } from "./NameBox";
 import type { FormProps } from "./props";
@@ -16,7 +16,7 @@ export function TextForm({ form, path, value }: FormProps) {
   const known = names?.(form.names ?? "") ?? [];
   const few = form.choices.length > 0;
   return (
-    <Row
+    <ParameterRow
       form={form}
       path={path}
       value={value}
@@ -49,6 +49,6 @@ export function TextForm({ form, path, value }: FormProps) {
         />
       )}
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

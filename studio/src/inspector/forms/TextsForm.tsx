@@ -3,12 +3,12 @@
 import { ActionIcon } from "@mantine/core";
 import { IconX } from "@tabler/icons-react";
 
-import { AddButton } from "../AddButton";
-import { fresh, without, words } from "../part";
+import { AddButton } from "../../widgets/AddButton";
+import { fresh, without, words } from "../parameters/part";
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import { ChoiceBox } from "./ChoiceBox";
 import { NameBox } from "./NameBox";
 import type { FormProps } from "./props";
@@ -25,7 +25,7 @@ export function TextsForm({ form, path, value }: FormProps) {
   const add = () =>
     void commit([...texts, form.choices[0] ?? known.find((name) => !texts.includes(name)) ?? fresh(texts)]);
   return (
-    <Row
+    <ParameterRow
       form={form}
       path={path}
       value={value}
@@ -68,6 +68,6 @@ export function TextsForm({ form, path, value }: FormProps) {
       {texts.length === 0 && <span className="dim grow">none</span>}
       <AddButton aria-label={`Add to ${words(path)}`} onClick={add} />
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

@@ -1,9 +1,9 @@
 // Any value: a number, true or false, a list, or else text.
 
 import { usePlace } from "../place";
-import { ProblemLine } from "../ProblemLine";
-import { Row } from "../Row";
-import { useSetting } from "../setting";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { ParameterRow } from "../parameters/ParameterRow";
+import { useSetting } from "../parameters/setting";
 import type { FormProps } from "./props";
 import { TextBox } from "./TextBox";
 import { typedValue, valueText } from "./value";
@@ -12,7 +12,13 @@ export function ValueForm({ form, path, value }: FormProps) {
   const { element } = usePlace();
   const setting = useSetting(element, path, value, form.cost);
   return (
-    <Row form={form} path={path} value={value} inline onReset={(standard) => void setting.commit(standard)}>
+    <ParameterRow
+      form={form}
+      path={path}
+      value={value}
+      inline
+      onReset={(standard) => void setting.commit(standard)}
+    >
       <TextBox
         label={path}
         value={valueText(value)}
@@ -21,6 +27,6 @@ export function ValueForm({ form, path, value }: FormProps) {
         onForget={setting.forget}
       />
       <ProblemLine problem={setting.problem} />
-    </Row>
+    </ParameterRow>
   );
 }

@@ -1,6 +1,6 @@
 // A value of any type, as it is typed: what JSON can read is that value, the rest is text.
 
-import { typedNumber } from "../number";
+import { typedNumber } from "../numbers/number";
 
 export function typedValue(text: string): unknown {
   const trimmed = text.trim();

@@ -1,0 +1,29 @@
+import { readdirSync, readFileSync } from "node:fs";
+import { basename, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { expect, test } from "vitest";
+
+const SOURCES = fileURLToPath(new URL("src/", import.meta.url));
+const files = readdirSync(SOURCES, { recursive: true, encoding: "utf8" }).filter((file) =>
+  /(?<!\.test)\.(tsx?|css)$/.test(file),
+);
+
+test("no two files of the page have the same name", () => {
+  expect(doubled(files.map((file) => basename(file)))).toEqual([]);
+});
+
+test("no two exported types, classes and components of the page have the same name", () => {
+  const names = files.flatMap((file) =>
+    [
+      ...readFileSync(join(SOURCES, file), "utf8").matchAll(
+        /^export (?:class|const|function|interface|type) ([A-Z]\w*[a-z]\w*)/gm,
+      ),
+    ].map((match) => match[1] ?? ""),
+  );
+  expect(names.length).toBeGreaterThan(200);
+  expect(doubled(names)).toEqual([]);
+});
+
+function doubled(names: string[]): string[] {
+  return names.filter((name, i) => names.indexOf(name) !== i);
+}

@@ -1,0 +1,91 @@
+// The panel of costs: the time of each element in a step, measured on request.
+
+import "./costs.css";
+
+import { Button } from "@mantine/core";
+import { IconStopwatch } from "@tabler/icons-react";
+
+import { ProblemText } from "../problems/ProblemText";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import { type CostRow, costRows, microsecondsText, sumOf } from "./costRows";
+
+export function CostsPanel() {
+  const costs = useStudio((state) => state.costs);
+  const elements = useStudio((state) => state.elements);
+  const measuring = costs?.measuring ?? false;
+  const rows = costs === null ? [] : costRows(costs, elements);
+  const again = rows.length > 0;
+  return (
+    <div className="costs">
+      <div className="costs-head">
+        <Button
+          size="compact-sm"
+          variant="default"
+          leftSection={<IconStopwatch size={15} />}
+          loading={measuring}
+          aria-label="Measure costs"
+          onClick={() => void request({ type: "measure_costs" })}
+        >
+          {again ? "Measure again" : "Measure"}
+        </Button>
+        {costs !== null && again && (
+          <span className="numbers" role="status">
+            A step takes {microsecondsText(costs.step)} µs; the elements, each measured alone, add up to{" "}
+            {microsecondsText(sumOf(costs))} µs
+          </span>
+        )}
+      </div>
+      {(costs?.problems ?? []).map((problem, i) => (
+        <ProblemText key={i} problem={problem} />
+      ))}
+      {again ? (
+        <table className="cost-table numbers">
+          <caption>Time that each element takes of a step</caption>
+          <thead>
+            <tr>
+              <th scope="col">Element</th>
+              <th scope="col">Kind</th>
+              <th scope="col">µs a step</th>
+              <th scope="col">Share</th>
+            </tr>
+          </thead>
+          <tbody>
+            {rows.map((row) => (
+              <Line key={row.key} row={row} />
+            ))}
+          </tbody>
+        </table>
+      ) : (
+        <p className="dim">
+          How long each element takes in a step. The run goes on meanwhile; the first time takes about as long
+          as compiling.
+        </p>
+      )}
+    </div>
+  );
+}
+
+function Line({ row }: { row: CostRow }) {
+  const select = useStudio((state) => state.select);
+  const { element } = row;
+  return (
+    <tr title={row.about}>
+      <th scope="row">
+        {element === null ? (
+          <span className="dim">{row.path}</span>
+        ) : (
+          <button type="button" className="cost-element" onClick={() => select([element])}>
+            {row.path}
+          </button>
+        )}
+      </th>
+      <td className="dim">{row.kind}</td>
+      <td>{row.time}</td>
+      <td>
+        {row.share}
+        <span className="cost-bar" aria-hidden="true" style={{ width: `${100 * row.bar}%` }} />
+      </td>
+    </tr>
+  );
+}

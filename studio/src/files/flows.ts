@@ -1,0 +1,213 @@
+// Conversations with the person and the server that take several steps: opening, saving, reading a file of
+// the person's own.
+
+import type {
+  Answer,
+  Close,
+  NewDocument,
+  OpenExample,
+  OpenExperimentFile,
+  OpenFile,
+  OpenPackage,
+  OpenRecordModel,
+  OpenText,
+  ListedProblem,
+  Recover,
+  Save,
+  SaveExperiment,
+  RepeatTrial,
+} from "../protocol";
+import { request, socket } from "../socket";
+import { useStudio } from "../store";
+import { ask } from "../dialogs/dialogs";
+import { opening, sortOf } from "./paths";
+
+// The largest message that the server accepts, base64 included.
+const MOST_BYTES = 40 * 2 ** 20;
+
+type Leaving =
+  | NewDocument
+  | OpenExperimentFile
+  | RepeatTrial
+  | OpenFile
+  | OpenExample
+  | OpenText
+  | OpenPackage
+  | OpenRecordModel
+  | Recover
+  | Close;
+
+// Go to another document, or to none. Unsaved edits are asked about. True where it was done.
+export async function leave(message: Leaving): Promise<boolean> {
+  const { answer } = await socket.ask(message);
+  if (answer.ask !== "unsaved") {
+    return done(answer) && arrived(answer);
+  }
+  const choice = await ask("unsaved", { title: useStudio.getState().document?.title ?? "" });
+  switch (choice) {
+    case "save":
+      return (await save()) && leave(message);
+    case "discard":
+      return leave({ ...message, discard: true });
+    case "cancel":
+      return false;
+  }
+}
+
+export async function open(): Promise<boolean> {
+  const chosen = await ask("choose", { wants: "files" });
+  if (chosen === null) {
+    return false;
+  }
+  return typeof chosen === "string" ? leave({ type: "open_file", path: chosen }) : takeFile(chosen);
+}
+
+// Open a document without elements and without a file.
+export function openEmpty(): Promise<boolean> {
+  return leave({ type: "new" });
+}
+
+// Compare the open record with another one.
+export async function compare(): Promise<boolean> {
+  const chosen = await ask("choose", { wants: "records" });
+  if (typeof chosen !== "string") {
+    return false;
+  }
+  const answer = await request({ type: "compare_record", path: chosen });
+  return (answer.problems ?? []).length === 0;
+}
+
+// Something that the server writes below the root.
+export type Saved = {
+  // Its own file; empty: none yet.
+  file: string;
+  // Its name where it has no file.
+  name: string;
+  message: (path: string, replace: boolean) => Save | SaveExperiment;
+  // Whether the dialog before a file is replaced is about its own file.
+  isOwn: (path: string) => boolean;
+};
+
+// Write it, to its own file where the path is empty. True where it was written.
+export async function write(saved: Saved, path = "", replace = false): Promise<boolean> {
+  const { file, message, isOwn } = saved;
+  if (path === "" && file === "") {
+    return writeAs(saved);
+  }
+  const { answer } = await socket.ask(message(path, replace));
+  if (answer.ask !== "replace") {
+    if (done(answer)) {
+      useStudio.getState().notify({ what: `Saved as ${answer.file || path || file}` }, "info");
+      return true;
+    }
+    return false;
+  }
+  const choice = await ask("replace", { path: path || file, own: isOwn(path) });
+  switch (choice) {
+    case "replace":
+      return write(saved, path, true);
+    case "elsewhere":
+      return writeAs(saved);
+    case "cancel":
+      return false;
+  }
+}
+
+// Ask for a path, and write it there.
+export async function writeAs(saved: Saved): Promise<boolean> {
+  const path = await ask("save_as", { path: saved.file || saved.name });
+  return path === null ? false : write(saved, path);
+}
+
+function openDocument(): Saved {
+  const { file = "", title = "" } = useStudio.getState().document ?? {};
+  return {
+    file,
+    name: title,
+    message: (path, replace) => ({ type: "save", path, replace }),
+    isOwn: (path) => path === "" || path === file,
+  };
+}
+
+export const save = (path = ""): Promise<boolean> => write(openDocument(), path);
+export const saveAs = (): Promise<boolean> => writeAs(openDocument());
+
+// Opens a dropped or chosen file: a document, or a file for the sensors, such as a picture.
+export async function takeFile(file: File): Promise<boolean> {
+  if (isTooLarge(file)) {
+    return false;
+  }
+  switch (sortOf(file)) {
+    case "document":
+      return leave({ type: "open_text", name: file.name, text: await file.text() });
+    case "package":
+      return leave({ type: "open_package", name: file.name, content: await base64(file) });
+    case "other":
+      return showToSensors(file, file.name);
+  }
+}
+
+// Whether a file is too large for one message; then a notice states it.
+export function isTooLarge(file: File): boolean {
+  if (file.size > MOST_BYTES) {
+    refuse({
+      what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`,
+      fix: "Put it below the studio's folder and open it there.",
+    });
+  }
+  return file.size > MOST_BYTES;
+}
+
+// Let the sensors read a file by the kind of world that opens it: below the root by its path, otherwise its
+// content.
+async function showToSensors(file: string | File, name: string): Promise<boolean> {
+  const { kinds, clock } = useStudio.getState();
+  const world = opening(kinds.values(), name);
+  if (world === undefined) {
+    return refuse({ what: `${name} is neither a document (.json, .deodar) nor a file that a world opens.` });
+  }
+  if (clock?.senses !== true) {
+    return refuse({
+      what: `This document has no sensor for ${name}.`,
+      fix: "Open a document with a sensor first, for example one from the gallery.",
+    });
+  }
+  const answer =
+    typeof file === "string"
+      ? await request({ type: "use_world", kind: world.name, path: file })
+      : await request({ type: "use_world_content", kind: world.name, name, content: await base64(file) });
+  return (answer.problems ?? []).length === 0;
+}
+
+// Shows the report of a file of another tool.
+function arrived({ imported = "" }: Answer): boolean {
+  if (imported !== "") {
+    useStudio
+      .getState()
+      .notify({ what: imported }, "info", { label: "Show the report", run: () => ask("notes", null) });
+  }
+  return true;
+}
+
+// Problems become notices.
+export function done(answer: Answer): boolean {
+  const problems = answer.problems ?? [];
+  for (const problem of problems) {
+    useStudio.getState().notify(problem);
+  }
+  return problems.length === 0;
+}
+
+function refuse(problem: ListedProblem): boolean {
+  useStudio.getState().notify(problem);
+  return false;
+}
+
+export async function base64(file: File): Promise<string> {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const parts: string[] = [];
+  for (let i = 0; i < bytes.length; i += 0x8000) {
+    parts.push(String.fromCharCode(...bytes.subarray(i, i + 0x8000)));
+  }
+  return btoa(parts.join(""));
+}

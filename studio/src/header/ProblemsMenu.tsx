@@ -1,0 +1,63 @@
+// Problems and warnings of the open document, in a list; a click selects the element. Absent without either.
+
+import { Button, Popover, UnstyledButton } from "@mantine/core";
+import { IconAlertTriangle } from "@tabler/icons-react";
+
+import type { ListedProblem } from "../protocol";
+import { useStudio } from "../store";
+import { countText, isWarning } from "../problems/severity";
+import { ProblemText } from "../problems/ProblemText";
+import classes from "./ProblemsMenu.module.css";
+
+const NONE: ListedProblem[] = [];
+
+export function ProblemsMenu() {
+  const problems = useStudio((state) => state.document?.problems ?? NONE);
+  if (problems.length === 0) {
+    return null;
+  }
+  const label = countText(problems);
+  const color = problems.every(isWarning) ? "yellow" : "red";
+  return (
+    <Popover position="bottom-end" withArrow shadow="md" trapFocus returnFocus>
+      <Popover.Target>
+        <Button
+          size="compact-sm"
+          color={color}
+          variant="light"
+          px={7}
+          leftSection={<IconAlertTriangle size={15} />}
+          aria-label={label}
+          title={label}
+        >
+          {problems.length}
+        </Button>
+      </Popover.Target>
+      <Popover.Dropdown p={6} w={400}>
+        <ul className={classes.list} aria-label={label}>
+          {problems.map((problem, i) => (
+            <li key={i}>
+              <Entry problem={problem} />
+            </li>
+          ))}
+        </ul>
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
+
+function Entry({ problem }: { problem: ListedProblem }) {
+  const element = problem.element ?? "";
+  if (element === "") {
+    return (
+      <div className={classes.entry}>
+        <ProblemText problem={problem} />
+      </div>
+    );
+  }
+  return (
+    <UnstyledButton className={classes.entry} onClick={() => useStudio.getState().select([element])}>
+      <ProblemText problem={problem} />
+    </UnstyledButton>
+  );
+}

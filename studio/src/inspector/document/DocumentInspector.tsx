@@ -1,0 +1,96 @@
+// The document as a whole: title, notes, step, axes, and its own parameters.
+
+import { Textarea } from "@mantine/core";
+import { useState } from "react";
+
+import type { Describe, ListedProblem } from "../../protocol";
+import { socket } from "../../socket";
+import { useStudio } from "../../store";
+import { AxisLines } from "../forms/AxisLines";
+import { TextBox } from "../forms/TextBox";
+import { DocumentParameterList } from "./DocumentParameterList";
+import { NumberBox } from "../numbers/NumberBox";
+import { numberText } from "../numbers/number";
+import { ProblemBanner } from "../element/ProblemBanner";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { timeText } from "../numbers/unit";
+
+export function DocumentInspector() {
+  const document = useStudio((state) => state.document);
+  const dt = useStudio((state) => state.clock?.dt);
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
+  const [notes, setNotes] = useState<string | null>(null);
+  if (document === null) {
+    return null;
+  }
+  const unit = timeText(document.time_unit);
+  const describe = async (what: Omit<Describe, "type">): Promise<boolean> => {
+    const { answer } = await socket.ask({ type: "describe", ...what });
+    setProblem(answer.problems?.[0] ?? null);
+    return (answer.problems ?? []).length === 0;
+  };
+  const keepNotes = () => {
+    if (notes !== null && notes !== document.notes) {
+      void describe({ notes });
+    }
+    setNotes(null);
+  };
+  return (
+    <>
+      <header className="inspector-header">
+        <h2 className="one-line" title={document.title}>
+          {document.title || "Untitled"}
+        </h2>
+        <span className="kind-title">Document</span>
+      </header>
+      <ProblemBanner element="" />
+      <section className="parameters" aria-label="Document">
+        <div className="row row-inline">
+          <div className="row-label">title</div>
+          <div className="row-control">
+            <TextBox label="Title" value={document.title} onCommit={(name) => describe({ name })} />
+          </div>
+        </div>
+        <div className="row row-inline">
+          <div className="row-label">step dt</div>
+          <div className="row-control">
+            <NumberBox
+              label="Step dt"
+              value={document.dt}
+              unit={unit}
+              placeholder={dt === undefined ? "" : `${numberText(dt)} (default)`}
+              rejected={problem !== null}
+              onCommit={(value) => describe({ dt: value })}
+              onForget={() => setProblem(null)}
+              onComplain={setProblem}
+            />
+          </div>
+        </div>
+        <div className="row row-inline">
+          <div className="row-label">time unit</div>
+          <div className="row-control">{document.time_unit}</div>
+        </div>
+        <ProblemLine problem={problem} />
+        <Textarea
+          size="xs"
+          label="notes"
+          autosize
+          minRows={2}
+          maxRows={14}
+          value={notes ?? document.notes}
+          onChange={(event) => setNotes(event.currentTarget.value)}
+          onKeyDown={(event) => event.key === "Escape" && setNotes(null)}
+          onBlur={keepNotes}
+        />
+      </section>
+      <DocumentParameterList documentParameters={document.parameters} />
+      {document.axes.length > 0 && (
+        <section className="parameters" aria-label="Axes">
+          <h3>Axes</h3>
+          <AxisLines axes={document.axes} />
+        </section>
+      )}
+      <p className="dim hint">Select an element to see its parameters.</p>
+    </>
+  );
+}

@@ -1,0 +1,52 @@
+// One element: its kind, its equation and its parameters.
+
+import { useMemo } from "react";
+
+import type { AxisView } from "../../protocol";
+import { useStudio } from "../../store";
+import { ElementHeader } from "./ElementHeader";
+import { Equation } from "./Equation";
+import { PartFields } from "../forms/PartFields";
+import { axesOf } from "../parameters/leaf";
+import { type Place, PlaceContext } from "../place";
+import { PortTable } from "./PortTable";
+import { ProblemBanner } from "./ProblemBanner";
+
+const NO_AXES: AxisView[] = [];
+
+export function ElementInspector({ id }: { id: string }) {
+  const element = useStudio((state) => state.elements.get(id));
+  const kind = useStudio((state) => state.kinds.get(element?.kind ?? ""));
+  const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
+  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
+  const found = element === undefined ? "" : JSON.stringify(axesOf(element, kind, axes));
+  const place = useMemo(
+    (): Place => ({
+      element: id,
+      timeUnit,
+      ...(JSON.parse(found || '{"axes": [], "own": false}') as Pick<Place, "axes" | "own">),
+    }),
+    [id, timeUnit, found],
+  );
+  if (element === undefined) {
+    return <div className="inspector-empty">This element was removed.</div>;
+  }
+  return (
+    <PlaceContext.Provider value={place}>
+      <ElementHeader element={element} kind={kind} />
+      <ProblemBanner element={id} />
+      {kind === undefined ? (
+        <p className="dim">Nothing is known of the kind {element.kind}.</p>
+      ) : (
+        <>
+          <Equation lines={kind.equation} reference={kind.reference} />
+          <section className="parameters" aria-label="Parameters">
+            <PartFields kind={kind.name} values={element.values} />
+            {kind.parameters.length === 0 && <p className="dim">This element has no parameters.</p>}
+          </section>
+          <PortTable element={element} kind={kind} axes={axes} />
+        </>
+      )}
+    </PlaceContext.Provider>
+  );
+}

@@ -1,0 +1,40 @@
+// What is wrong with an element: in the document, and in the run.
+
+import { IconAlertOctagon, IconAlertTriangle } from "@tabler/icons-react";
+
+import { isWarning } from "../../problems/severity";
+import type { ListedProblem } from "../../protocol";
+import { useStudio } from "../../store";
+
+export function ProblemBanner({ element }: { element: string }) {
+  // As text, because the clock brings new objects with the same content many times a second.
+  const found = useStudio((state) =>
+    JSON.stringify(
+      [...(state.clock?.failure ?? []), ...(state.document?.problems ?? [])].filter(
+        (p) => (p.element ?? "") === element,
+      ),
+    ),
+  );
+  const problems = JSON.parse(found) as ListedProblem[];
+  if (problems.length === 0) {
+    return null;
+  }
+  const warning = problems.every(isWarning);
+  const Icon = warning ? IconAlertTriangle : IconAlertOctagon; // the same shapes as on the boxes
+  return (
+    <div className="problem-banner" role="alert" data-warning={warning || undefined}>
+      <Icon size={16} />
+      <ul>
+        {problems.map((problem, i) => (
+          <li key={i}>
+            {isWarning(problem) && "Warning: "}
+            {problem.what}
+            {problem.fix !== undefined && problem.fix !== "" && (
+              <div className="problem-fix">{problem.fix}</div>
+            )}
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}

@@ -1,0 +1,114 @@
+// A slider and a number beside it: one number of an element, or a document parameter.
+
+import { useCallback, useEffect, useRef, useState } from "react";
+
+import type { ListedProblem } from "../../protocol";
+import { numberText } from "./number";
+import { NumberBox } from "./NumberBox";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { including, nudged, type SliderRange } from "./sliderRange";
+import type { Setting } from "../parameters/setting";
+import { ValueSlider } from "./ValueSlider";
+
+type NumberControlProps = {
+  label: string;
+  setting: Setting<number | null>;
+  // What is sensible now; a range that was shown before stays as long as it holds the value.
+  range: SliderRange;
+  // Another key is another range.
+  rangeKey: string;
+  unit: string;
+  optional?: boolean;
+  // Shows the ends of the range; a double click on one asks for others.
+  onRange?: () => void;
+};
+
+const READING_MS = 6000;
+
+export function NumberControl({
+  label,
+  setting,
+  range,
+  rangeKey,
+  unit,
+  optional = false,
+  onRange,
+}: NumberControlProps) {
+  const { value, problem, commit, move, end, nudge, forget } = setting;
+  const [complaint, setComplaint] = useState<ListedProblem | null>(null);
+  const shown = useCalmRange(range, rangeKey, value);
+  const wrong = complaint ?? problem;
+  const later = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
+  const onForget = useCallback(() => {
+    clearTimeout(later.current);
+    setComplaint(null);
+    forget();
+  }, [forget]);
+  // The field shows its old value again; the error of the refused value stays for a while.
+  const onLeave = () => {
+    end();
+    later.current = setTimeout(onForget, READING_MS);
+  };
+  useEffect(() => () => clearTimeout(later.current), []);
+
+  const slider =
+    value === null ? (
+      <span className="dim grow">none</span>
+    ) : (
+      <ValueSlider label={label} value={value} range={shown} onMove={move} onEnd={end} onNudge={nudge} />
+    );
+
+  return (
+    <div className={onRange === undefined ? "number-control" : "number-control number-control-ranged"}>
+      {onRange === undefined ? (
+        slider
+      ) : (
+        <div className="ranged-slider">
+          <span className="range-end" title="Double-click to change the range" onDoubleClick={onRange}>
+            {endText(shown.lower, shown)}
+          </span>
+          {slider}
+          <span className="range-end" title="Double-click to change the range" onDoubleClick={onRange}>
+            {endText(shown.upper, shown)}
+          </span>
+        </div>
+      )}
+      <NumberBox
+        label={label}
+        value={value}
+        unit={unit}
+        optional={optional}
+        placeholder={optional ? "none" : undefined}
+        rejected={wrong !== null}
+        onCommit={commit}
+        onStep={
+          value === null
+            ? undefined
+            : (direction, coarse) => nudge(nudged(value, direction, coarse, including(shown, value)))
+        }
+        onForget={onForget}
+        onComplain={setComplaint}
+        onLeave={onLeave}
+      />
+      <ProblemLine problem={wrong} />
+    </div>
+  );
+}
+
+// An end for display, rounded to the step.
+function endText(end: number, { step, logarithmic }: SliderRange): string {
+  return numberText(logarithmic ? end : Math.round(end / step) * step);
+}
+
+// Ranges follow from values, but must not move under the hand: the first one stays, and grows where a value
+// lies outside.
+function useCalmRange(range: SliderRange, key: string, value: number | null): SliderRange {
+  const kept = useRef({ key, range });
+  if (kept.current.key !== key) {
+    kept.current = { key, range };
+  }
+  if (value !== null) {
+    kept.current.range = including(kept.current.range, value);
+  }
+  return kept.current.range;
+}

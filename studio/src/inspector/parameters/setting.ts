@@ -1,0 +1,88 @@
+// The state of a parameter in a control: the value of the server, or the local value during a drag, and the
+// error of the last change.
+
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
+
+import { Gesture } from "../../gesture";
+import type { Answer, ParameterForm, ListedProblem } from "../../protocol";
+import { socket } from "../../socket";
+import { noteChange } from "./lastChange";
+import { usePlace } from "../place";
+
+export type Setting<T = unknown> = {
+  value: T;
+  problem: ListedProblem | null;
+  // Sends a value at once; true if it was accepted.
+  commit: (value: T) => Promise<boolean>;
+  // A value while a pointer drags, and the end of the drag.
+  move: (value: T) => void;
+  end: () => void;
+  // A value by key.
+  nudge: (value: T) => void;
+  forget: () => void;
+};
+
+// `element` is empty for a document parameter. A value that recompiles the program is sent when the drag
+// ends, not on the way.
+export function useSetting<T>(
+  element: string,
+  parameter: string,
+  stored: T,
+  cost: ParameterForm["cost"],
+): Setting<T> {
+  const [own, setOwn] = useState<{ value: T } | null>(null);
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
+  const latest = useRef<{ value: T } | null>(null);
+
+  const { send: place } = usePlace();
+  const send = useCallback(
+    async (value: T, gesture: number): Promise<Answer> => {
+      if (place !== undefined) {
+        const answer = await place(parameter, value, gesture);
+        setProblem(answer.problems?.[0] ?? null);
+        return answer;
+      }
+      noteChange(element, parameter);
+      const { answer } = await socket.ask({ type: "set", element, parameter, value, gesture });
+      setProblem(answer.problems?.[0] ?? null);
+      return answer;
+    },
+    [element, parameter, place],
+  );
+  const gesture = useMemo(() => new Gesture<T>(send, () => setOwn(null)), [send]);
+  useEffect(() => () => gesture.end(), [gesture]);
+
+  const late = cost === "recompile";
+  const move = useCallback(
+    (value: T) => {
+      latest.current = { value };
+      setOwn({ value });
+      if (!late) {
+        gesture.move(value);
+      }
+    },
+    [gesture, late],
+  );
+  const end = useCallback(() => {
+    const last = latest.current;
+    latest.current = null;
+    if (late && last !== null) {
+      gesture.move(last.value);
+    }
+    gesture.end();
+  }, [gesture, late]);
+  const nudge = useCallback(
+    (value: T) => {
+      setOwn({ value });
+      gesture.nudge(value);
+    },
+    [gesture],
+  );
+  const commit = useCallback(
+    async (value: T) => ((await send(value, 0)).problems ?? []).length === 0,
+    [send],
+  );
+  const forget = useCallback(() => setProblem(null), []);
+
+  return { value: own === null ? stored : own.value, problem, commit, move, end, nudge, forget };
+}

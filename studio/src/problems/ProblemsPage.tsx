@@ -1,0 +1,74 @@
+// A file that could not be opened, with everything that is wrong in it.
+
+import { Button, Group } from "@mantine/core";
+import { IconArrowLeft, IconFileAlert, IconRefresh } from "@tabler/icons-react";
+import { useState } from "react";
+
+import type { FileProblems, ListedProblem } from "../protocol";
+import { useStudio } from "../store";
+import { ProblemText } from "./ProblemText";
+import { leave } from "../files/flows";
+import { belowRoot, isWhole } from "../files/paths";
+import classes from "./ProblemsPage.module.css";
+
+export function ProblemsPage({ fileProblems }: { fileProblems: FileProblems }) {
+  const root = useStudio((state) => state.welcome?.root ?? "");
+  const [trying, setTrying] = useState(false);
+  const again = async () => {
+    setTrying(true);
+    await leave({ type: "open_file", path: fileProblems.file });
+    setTrying(false);
+  };
+  const count = fileProblems.problems.length;
+  return (
+    <main className={classes.page}>
+      <div className={classes.column}>
+        <header className={classes.header}>
+          <IconFileAlert size={34} stroke={1.5} className={classes.icon} aria-hidden="true" />
+          <div className={classes.titles}>
+            <h1>{belowRoot(root, fileProblems.file)} cannot be opened</h1>
+            <p>{count === 1 ? "There is one problem." : `There are ${count} problems.`}</p>
+          </div>
+        </header>
+        <ol className={classes.list} aria-label="Problems">
+          {fileProblems.problems.map((problem, i) => (
+            <li key={i} className={classes.problem}>
+              <span className={`${classes.number} numbers`} aria-hidden="true">
+                {i + 1}
+              </span>
+              <ProblemText problem={within(fileProblems.file, problem)} />
+            </li>
+          ))}
+        </ol>
+        <Group gap="xs">
+          {isWhole(fileProblems.file) && (
+            <Button
+              leftSection={<IconRefresh size={16} />}
+              loading={trying}
+              onClick={() => void again()}
+              autoFocus
+            >
+              Try again
+            </Button>
+          )}
+          <Button
+            variant="default"
+            leftSection={<IconArrowLeft size={16} />}
+            onClick={() => void leave({ type: "close" })}
+          >
+            Back to the gallery
+          </Button>
+        </Group>
+      </div>
+    </main>
+  );
+}
+
+// The file is named above; where in it is what matters here.
+function within(file: string, problem: ListedProblem): ListedProblem {
+  const where = problem.where ?? "";
+  return {
+    ...problem,
+    where: where === file ? "" : where.startsWith(`${file}: `) ? where.slice(file.length + 2) : where,
+  };
+}
