@@ -4,9 +4,21 @@ import { join } from "node:path";
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { beside, button, choose, colours, drawn, panel, reopen } from "./hands";
+import { panels, plot as plotOf, selection } from "./bench/documents";
+import { beside, button, choose, colours, drawn, panel, reopen, settled } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
+
+/** Three plots side by side: over position, over both, and over time. */
+const linked = {
+  ...selection,
+  layout: {
+    panels: panels([
+      [plotOf("u", "curve", "activation"), plotOf("u", "space_time", "activation")],
+      [plotOf("u", "course", "activation")],
+    ]),
+  },
+};
 
 let studio: Studio;
 let observer: Observer;
@@ -14,6 +26,7 @@ let observer: Observer;
 beforeAll(async () => {
   studio = await startStudio({
     copies: ["examples/selection.json", "examples/node.json", "examples/saliency.json"],
+    files: { "linked.json": JSON.stringify(linked) },
     file: "selection.json",
   });
   observer = await studio.observe();
@@ -26,7 +39,7 @@ afterAll(() => studio.stop());
 const plot = (name: string): Locator => studio.page.getByRole("region", { name, exact: true });
 const chart = (name: string, label: string): Locator =>
   plot(name).getByRole("img", { name: label, exact: true });
-const panels = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
+const arranged = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
 
 async function step(n: number): Promise<void> {
   await observer.ask({ type: "step", n });
@@ -65,7 +78,7 @@ test("input, interaction and resting level are separate curves, chosen one by on
   await shot(studio.page, "plot-curves");
   for (const name of ["output", "levels"]) await curves.getByRole("button", { name, exact: true }).click();
   await chart("Curves of u", "activation, input, interaction of u over x").waitFor();
-  await observer.until(() => panels().includes('"shown":["activation","input","interaction"]'));
+  await observer.until(() => arranged().includes('"shown":["activation","input","interaction"]'));
 });
 
 test("a plot shows the largest value of a field over time", async () => {
@@ -115,8 +128,36 @@ test("a plot shows a field over time, also of a moment of the past", async () =>
   await beside(page, "Settings of this plot", (settings) => settings.getByText("time down").click());
   const across = () => canvas.evaluate((element) => (element as HTMLCanvasElement).width);
   await expect.poll(across).toBe(101);
-  await observer.until(() => panels().includes('"down":true'));
+  await observer.until(() => arranged().includes('"down":true'));
   await shot(page, "plot-space-time");
+});
+
+test("the cursor of one plot shows its position and its time in all others, with their values", async () => {
+  const { page } = studio;
+  await reopen(page, observer, "linked.json");
+  await step(300);
+  const readout = (name: string) => plot(name).locator(".plot-readout");
+  const reads = (name: string, words: string) =>
+    expect
+      .poll(async () => (await readout(name).textContent())?.replace(/\s+/g, " "))
+      .toMatch(
+        new RegExp(`^${words.replaceAll(".", "\\.").replaceAll("#", "\\d+").replaceAll("-", "\u2212")}$`),
+      );
+  const [curves, map, course] = ["Curves of u", "Space-time plot of u", "Time course of u"] as const;
+  await plot(course).getByText("Press play").waitFor({ state: "detached" });
+  const over = plot(map).locator(".u-over");
+  const room = await settled(page, () => over.boundingBox());
+  if (room === null) throw new Error("The plot is not visible.");
+  await over.hover({ position: { x: room.width * 0.1, y: room.height * 0.3 } });
+  await reads(curves, "x #.# activation #.# output 1.000");
+  await reads(course, "t #.# #.#");
+  await shot(page, "plot-linked");
+
+  await plot(curves).locator(".u-over").hover();
+  await reads(map, "x #.# -#.#");
+  expect(await readout(course).textContent()).toBe("");
+  await page.getByRole("toolbar", { name: "Run" }).hover();
+  await expect.poll(() => readout(map).textContent()).toBe("");
 });
 
 test("a plot shows the interaction kernel while a slider moves", async () => {
@@ -189,7 +230,7 @@ test("a field over three axes is cut at a position, and any two axes are drawn",
   await thumb.press("ArrowRight");
   await expect.poll(() => highest.getAttribute("aria-pressed")).toBe("false");
   await expect.poll(() => drawn(canvas)).not.toBe(whole);
-  await observer.until(() => panels().includes('"at":{"hue":'));
+  await observer.until(() => arranged().includes('"at":{"hue":'));
   const cut = await drawn(canvas);
   await thumb.press("Home");
   await expect.poll(() => drawn(canvas)).not.toBe(cut);
@@ -197,7 +238,7 @@ test("a field over three axes is cut at a position, and any two axes are drawn",
   const end = await drawn(canvas);
   await highest.click();
   await expect.poll(() => drawn(canvas)).not.toBe(end);
-  await observer.until(() => panels().includes('"at":{}'));
+  await observer.until(() => arranged().includes('"at":{}'));
 
   await map.getByRole("button", { name: "Settings of this plot" }).click();
   const settings = page.getByRole("dialog");
@@ -210,7 +251,7 @@ test("a field over three axes is cut at a position, and any two axes are drawn",
   const curves = plot("Curves of perceptual");
   await curves.getByRole("img", { name: "activation, output of perceptual over hue" }).waitFor();
   await curves.getByRole("slider", { name: "Position on y" }).press("Home");
-  await observer.until(() => panels().includes('"at":{"y":'));
+  await observer.until(() => arranged().includes('"at":{"y":'));
   await shot(page, "plot-section-curve");
 });
 
@@ -225,7 +266,8 @@ test("the arrangement of panels is kept in a reload and in the file", async () =
   await button(page, "Close Sliders").click();
   await panel(page, "Sliders").waitFor({ state: "detached" });
   await observer.until(
-    () => panels().includes(observer.element("left").id) && !panels().includes('"contentComponent":"pins"'),
+    () =>
+      arranged().includes(observer.element("left").id) && !arranged().includes('"contentComponent":"pins"'),
   );
   expect(observer.document?.unsaved, "how panels stand is nothing to ask about").toBe(false);
 

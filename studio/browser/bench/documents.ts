@@ -121,12 +121,12 @@ export function ident(name: string): string {
 
 type Plot = { element: string; kind: string; port: string; settings: object };
 
-function plot(element: string, kind: string, port: string): Plot {
+export function plot(element: string, kind: string, port: string): Plot {
   return { element: ident(element), kind, port, settings: {} };
 }
 
 /** Rows of panels that fill the page. */
-function panels(rows: (Plot | "graph")[][]): object {
+export function panels(rows: (Plot | "graph")[][]): object {
   const all: Record<string, object> = {};
   const [width, height] = [1280, 740];
   const leaf = (panel: Plot | "graph", share: number) => {

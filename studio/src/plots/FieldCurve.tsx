@@ -142,6 +142,7 @@ export function FieldCurve(props: PlotProps) {
       options,
       data: () => (data.current.length === curves.length + 1 ? data.current : [[], ...curves.map(() => [])]),
       label: `${curves.join(", ")} of ${element.path} over ${x?.name ?? "its axis"}`,
+      along: { x },
       read: (self) => readAt(self, x, curves),
       attach: (self, look) =>
         attachInjection(

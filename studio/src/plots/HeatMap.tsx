@@ -12,14 +12,14 @@ import { ColorControl } from "./ColorControl";
 import { plane } from "./exportCsv";
 import { exportPng } from "./exportPng";
 import { attachInjection } from "./injection";
-import { axisLabel, cell, edges, points, runsDown } from "./kinds";
+import { axisLabel, edges, points, runsDown } from "./kinds";
 import { pushAmplitude } from "./levels";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { PushControl } from "./PushControl";
-import { reading } from "./range";
+import { readPlane } from "./readPlane";
 import { RangeControl } from "./RangeControl";
 import { allAxes } from "./section";
 import { SectionStrip } from "./SectionStrip";
@@ -107,7 +107,8 @@ export function HeatMap(props: PlotProps) {
       options,
       data,
       label: `${port} of ${element.path} as colours over ${x.name} and ${y.name}`,
-      read: (self) => readAt(self, newest.current, x, y),
+      along: { x, y },
+      read: (_, at) => readPlane(newest.current, x, y, at),
       attach: (self) => {
         const canvas = document.createElement("canvas");
         canvas.className = "plot-heat";
@@ -182,16 +183,4 @@ export function HeatMap(props: PlotProps) {
       />
     </PlotFrame>
   );
-}
-
-function readAt(chart: uPlot, live: Live | null, x: AxisView, y: AxisView): string {
-  const at = [
-    chart.posToVal(chart.cursor.left ?? 0, "x"),
-    chart.posToVal(chart.cursor.top ?? 0, "y"),
-  ] as const;
-  const [nx = x.samples, ny = y.samples] = live?.form?.shape ?? [];
-  const value = live?.frame?.values[cell(x, nx, at[0]) * ny + cell(y, ny, at[1])];
-  return value === undefined
-    ? ""
-    : `${x.name} ${reading(at[0])}   ${y.name} ${reading(at[1])}   ${reading(value)}`;
 }

@@ -4,6 +4,7 @@
 import { useMemo, useRef } from "react";
 import type uPlot from "uplot";
 import type { Live, Wish } from "../streams";
+import type { CursorAt } from "./chartCursor";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { portColor } from "./colors";
 import { plane as planeRows } from "./exportCsv";
@@ -15,6 +16,7 @@ import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { CalmRange, reading } from "./range";
 import { RangeControl } from "./RangeControl";
+import { readPlane } from "./readPlane";
 import { type ChartOptions, useChart } from "./useChart";
 import { useLatest } from "./useLatest";
 import { useStreams } from "./useStreams";
@@ -112,7 +114,8 @@ export function Kernel(props: PlotProps) {
       options,
       data,
       label: `Interaction kernel of ${element.path}`,
-      read: (self) => readAt(self, newest.current),
+      along: { x, y },
+      read: (_, at) => readKernel(newest.current, at),
       attach: (self) => {
         if (plane) {
           const canvas = document.createElement("canvas");
@@ -181,17 +184,16 @@ function rangeOf(chart: uPlot | null): [number, number] {
   return [min ?? 0, max ?? 1];
 }
 
-function readAt(chart: uPlot, live: Live | null): string {
+function readKernel(live: Live | null, at: CursorAt): string {
   const [x, y] = live?.form?.axes ?? [];
-  const [nx, ny] = live?.form?.shape ?? [];
-  if (x === undefined || nx === undefined) {
+  const [nx] = live?.form?.shape ?? [];
+  if (x === undefined || nx === undefined || at.x === null) {
     return "";
   }
-  const across = chart.posToVal(chart.cursor.left ?? 0, "x");
-  const up = y === undefined ? 0 : chart.posToVal(chart.cursor.top ?? 0, "y");
-  const row = cell(x, nx, across) * (ny ?? 1);
-  const value = live?.frame?.values[row + (y === undefined || ny === undefined ? 0 : cell(y, ny, up))];
-  const place = y === undefined ? [] : [`${y.name} ${reading(up)}`];
-  const shown = value === undefined ? [] : [reading(value)];
-  return [`${x.name} ${reading(across)}`, ...place, ...shown].join("   ");
+  if (y !== undefined) {
+    return readPlane(live, x, y, at);
+  }
+  const value = live?.frame?.values[cell(x, nx, at.x)];
+  const place = `${x.name} ${reading(at.x)}`;
+  return value === undefined ? place : `${place}   ${reading(value)}`;
 }

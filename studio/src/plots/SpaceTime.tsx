@@ -18,7 +18,7 @@ import { axisLabel, cell, edges, isPicture, points } from "./kinds";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { drawMoment } from "./momentLine";
-import { paintHeat } from "./paint";
+import { extent, paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { reading } from "./range";
 import { RangeControl } from "./RangeControl";
@@ -127,7 +127,11 @@ export function SpaceTime(props: PlotProps) {
       options,
       data,
       label: `${port} of ${element.path} as colours over time and ${x.name}`,
-      read: (self) => readAt(self, rows.current, x, down),
+      along: down ? { x, y: "time" } : { x: "time", y: x },
+      read: (_, at) => {
+        const [time, place] = down ? [at.y, at.x] : [at.x, at.y];
+        return readAt(rows.current, x, place, time, marked.current);
+      },
       attach: (self) => {
         const canvas = document.createElement("canvas");
         canvas.className = "plot-heat";
@@ -217,12 +221,21 @@ function turned(values: Float32Array, columns: number, width: number): Float32Ar
   return out;
 }
 
-function readAt(chart: uPlot, rows: Rows, x: AxisView, down: boolean): string {
-  const across = chart.posToVal(chart.cursor.left ?? 0, "x");
-  const up = chart.posToVal(chart.cursor.top ?? 0, "y");
-  const [time, place] = down ? [up, across] : [across, up];
-  const row = rows.at(time);
-  const value = row?.values[cell(x, rows.width, place)];
-  const where = `t ${reading(time)}   ${x.name} ${reading(place)}`;
-  return value === undefined ? where : `${where}   ${reading(value)}`;
+// Where only the position is known, the value at the moment that is shown; where only the time is known, the
+// maximum.
+function readAt(
+  rows: Rows,
+  x: AxisView,
+  place: number | null,
+  time: number | null,
+  moment: number | null,
+): string {
+  const words = [
+    ...(time === null ? [] : [`t ${reading(time)}`]),
+    ...(place === null ? [] : [`${x.name} ${reading(place)}`]),
+  ];
+  const values = rows.at(time ?? moment ?? Infinity)?.values;
+  const value = place === null ? extent(values ?? [])?.[1] : values?.[cell(x, rows.width, place)];
+  const shown = value === undefined ? [] : [place === null ? `max ${reading(value)}` : reading(value)];
+  return [...words, ...shown].join("   ");
 }

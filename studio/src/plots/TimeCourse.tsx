@@ -122,6 +122,7 @@ export function TimeCourse(props: PlotProps) {
       options,
       data: () => (data.current.length === labels.length + 1 ? data.current : [[], ...labels.map(() => [])]),
       label: `${labels.join(", ")} over time`,
+      along: { x: "time" },
       read: (self) => readAt(self, labels),
     },
     JSON.stringify([labels, timeUnit, settings.range]),

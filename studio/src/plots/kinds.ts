@@ -151,8 +151,8 @@ export function axisLabel(axis: AxisView): string {
   return axis.unit === "" ? axis.name : `${axis.name} (${axis.unit})`;
 }
 
-// Axes that were thinned end a little earlier.
-function sameDimension(one: AxisView, other: AxisView): boolean {
+// Whether two axes are the same dimension; axes that were thinned end a little earlier.
+export function sameDimension(one: AxisView, other: AxisView): boolean {
   const near = 0.1 * (one.upper - one.lower);
   return (
     one.name === other.name &&

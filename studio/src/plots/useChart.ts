@@ -1,10 +1,12 @@
 // A uPlot that fills its place, follows the size and the colours of the page, and reports what lies under the
-// cursor.
+// cursor, its own or that of another chart.
 
 import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useRef } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import { ChartCursor, type CursorAt } from "./chartCursor";
+import type { Along } from "./linked";
 import { type Look, pageLook } from "./look";
 import { useLatest } from "./useLatest";
 
@@ -19,8 +21,10 @@ export type Chart = {
   data: () => uPlot.AlignedData;
   // What it shows, in words.
   label: string;
-  // What lies at the cursor, in words; the cursor is inside.
-  read?: (chart: uPlot) => string;
+  // What its scales show, for the linked cursor.
+  along?: { x: Along; y?: Along };
+  // What lies at the cursor, in words.
+  read?: (chart: uPlot, at: CursorAt) => string;
   // Adds other content to the chart; returns a function that removes it.
   attach?: (chart: uPlot, look: Look) => () => void;
 };
@@ -38,12 +42,14 @@ export function useChart(made: Chart, key: string): ChartRefs {
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot | null>(null);
   const readout = useRef<HTMLDivElement | null>(null);
+  const cursor = useRef<ChartCursor | null>(null);
   const latest = useLatest(made);
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
 
   const read = (self: uPlot) => {
     if (readout.current !== null) {
-      readout.current.textContent = (self.cursor.left ?? -1) >= 0 ? (latest.current.read?.(self) ?? "") : "";
+      const at = cursor.current?.at() ?? null;
+      readout.current.textContent = at === null ? "" : (latest.current.read?.(self, at) ?? "");
     }
   };
 
@@ -55,12 +61,22 @@ export function useChart(made: Chart, key: string): ChartRefs {
     const look = pageLook();
     const current = latest.current;
     const options = current.options(look);
-    const whole = { ...options, hooks: { ...options.hooks, setCursor: [read] }, ...sizeOf(place) };
+    const moved = (self: uPlot) => {
+      read(self);
+      cursor.current?.tell();
+    };
+    const hooks = {
+      draw: [...(options.hooks?.draw ?? []), () => cursor.current?.follow()],
+      setCursor: [moved],
+    };
+    const whole = { ...options, hooks, ...sizeOf(place) };
     const created = onProcessor(() => new uPlot(whole, current.data(), place));
     const words = document.createElement("div");
     words.className = "plot-readout numbers";
     created.over.append(words);
     readout.current = words;
+    const pointer = new ChartCursor(created, place, () => latest.current.along ?? { x: null });
+    cursor.current = pointer;
     created.ctx.canvas.setAttribute("role", "img");
     created.ctx.canvas.setAttribute("aria-label", current.label);
     const detach = current.attach?.(created, look);
@@ -74,6 +90,8 @@ export function useChart(made: Chart, key: string): ChartRefs {
     chart.current = created;
     return () => {
       observer.disconnect();
+      pointer.end();
+      cursor.current = null;
       detach?.();
       created.destroy();
       chart.current = null;
