@@ -975,11 +975,12 @@ export type Reconnect = {
 
 // An open record.
 //
-// `path` is relative to the root. `notes` are sentences on what is missing in it. `ports` lists for each
-// element the ports that were recorded.
+// `path` is relative to the root. `growing`: a process writes it. `notes` are sentences on what is missing in
+// it. `ports` lists for each element the ports that were recorded.
 export type RecordView = {
   path: string;
   complete: boolean;
+  growing: boolean;
   notes: string[];
   copies: CopyDimension[];
   ports: Record<string, string[]>;

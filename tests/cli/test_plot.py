@@ -10,9 +10,11 @@ import pytest
 from PIL import Image
 
 import deodar as dd
+from deodar.batch.output import CHECKPOINT
 from deodar.cli import main, plot
 from deodar.elements.sensor import Sensor
-from deodar.recording import files
+from deodar.recording import files, writer_lock
+from deodar.recording.growing import GrowingRecord
 from tests.experiments.robots import room, straight
 from tests.recording.models import record, x, y
 
@@ -151,6 +153,43 @@ def test_a_growing_record_is_drawn_until_it_is_complete(
     assert len(set(figures[2:])) == 3
     assert main(["plot", "run.zarr", "--kind", "time_course", "-o", "once.svg"]) == 0
     assert Path("once.svg").read_bytes() == figures[-1]
+
+
+def test_following_ends_when_the_run_was_killed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(writer_lock, "CERTAIN_SECONDS", 0.02)
+    whole = record(record=["n.activation"])
+    writer = GrowingRecord(Path("run.zarr"), whole.isel(time=slice(0)))
+    part = whole.isel(time=slice(0, 3))
+    writer.put("time", part["time"].values, {"n.activation": part["n.activation"].values})
+    writer.commit()
+    rounds: list[float] = []
+    sleep = plot.time.sleep
+
+    def passing(seconds: float) -> None:
+        sleep(seconds)
+        rounds.append(seconds)
+        if len(rounds) == 5:
+            writer.abandon()
+
+    with monkeypatch.context() as patched:
+        patched.setattr(plot.time, "sleep", passing)
+        words = ["plot", "run.zarr", "--kind", "time_course", "--follow", "--interval", "0.03"]
+        assert main([*words, "-o", "n.svg"]) == 0
+    assert len(rounds) > 5, "a writer that lives is waited for"
+    said = capsys.readouterr()
+    assert "Drew n.activation into n.svg" in said.out
+    assert (
+        "run.zarr is incomplete, and no process writes it any more" in said.err and "--resume" not in said.err
+    )
+    (tmp_path / "run.zarr" / CHECKPOINT).touch()
+    assert main([*words, "-o", "again.svg"]) == 0
+    assert "deodar run run.zarr --resume continues it" in capsys.readouterr().err
+    GrowingRecord(Path("empty.zarr"), whole.isel(time=slice(0))).abandon()
+    assert main(["plot", "empty.zarr", "--follow", "--interval", "0.03"]) == 1
+    assert "stopped before the record held a sample" in capsys.readouterr().err
 
 
 def test_following_ends_with_ctrl_c(

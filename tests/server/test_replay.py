@@ -12,8 +12,9 @@ import pytest
 
 import deodar as dd
 from deodar.live import branch_states
-from deodar.recording import folder
+from deodar.recording import folder, writer_lock
 from deodar.recording.growing import GrowingRecord
+from deodar.server import hub
 from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio
 
@@ -170,6 +171,7 @@ def test_a_record_opens_with_its_document_and_every_frame(root: Path, name: str)
         await shows(p)
         assert record_view(p) == {
             "path": name,
+            "growing": False,
             "complete": True,
             "notes": [],
             "copies": [],
@@ -304,7 +306,8 @@ def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
 
     async def scene(p: Page) -> None:
         await shows(p)
-        assert not record_view(p)["complete"] and "incomplete" in record_view(p)["notes"][0]
+        assert not record_view(p)["complete"] and record_view(p)["growing"]
+        assert "still being written" in record_view(p)["notes"][0]
         assert timeline(p)["last"] == 8
         await p.do("watch", stream=1, element=p.element("u"), port="activation")
         await p.do("seek", time=8)
@@ -322,6 +325,28 @@ def test_a_record_that_grows_is_followed_to_its_end(root: Path) -> None:
 
     with studio(root, path) as address:
         play(address, scene)
+
+
+def test_a_record_whose_writer_was_killed_is_incomplete(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writer_lock, "CERTAIN_SECONDS", 0.1)
+    monkeypatch.setattr(hub, "FOLLOW_SECONDS", 0.1)
+    data = recorded(root)
+    path = root / "growing.zarr"
+    growing = GrowingRecord(path, data.isel(time=slice(0, 0)))
+    part = data.isel(time=slice(0, 5))
+    growing.put("time", part["time"].values, {str(name): v.values for name, v in part.data_vars.items()})
+    growing.commit()
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        assert record_view(p)["growing"]
+        growing._unlock()  # the system does so when a process is killed
+        await p.until(lambda: not record_view(p)["growing"])
+        assert "is incomplete" in record_view(p)["notes"][0]
+
+    with studio(root, path) as address:
+        play(address, scene)
+    growing.abandon()
 
 
 def test_a_record_with_a_damaged_part_opens_up_to_there_and_says_so(root: Path) -> None:

@@ -15,7 +15,10 @@ from deodar.cli import _figure, _options
 from deodar.errors import FigureError, RecordError
 
 if TYPE_CHECKING:
+    import xarray
+
     from deodar.figures._file import FigureFile
+    from deodar.recording.writer_lock import WriterWatch
 
 HELP = "draw the variables of a record, or the file of a figure, as SVG, PDF or PNG"
 EPILOG = """\
@@ -52,7 +55,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--follow",
         action="store_true",
-        help="wait for the record, and draw again while it grows, until it is complete or Ctrl-C is pressed",
+        help="wait for the record, and draw again while it grows, until its run ends or Ctrl-C is pressed",
     )
     parser.add_argument(
         "--interval",
@@ -112,7 +115,11 @@ def _say(args: argparse.Namespace, drawn: _figure.DrawnFigure, out: Path) -> Non
 
 
 def _followed(args: argparse.Namespace) -> int:
-    """Draw again whenever the record has grown, until it is complete or Ctrl-C is pressed."""
+    """Draw again whenever the record has grown, until it is complete, or its run or this command is stopped.
+
+    Raises:
+        RecordError: the run was stopped before the record held a sample.
+    """
     # start-up time: these bring JAX
     from deodar.figures import _files
     from deodar.recording.record import about
@@ -120,30 +127,60 @@ def _followed(args: argparse.Namespace) -> int:
     if args.gif is not None or args.save_as is not None:
         args.wrong("--follow writes one figure again and again; leave out --gif and --save-as")
     drawn = out = seen = None
+    stopped: list[Path] = []
+    watches: dict[Path, WriterWatch] = {}
     try:
         while not args.record.exists():
             time.sleep(args.interval)
         while True:
             drawn = _figure.drawn(args)
             opened = drawn.figure.records(drawn.record)
-            complete = all(about(data).get("complete", True) for data in opened)
+            growing = [data for data in opened if not about(data).get("complete", True)]
             sizes = [dict(data.sizes) for data in opened]
-            if sizes != seen and (complete or all(min(size.values(), default=0) for size in sizes)):
+            filled = all(min(size.values(), default=0) for size in sizes)
+            if sizes != seen and (not growing or filled):
                 if out is None:
                     out = _claimed(args, drawn.stem)
                     print(f"Drawing into {_options.shown(out)}; Ctrl-C ends", file=sys.stderr, flush=True)
                 _files.save_figure(drawn.figure.draw(drawn.record), out, force=args.force or seen is not None)
                 seen = sizes
-            if complete:
+            stopped = _stopped(growing, watches)
+            if len(stopped) == len(growing):
                 break
             time.sleep(args.interval)
     except KeyboardInterrupt:
         pass
-    if drawn is None or out is None or seen is None:
-        print("Stopped before the record held a sample")
-    else:
+    if drawn is not None and out is not None and seen is not None:
         _say(args, drawn, out)
+    elif stopped:
+        raise RecordError(
+            "the run was stopped before the record held a sample", where=str(stopped[0]), fix="Run it again"
+        )
+    else:
+        print("Stopped before the record held a sample")
+    for path in stopped:
+        print(_continuation(path), file=sys.stderr)
     return 0
+
+
+def _stopped(growing: Sequence[xarray.Dataset], watches: dict[Path, WriterWatch]) -> list[Path]:
+    """Return the incomplete records that no process writes any more."""
+    # start-up time: this brings JAX
+    from deodar.recording.writer_lock import WriterWatch
+
+    paths = [Path(data.encoding["source"]) for data in growing]
+    return [path for path in paths if watches.setdefault(path, WriterWatch(path)).ended()]
+
+
+def _continuation(record: Path) -> str:
+    """Return a sentence on a record whose run was stopped, and the command that continues the run."""
+    # start-up time: this brings JAX
+    from deodar.batch.output import CHECKPOINT
+
+    name = record.parent if record.name == "record.zarr" else record
+    text = f"{_options.shown(name)} is incomplete, and no process writes it any more"
+    resumable = (record / CHECKPOINT).exists()
+    return f"{text}: deodar run {_options.shown(name)} --resume continues it" if resumable else text
 
 
 def _save_as(args: argparse.Namespace, figure: FigureFile, inches: Sequence[float]) -> None:

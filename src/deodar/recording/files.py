@@ -132,7 +132,10 @@ def open_record(path: str | Path) -> xarray.Dataset:
         RecordError: the record does not exist, is damaged, or was not written by deodar.
     """
     with _reading(path := Path(path)):
-        return portable.unpack_lazily(_require_record(_opened(*locate(path))))
+        place, kind = locate(path)
+        data = portable.unpack_lazily(_require_record(_opened(place, kind)))
+        data.encoding["source"] = str(place)
+        return data
 
 
 @contextlib.contextmanager

@@ -29,7 +29,7 @@ import zarr
 from deodar import codec
 from deodar.errors import DeodarError, OutputError, Problem, RecordError
 from deodar.model import output
-from deodar.recording import places, portable
+from deodar.recording import places, portable, writer_lock
 from deodar.recording.chunks import COMPRESSORS, ChunkedArray, ChunkError
 from deodar.recording.provenance import KEY
 
@@ -194,7 +194,7 @@ class GrowingRecord:
         self, lengths: Mapping[str, int], settings: Mapping[str, Any] | None = None, cut: bool = False
     ) -> None:
         path = self.path
-        self._lock = _locked(path)
+        self._lock = writer_lock.lock(path)
         try:
             with _writing(path):
                 self._read(path, lengths)
@@ -527,28 +527,6 @@ def _held(array: np.ndarray) -> np.ndarray:
     """Return values that may wait: a copy if they are less than half of the memory that they would hold."""
     whole = array.base
     return array.copy() if isinstance(whole, np.ndarray) and whole.nbytes > 2 * array.nbytes else array
-
-
-def _locked(path: Path) -> int | None:
-    """Return an open handle of the folder, locked as long as it is open, so that one process writes it.
-
-    Raises:
-        RecordError: another process writes this record.
-    """
-    if os.name != "posix":
-        return None  # folders cannot be opened there, so nothing is locked
-    # only POSIX systems have this module
-    import fcntl
-
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(handle)
-        raise RecordError(
-            "is being written by another process", where=str(path), fix="Wait until it ends, or stop it"
-        ) from None
-    return handle
 
 
 @contextlib.contextmanager

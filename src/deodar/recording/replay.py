@@ -20,7 +20,7 @@ from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import Axes
-from deodar.recording import diverged, files, provenance
+from deodar.recording import diverged, files, provenance, writer_lock
 from deodar.recording.record import about, time_dimension
 
 MOST_CACHED = 256 * 2**20
@@ -61,7 +61,6 @@ class RecordReader:
         times: document time of each moment.
         copies: coordinates of the dimensions of trials and sweeps.
         complete: whether the run came to its end.
-        notes: sentences on what is missing in it.
 
     Raises:
         RecordError: the record cannot be opened, or does not state the document that made it.
@@ -73,7 +72,10 @@ class RecordReader:
         self._lock = threading.Lock()
         self._blocks: OrderedDict[tuple[Any, ...], np.ndarray] = OrderedDict()
         self._cached = 0
-        self._stamp = _stamp(path)
+        place = _place(path)
+        self._watch = writer_lock.WriterWatch(place)
+        self._stamp = writer_lock.stamp(place)
+        self._written = writer_lock.is_written(place) is True
         data = files.open_record(path)
         try:
             made = about(data)
@@ -111,11 +113,27 @@ class RecordReader:
         lead = [] if first is None else [str(d) for d in first.variable.dims[: first.axis]]
         self.complete = bool(made.get("complete", True))
         said = [str(data.attrs[key]) for key in ("damaged", diverged.REASON) if data.attrs.get(key)]
-        self.notes = [] if self.complete else ["The record is incomplete: it ends before the end of its run."]
-        self.notes += [f"{text[0].upper()}{text[1:].rstrip('.')}." for text in said]
+        self._found = [f"{text[0].upper()}{text[1:].rstrip('.')}." for text in said]
         self.copies = {d: data[d].values if d in data.coords else np.arange(data.sizes[d]) for d in lead}
         self.times = np.unique(np.concatenate([*times.values(), np.zeros(0)]))
         self.data, self._recorded = data, found
+
+    @property
+    def growing(self) -> bool:
+        """Whether a process writes the record, as far as the lock shows."""
+        return self._written and not self.complete
+
+    @property
+    def notes(self) -> list[str]:
+        """Sentences on what is missing in it."""
+        if self.complete:
+            return self._found
+        state = (
+            "still being written, and shown up to its last commit"
+            if self.growing
+            else "incomplete: it ends before the end of its run"
+        )
+        return [f"The record is {state}.", *self._found]
 
     @property
     def ports(self) -> Iterable[PortPlace]:
@@ -216,10 +234,17 @@ class RecordReader:
     def refresh(self) -> bool:
         """Open the record again if it grew; return whether it did.
 
+        A call also finds out whether a process still writes the record (`growing`).
+
         Raises:
             RecordError: it cannot be opened any more.
         """
-        stamp = _stamp(self.path)
+        place = self._watch.path
+        if self._written:
+            self._written = not self._watch.ended()
+        else:
+            self._written = writer_lock.is_written(place) is True
+        stamp = writer_lock.stamp(place)
         if stamp == self._stamp:
             return False
         self._take(files.open_record(self.path))
@@ -227,12 +252,8 @@ class RecordReader:
         return True
 
 
-def _stamp(path: Path) -> tuple[int, ...]:
-    """Return what changes with every commit of a record that grows."""
+def _place(path: Path) -> Path:
     try:
-        place, _ = files.locate(path)
-        inner = place / "zarr.json"
-        found = (inner if inner.is_file() else place).stat()
-    except OSError:
-        return ()
-    return found.st_ino, found.st_mtime_ns, found.st_size
+        return files.locate(path)[0]
+    except RecordError:
+        return path  # opening it raises the same error, with its path

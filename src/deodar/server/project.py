@@ -242,8 +242,9 @@ class OpenProject:
         if record is None or record.complete:
             return False
         grew: list[bool] = []
+        known = record.notes
         await try_in_file_thread(lambda: grew.append(record.refresh()))
-        if record is self.record and record.complete:
+        if record is self.record and record.notes != known:
             self._moved()
         return any(grew)
 

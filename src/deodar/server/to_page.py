@@ -169,12 +169,13 @@ class CopyDimension(Data, frozen=True):
 class RecordView(Data, frozen=True):
     """An open record.
 
-    `path` is relative to the root. `notes` are sentences on what is missing in it. `ports` lists for each
-    element the ports that were recorded.
+    `path` is relative to the root. `growing`: a process writes it. `notes` are sentences on what is missing
+    in it. `ports` lists for each element the ports that were recorded.
     """
 
     path: str
     complete: bool
+    growing: bool
     notes: list[str]
     copies: list[CopyDimension]
     ports: dict[str, list[str]]

@@ -98,7 +98,14 @@ def record(reader: RecordReader, path: str) -> RecordView:
         CopyDimension(name=name, values=[f"{v:g}" for v in values.tolist()])
         for name, values in reader.copies.items()
     ]
-    return RecordView(path=path, complete=reader.complete, notes=reader.notes, copies=copies, ports=ports)
+    return RecordView(
+        path=path,
+        complete=reader.complete,
+        growing=reader.growing,
+        notes=reader.notes,
+        copies=copies,
+        ports=ports,
+    )
 
 
 NO_COMPARISON = Comparison(path="", progress=0.0, compared=0, differences=[], notes=[], problems=[])

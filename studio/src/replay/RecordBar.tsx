@@ -14,7 +14,7 @@ export function RecordBar({ record }: { record: RecordView }) {
     <div className={classes.bar} role="toolbar" aria-label="Record">
       <span className={classes.mark} title={record.path}>
         <IconMovie size={16} stroke={1.6} aria-hidden="true" />
-        Record{record.complete ? "" : ", incomplete"}
+        Record{record.growing ? ", growing" : record.complete ? "" : ", incomplete"}
       </span>
       {record.copies.map(({ name, values }) => (
         <label key={name} className={classes.choice}>
