@@ -17,7 +17,7 @@ import { live } from "../world/live";
 import { World } from "../world/World";
 import { restore, signature } from "./arrangement";
 import { Empty } from "./Empty";
-import { forgetArrangements, openTool, setDock } from "./openPlot";
+import { forgetArrangements, openFirstWorld, openTool, setDock } from "./openPlot";
 import { PlotPanel } from "./PlotPanel";
 import "./dock.css";
 
@@ -107,7 +107,7 @@ export function Dock() {
   const seen = useSyncExternalStore(live.listen, () => live.scene() !== null);
   useEffect(() => {
     if (api !== null && seen && useStudio.getState().document?.layout["panels"] === undefined) {
-      openTool("world");
+      openFirstWorld();
     }
   }, [api, session, seen]);
 

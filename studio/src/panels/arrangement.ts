@@ -4,16 +4,47 @@ import type { DockviewApi, SerializedDockview } from "dockview-react";
 import { firstToPlot, mainPort, plotKinds, portAxes } from "../plots/kinds";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
+import { NARROW } from "./placement";
 import { TOOL_NAMES, TOOLS } from "./tools";
 
 const COMPONENTS: string[] = [...TOOL_NAMES, "plot"];
 const SIDE_BELOW = 260;
 const PLOT = 0.4;
+const NARROW_BELOW = 0.5;
 
 // The architecture at the left with a plot of the first field below it; inspector and sliders at the right.
+// On a narrow page the architecture is above, and the others share the place below it.
 export function arrangeFirst(api: DockviewApi): void {
   api.clear();
   api.addPanel({ id: "graph", component: "graph", title: TOOLS.graph.title });
+  const plot = firstPlot();
+  if (api.width > 0 && api.width < NARROW) {
+    arrangeNarrow(api, plot);
+  } else {
+    arrangeWide(api, plot);
+  }
+  api.getPanel("graph")?.api.setActive();
+}
+
+type FirstPlot = { id: string; component: string; title: string; params: object };
+
+function arrangeNarrow(api: DockviewApi, plot: FirstPlot | null): void {
+  const below = { referencePanel: "graph", direction: "below" } as const;
+  const within = { referencePanel: "inspector", direction: "within" } as const;
+  api.addPanel({
+    id: "inspector",
+    component: "inspector",
+    title: TOOLS.inspector.title,
+    position: below,
+    initialHeight: Math.round(NARROW_BELOW * api.height),
+  });
+  api.addPanel({ id: "pins", component: "pins", title: TOOLS.pins.title, position: within });
+  if (plot !== null) {
+    api.addPanel({ ...plot, position: within });
+  }
+}
+
+function arrangeWide(api: DockviewApi, plot: FirstPlot | null): void {
   api.addPanel({
     id: "inspector",
     component: "inspector",
@@ -28,21 +59,29 @@ export function arrangeFirst(api: DockviewApi): void {
     position: { referencePanel: "inspector", direction: "below" },
     initialHeight: SIDE_BELOW,
   });
-  const { document, kinds } = useStudio.getState();
-  const element = document === null ? null : firstToPlot(document, kinds);
-  if (document !== null && element !== null) {
-    const port = mainPort(element, kinds.get(element.kind));
-    const kind = plotKinds(portAxes(document, element, port))[0] ?? "course";
+  if (plot !== null) {
     api.addPanel({
-      id: "plot-1",
-      component: "plot",
-      title: plotTitle({ element: element.id, kind }),
-      params: { element: element.id, kind, port, settings: {} },
+      ...plot,
       position: { referencePanel: "graph", direction: "below" },
       initialHeight: Math.round(PLOT * api.height),
     });
   }
-  api.getPanel("graph")?.api.setActive();
+}
+
+function firstPlot(): FirstPlot | null {
+  const { document, kinds } = useStudio.getState();
+  const element = document === null ? null : firstToPlot(document, kinds);
+  if (document === null || element === null) {
+    return null;
+  }
+  const port = mainPort(element, kinds.get(element.kind));
+  const kind = plotKinds(portAxes(document, element, port))[0] ?? "course";
+  return {
+    id: "plot-1",
+    component: "plot",
+    title: plotTitle({ element: element.id, kind }),
+    params: { element: element.id, kind, port, settings: {} },
+  };
 }
 
 // The arrangement stored in the document, or the default if it is missing or invalid.

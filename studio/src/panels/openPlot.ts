@@ -4,7 +4,7 @@ import type { DockviewApi, IDockviewPanel } from "dockview-react";
 import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds";
 import { readParams } from "../plots/settings";
 import { useStudio } from "../store";
-import { placeFor } from "./placement";
+import { NARROW, placeFor } from "./placement";
 import { Remembered } from "./remembered";
 import { TOOLS, type Tool } from "./tools";
 
@@ -74,6 +74,25 @@ export function openTool(tool: Tool): void {
   const { title, direction, width } = TOOLS[tool];
   remembered?.add();
   dock.addPanel({ id: tool, component: tool, title, position: { direction }, initialWidth: width });
+}
+
+// Show the world of a document that was just opened: beside its first plot, so that the architecture keeps
+// its place.
+export function openFirstWorld(): void {
+  const plot = dock?.getPanel("plot-1");
+  if (dock === null || plot === undefined || dock.getPanel("world") !== undefined) {
+    openTool("world");
+    return;
+  }
+  const direction = dock.width < NARROW ? "within" : "right";
+  remembered?.add();
+  dock.addPanel({
+    id: "world",
+    component: "world",
+    title: TOOLS.world.title,
+    position: { referencePanel: plot, direction },
+    inactive: direction === "within",
+  });
 }
 
 export function plotTitle({ element, kind }: { element: string; kind: PlotKind | null }): string {

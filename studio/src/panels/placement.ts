@@ -2,6 +2,9 @@
 
 import type { AddPanelPositionOptions, DockviewApi, DockviewGroupPanel } from "dockview-react";
 
+// A page that is narrower has no room for panels side by side, in px.
+export const NARROW = 900;
+
 export type PanelSize = { width: number; height: number };
 
 const WIDE = 640;
