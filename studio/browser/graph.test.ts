@@ -12,6 +12,8 @@ let observer: Observer;
 
 beforeAll(async () => {
   studio = await startStudio({ copies: ["examples/groups.json"], file: "groups.json" });
+  // all names and numbers have room
+  await studio.page.setViewportSize({ width: 2000, height: 1500 });
   observer = await studio.observe();
   await observer.runs();
 });
@@ -41,7 +43,8 @@ test("elements are boxes with name and kind, couplings are drawn on their edges"
   const { page } = studio;
   for (const path of ["search.intention", "search.satisfied", "lift.intention", "start"])
     await box(page, path).waitFor();
-  expect(await box(page, "search.intention").innerText()).toMatch(/intention\s+Field/);
+  expect(await box(page, "search.intention").innerText()).toMatch(/intention/);
+  expect(await box(page, "search.intention").getAttribute("aria-label")).toMatch(/, Field$/);
   expect(await box(page, "search.expects").count(), "a coupling is no box").toBe(0);
   await button(page, "search.expects, 2.5").click();
   await inspected("expects").waitFor();

@@ -11,9 +11,11 @@ import { LiveBox } from "./LiveBox";
 import { Mark } from "./Mark";
 import type { BoxNode } from "./scene";
 import { useProblem, useWarning } from "./problem";
+import { useLook } from "./zoom";
 
 export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<BoxNode>) {
-  const { element: id, path, name, title, inputs, outputs } = data;
+  const { element: id, path, name, title, family, inputs, outputs } = data;
+  const level = useLook((look) => look.level);
   const selected = useStudio((state) => state.selected.includes(id));
   const port = useStudio((state) => shownPort(state.elements.get(id), state.document?.record?.ports[id]));
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
@@ -25,6 +27,7 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
   return (
     <div
       className="graph-box"
+      data-family={family}
       data-wiring={fits.box || undefined}
       data-reached={reached || undefined}
       data-selected={selected || undefined}
@@ -33,7 +36,7 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
       onPointerEnter={({ currentTarget }) => useWiring.getState().wiring === null && enter(id, currentTarget)}
       onPointerLeave={leave}
     >
-      <Ports element={id} names={inputs} side="target" height={height} fits={fits} />
+      {level !== "dot" && <Ports element={id} names={inputs} side="target" height={height} fits={fits} />}
       <div className="graph-box-head">
         <div className="graph-box-name one-line" title={path}>
           {name}
@@ -41,16 +44,16 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
         <div className="graph-box-kind one-line">{title}</div>
         <Mark element={id} />
       </div>
-      {port !== null && (
+      {port !== null && level !== "dot" && (
         <LiveBox
           element={id}
           port={port}
           label={`${port} of ${path}, live`}
-          width={LIVE.width}
-          height={live}
+          width={level === "full" ? LIVE.width : LIVE.small}
+          height={level === "full" ? live : LIVE.number}
         />
       )}
-      <Ports element={id} names={outputs} side="source" height={height} fits={fits} />
+      {level !== "dot" && <Ports element={id} names={outputs} side="source" height={height} fits={fits} />}
     </div>
   );
 });

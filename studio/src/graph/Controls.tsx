@@ -9,10 +9,11 @@ import {
   IconSitemap,
   IconSquarePlus,
 } from "@tabler/icons-react";
-import { useReactFlow, type FitViewOptions } from "@xyflow/react";
+import { useReactFlow } from "@xyflow/react";
 import type { ReactNode } from "react";
 import { openPalette } from "../build/palette";
 import { useOffline } from "../connection/NeedsServer";
+import { FIT } from "./fit";
 import { glide } from "./glide";
 
 type Props = { onSearch: () => void; onTidy: () => void };
@@ -47,11 +48,6 @@ export function Controls({ onSearch, onTidy }: Props) {
   );
 }
 
-// The left margin keeps clear of the buttons.
-export const FIT: FitViewOptions = {
-  padding: { top: "32px", right: "48px", bottom: "32px", left: "64px" },
-  maxZoom: 1.15,
-};
 export const GLIDE_MS = 200;
 
 type ControlProps = { label: string; disabled?: boolean; onClick: () => void; children: ReactNode };

@@ -13,7 +13,7 @@ import {
   type NodeTypes,
 } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
-import { type RefObject, useCallback, useEffect, useMemo, useRef, useState } from "react";
+import { useCallback, useEffect, useRef, useState } from "react";
 import { copyDragged } from "../build/dragging";
 import { RenameBox } from "../build/RenameBox";
 import { openSelectionCommands } from "../build/commands";
@@ -31,18 +31,23 @@ import { place, unfold } from "./arrange";
 import { Box } from "./Box";
 import { ElementCard } from "./ElementCard";
 import { CommentBox } from "./CommentBox";
-import { Controls, FIT, GLIDE_MS } from "./Controls";
+import { Controls, GLIDE_MS } from "./Controls";
 import { EmptyHint } from "./EmptyHint";
 import { Folded } from "./Folded";
 import { GroupFrame } from "./GroupFrame";
+import { FIT, ZOOM } from "./fit";
+import { tidied } from "./folding";
 import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
 import { newPainting, PainterContext } from "./PainterContext";
-import { foldedAround, groupKey, scene, type SceneNode, type Structure } from "./scene";
+import { foldedAround, groupKey, type GraphScene, type SceneNode, type Structure } from "./scene";
 import { Search } from "./Search";
 import { useStructure } from "./structure";
+import { useAnchor } from "./useAnchor";
 import { useNodes } from "./useNodes";
+import { useStart } from "./useStart";
+import { useZoomLook } from "./useZoomLook";
 import { WireEdge } from "./WireEdge";
 
 const NODES: NodeTypes = { box: Box, frame: GroupFrame, folded: Folded, comment: CommentBox };
@@ -70,17 +75,16 @@ export function Graph() {
 
 function Canvas({ structure }: { structure: Structure }) {
   const kinds = useStudio((state) => state.kinds);
-  const now = useMemo(() => scene(structure, kinds), [structure, kinds]);
+  const around = useRef<HTMLDivElement>(null);
+  const { now, touch } = useStart(structure, kinds, around);
   const { nodes, onNodesChange, settle, reset } = useNodes(now);
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
   const [searching, setSearching] = useState(false);
-  const around = useRef<HTMLDivElement>(null);
   const center = useCenter(now);
   const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
   useEffect(() => layer.change(), [layer, nodes]);
   const flow = useReactFlow();
-  const touched = useWhole(around);
   const stage = useStage(around, now, (element) => {
     useStudio.getState().select([element]);
     center(element);
@@ -88,6 +92,8 @@ function Canvas({ structure }: { structure: Structure }) {
   const wiring = useWires();
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
+  useZoomLook(around);
+  useAnchor(now);
 
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
@@ -102,9 +108,7 @@ function Canvas({ structure }: { structure: Structure }) {
   }, []);
 
   const tidy = useCallback(async () => {
-    const { problems = [] } = await place(
-      scene({ ...structure, layout: { ...structure.layout, boxes: {} } }, kinds).places.elements,
-    );
+    const { problems = [] } = await place(tidied(structure, kinds));
     if (problems.length === 0) {
       requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: glide(GLIDE_MS) }));
     }
@@ -127,9 +131,9 @@ function Canvas({ structure }: { structure: Structure }) {
         className="graph"
         ref={around}
         {...stage}
-        onPointerDownCapture={touched}
-        onWheelCapture={touched}
-        onKeyDownCapture={touched}
+        onPointerDownCapture={touch}
+        onWheelCapture={touch}
+        onKeyDownCapture={touch}
       >
         <ReactFlow<SceneNode, Edge>
           nodes={nodes}
@@ -183,8 +187,8 @@ function Canvas({ structure }: { structure: Structure }) {
           deleteKeyCode={null}
           multiSelectionKeyCode={MULTI}
           zoomOnDoubleClick={false}
-          minZoom={0.08}
-          maxZoom={2.5}
+          minZoom={ZOOM.min}
+          maxZoom={ZOOM.max}
           fitView={fits}
           fitViewOptions={FIT}
         >
@@ -222,7 +226,7 @@ function Canvas({ structure }: { structure: Structure }) {
 }
 
 // Brings an element into the middle; folded groups around it are opened first.
-function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
+function useCenter(now: GraphScene): (element: string) => void {
   const { getNodesBounds, setCenter, getZoom } = useReactFlow();
   const [wanted, setWanted] = useState<string | null>(null);
   useEffect(() => {
@@ -246,29 +250,6 @@ function useCenter(now: ReturnType<typeof scene>): (element: string) => void {
     }
     setWanted(element);
   };
-}
-
-// Until a person moves the view, all boxes are visible at any size of the panel: at first it rarely has its
-// own. Gives what to call then.
-function useWhole(around: RefObject<HTMLElement | null>): () => void {
-  const { fitView, getNodes } = useReactFlow();
-  const touched = useRef(false);
-  useEffect(() => {
-    if (around.current === null) {
-      return;
-    }
-    const observer = new ResizeObserver(() => {
-      // xyflow would keep the request of an empty canvas for its first box
-      if (!touched.current && getNodes().length > 0) {
-        void fitView(FIT);
-      }
-    });
-    observer.observe(around.current);
-    return () => observer.disconnect();
-  }, [around, fitView, getNodes]);
-  return useCallback(() => {
-    touched.current = true;
-  }, []);
 }
 
 function miniClass({ type }: SceneNode): string {

@@ -3,18 +3,27 @@
 import type { Answer } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { readFolded } from "./boxes";
+import { foldedNow, useOpening } from "./folding";
 import type { Point } from "./layout";
 
 // Fold a group, or open it. The document keeps it, without a step of undo.
 export function fold(key: string, closed: boolean): void {
-  const folded = readFolded(useStudio.getState().document?.layout ?? {}).filter((other) => other !== key);
-  void request({ type: "arrange", layout: { folded: closed ? [...folded, key] : folded }, undoable: false });
+  const others = now().filter((other) => other !== key);
+  keep(closed ? [...others, key] : others);
 }
 
 // Open several groups at once.
 export function unfold(keys: string[]): void {
-  const folded = readFolded(useStudio.getState().document?.layout ?? {}).filter((key) => !keys.includes(key));
+  keep(now().filter((key) => !keys.includes(key)));
+}
+
+function now(): string[] {
+  return foldedNow(useStudio.getState().document?.layout ?? {});
+}
+
+// At once on this page, also on one without a server, where no document keeps it.
+function keep(folded: string[]): void {
+  useOpening.setState({ folded });
   void request({ type: "arrange", layout: { folded }, undoable: false });
 }
 

@@ -4,7 +4,8 @@ import type { ElementView } from "../protocol";
 import type { Point, Size } from "./layout";
 
 export const BOX = { width: 156, title: 40, port: 24, pad: 8 };
-export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20 };
+// `small` is the width of a live picture in a box that shows its name and little else.
+export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20, small: 84 };
 
 // The port whose values the box shows.
 export function livePort(element: ElementView): string | null {

@@ -4,6 +4,7 @@ import { diverging, portColor, sequential, shade, type Shade } from "../plots/co
 import { paintCurve, paintHeat, paintPicture } from "../plots/paint";
 import type { Live } from "../streams";
 import { follow, open, type Span } from "./span";
+import { LIVE } from "./boxes";
 import { short } from "./facts";
 
 export type Canvas = {
@@ -91,7 +92,7 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
     return;
   }
   const { width, height, port } = canvas;
-  const bar = width - 58;
+  const bar = width < LIVE.width ? width : width - 58;
   const place = (v: number) => (bar * (v - lower)) / (upper - lower);
   const middle = Math.round(height / 2);
   ctx.fillStyle = ink().ground;
@@ -102,6 +103,9 @@ function drawNumber(canvas: Canvas, value: number, lower: number, upper: number)
   }
   ctx.fillStyle = ink().line;
   ctx.fillRect(Math.round(place(0)), middle - 6, 1, 12);
+  if (bar === width) {
+    return;
+  }
   ctx.fillStyle = ink().text;
   ctx.font = ink().font;
   ctx.textAlign = "right";

@@ -1,8 +1,9 @@
 // The layout: boxes at the positions of the document, the others by dagre from left to right, group by group
-// from inside out.
+// from inside out, in the shape of the canvas.
 
 import { Graph, layout as arrange } from "@dagrejs/dagre";
 import type { Branch } from "./tree";
+import { squeezed } from "./squeeze";
 import { wrapped } from "./wrap";
 
 export type Point = { x: number; y: number };
@@ -12,30 +13,50 @@ export type Rect = Point & Size;
 // Two elements that belong side by side; `room` is the width that its pills need.
 export type Bond = { source: string; target: string; room: number };
 
-export type Places = { elements: Map<string, Point>; groups: Map<string, Rect> };
+// `whole` is the size of everything that is visible.
+export type Places = { elements: Map<string, Point>; groups: Map<string, Rect>; whole: Size };
 
 export const FRAME = { side: 28, top: 40, bottom: 40 };
 export const FOLDED: Size = { width: 168, height: 64 };
+// The size of the canvas where it is not known.
+export const PANEL: Size = { width: 950, height: 400 };
 
-const GAP = { rank: 56, node: 28, pill: 24, apart: 24 };
+// The width of the number of connections that an edge stands for.
+const COUNT = 24;
+
+// Gaps between boxes; edges and pills take little room between the boxes that they pass, because room makes
+// all boxes smaller.
+const GAP = { rank: 40, node: 20, pill: 4, edge: 4, apart: 24 };
 
 type Item = { id: string; rect: Rect; placed: boolean; inner: Laid | null; group: Branch | null };
 type Laid = { items: Item[]; rect: Rect; placed: boolean };
 
 // Positions on the canvas of all elements, also of those inside folded groups, and the rectangles of all
-// groups.
+// groups. `panel` is the size of the canvas.
 export function places(
   root: Branch,
   sizes: Map<string, Size>,
   bonds: Bond[],
   boxes: Map<string, Point>,
+  panel: Size = PANEL,
 ): Places {
-  const found: Places = { elements: new Map(), groups: new Map() };
-  collect(level(root, sizes, bonds, boxes), { x: 0, y: 0 }, found);
+  const laid = level(root, sizes, bonds, boxes, panel);
+  const whole = {
+    width: laid.rect.width - 2 * FRAME.side,
+    height: laid.rect.height - FRAME.top - FRAME.bottom,
+  };
+  const found: Places = { elements: new Map(), groups: new Map(), whole };
+  collect(laid, { x: 0, y: 0 }, found);
   return found;
 }
 
-function level(branch: Branch, sizes: Map<string, Size>, bonds: Bond[], boxes: Map<string, Point>): Laid {
+function level(
+  branch: Branch,
+  sizes: Map<string, Size>,
+  bonds: Bond[],
+  boxes: Map<string, Point>,
+  panel: Size,
+): Laid {
   const items: Item[] = branch.elements.map((id) => {
     const box = boxes.get(id);
     return {
@@ -47,24 +68,24 @@ function level(branch: Branch, sizes: Map<string, Size>, bonds: Bond[], boxes: M
     };
   });
   for (const group of branch.groups) {
-    const inner = level(group, sizes, bonds, boxes);
+    const inner = level(group, sizes, bonds, boxes, panel);
     const frame = { ...inner.rect, ...(group.folded ? FOLDED : {}) };
     items.push({ id: group.key, rect: frame, placed: inner.placed, inner, group });
   }
   const placed = items.some((item) => item.placed);
-  spread(items, lifted(branch, bonds));
+  spread(items, lifted(branch, bonds), panel);
   makeRoom(items);
   return { items, rect: frameAround(items), placed };
 }
 
 // Uses dagre for the items without a position; items with a position keep it, and the others are placed
 // relative to them.
-function spread(items: Item[], bonds: Bond[]): void {
+function spread(items: Item[], bonds: Bond[], panel: Size): void {
   const free = items.filter((item) => !item.placed);
   if (free.length === 0) {
     return;
   }
-  const wished = byDagre(items, bonds);
+  const wished = byDagre(items, bonds, panel);
   const fixed = items.filter((item) => item.placed);
   const mean = (of: (item: Item) => number) =>
     fixed.reduce((sum, item) => sum + of(item), 0) / Math.max(1, fixed.length);
@@ -82,9 +103,15 @@ function spread(items: Item[], bonds: Bond[]): void {
   }
 }
 
-function byDagre(items: Item[], bonds: Bond[]): Map<string, Point> {
+function byDagre(items: Item[], bonds: Bond[], panel: Size): Map<string, Point> {
   const graph = new Graph({ multigraph: true });
-  graph.setGraph({ rankdir: "LR", ranksep: GAP.rank, nodesep: GAP.node, edgesep: 12, acyclicer: "greedy" });
+  graph.setGraph({
+    rankdir: "LR",
+    ranksep: GAP.rank,
+    nodesep: GAP.node,
+    edgesep: GAP.edge,
+    acyclicer: "greedy",
+  });
   for (const { id, rect } of items) {
     graph.setNode(id, { width: rect.width, height: rect.height });
   }
@@ -105,7 +132,8 @@ function byDagre(items: Item[], bonds: Bond[]): Map<string, Point> {
       return [id, { x: Math.round(x - rect.width / 2), y: Math.round(y - rect.height / 2) }];
     }),
   );
-  return wrapped(found, new Map(items.map(({ id, rect }) => [id, rect])));
+  const sizes = new Map(items.map(({ id, rect }) => [id, rect]));
+  return wrapped(squeezed(found, sizes, GAP.node), sizes, panel);
 }
 
 // Bonds between the items of this level: those of elements deeper inside count for the group around them.
@@ -116,10 +144,20 @@ function lifted(branch: Branch, bonds: Bond[]): Bond[] {
     group.groups.forEach((inner) => claim(inner, as));
   };
   branch.groups.forEach((group) => claim(group, group.key));
-  return bonds.flatMap(({ source, target, room }) => {
+  // Several between the same two items take the place of one, and have no pills where they end at a folded
+  // group, which shows their number.
+  const folded = new Set(branch.groups.filter((group) => group.folded).map((group) => group.key));
+  const merged = new Map<string, Bond>();
+  for (const { source, target, room } of bonds) {
     const [from, to] = [item.get(source), item.get(target)];
-    return from === undefined || to === undefined ? [] : [{ source: from, target: to, room }];
-  });
+    if (from !== undefined && to !== undefined) {
+      const key = JSON.stringify([from, to]);
+      const known = merged.get(key);
+      const own = known !== undefined && (folded.has(from) || folded.has(to)) ? COUNT : room;
+      merged.set(key, { source: from, target: to, room: Math.max(own, known?.room ?? 0) });
+    }
+  }
+  return [...merged.values()];
 }
 
 // An open group that grew (unfolded, or with a new element) moves the items that it covers to the right or

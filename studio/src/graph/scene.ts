@@ -6,6 +6,7 @@ import type { DocumentView, ElementView, Kind } from "../protocol";
 import { boxSize, portHeight, readBoxes, readFolded } from "./boxes";
 import { chains, type Chain } from "./chains";
 import { type CanvasComment, readComments } from "./comments";
+import { elementFamily, type ElementFamily } from "./family";
 import { FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
 import { lanes } from "./lanes";
 import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
@@ -17,6 +18,7 @@ export type BoxData = {
   path: string;
   name: string;
   title: string;
+  family: ElementFamily;
   inputs: string[];
   outputs: string[];
 };
@@ -45,7 +47,8 @@ export const groupKey = (node: string): string => node.slice("group:".length);
 
 export const PILL = { height: 22, gap: 4, letter: 6.6, pad: 34, most: 132 };
 
-export function scene(structure: Structure, kinds: Map<string, Kind>): GraphScene {
+// `panel` is the size of the canvas, whose shape the layout takes.
+export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Size): GraphScene {
   const { elements, groups, layout } = structure;
   const chained = chains(structure, kinds);
   const found = tree(elements, groups, readFolded(layout), chained.couplings);
@@ -56,7 +59,7 @@ export function scene(structure: Structure, kinds: Map<string, Kind>): GraphScen
     target: e.target,
     room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")),
   }));
-  const where = places(found.root, sizes, bonds, readBoxes(layout));
+  const where = places(found.root, sizes, bonds, readBoxes(layout), panel);
   const wires = wiresOf(chained.edges, found, names);
   lanes(wires, (node) => rectOf(node, where, sizes));
   return {
@@ -132,7 +135,9 @@ type Stand = { position: Point; parentId?: string };
 
 function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, stand: Stand): BoxNode {
   const { id, path, name, inputs, outputs } = element;
-  const title = kinds.get(element.kind)?.title ?? element.kind;
+  const kind = kinds.get(element.kind);
+  const title = kind?.title ?? element.kind;
+  const family = elementFamily(element, kind);
   return {
     id,
     type: "box",
@@ -140,7 +145,7 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
     ...size,
     measured: size,
     handles: [...ports(inputs, "target", size), ...ports(outputs, "source", size)],
-    data: { element: id, path, name, title, inputs, outputs },
+    data: { element: id, path, name, title, family, inputs, outputs },
     ariaLabel: `${path}, ${title}`,
     zIndex: 2,
   };

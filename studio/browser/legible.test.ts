@@ -1,0 +1,163 @@
+/** Names on the canvas can be read: with 70 boxes and with 500, on a wide and on a narrow page. */
+import { readdirSync } from "node:fs";
+import { join } from "node:path";
+
+import type { Locator, Page } from "playwright-core";
+import { afterAll, beforeAll, expect, test } from "vitest";
+
+import { ident, many } from "./bench/documents";
+import { box, button, panel } from "./hands";
+import type { Observer } from "./observer";
+import { shot, startStudio, type Studio } from "./studio";
+
+const SMALLEST = 9;
+const WIDE = 1280;
+const NARROW = 640;
+const ELEMENTS = 500;
+const GROUP = 25;
+const EXAMPLES = join(import.meta.dirname, "..", "..", "examples");
+const SPA = readdirSync(EXAMPLES).filter((name) => /^spa\..*npz$|^spa\.json$/.test(name));
+
+/** Five hundred elements in twenty groups, without a stored layout. */
+function grouped(): object {
+  const document = many(ELEMENTS) as {
+    elements: Record<string, object>;
+    connections: { source: string; target: string }[];
+  };
+  const path = (name: string) => `part${Math.floor(Number.parseInt(name.slice(1), 10) / GROUP)}.${name}`;
+  return {
+    ...document,
+    groups: Array.from({ length: ELEMENTS / GROUP }, (_, i) => `part${i}`),
+    elements: Object.fromEntries(
+      Object.entries(document.elements).map(([name, element]) => [
+        path(name),
+        { ...element, id: ident(name) },
+      ]),
+    ),
+    connections: document.connections.map(({ source, target }) => ({
+      source: path(source),
+      target: path(target),
+    })),
+    layout: {},
+  };
+}
+
+let studio: Studio;
+let observer: Observer;
+
+beforeAll(async () => {
+  studio = await startStudio({
+    copies: SPA.map((name) => `examples/${name}`),
+    files: { "grouped.json": JSON.stringify(grouped()), "many.json": JSON.stringify(many(ELEMENTS)) },
+    file: "spa.json",
+  });
+  observer = await studio.observe();
+});
+
+afterAll(() => studio.stop());
+
+/** The sizes of all visible names on the canvas, in px of the screen: the font's, and the lines' height. */
+const names = (page: Page): Promise<{ text: string; size: number; height: number }[]> =>
+  panel(page, "Architecture")
+    .locator(".graph-box-name, .graph-frame-title, .graph-port, .graph-pill, .graph-count")
+    .evaluateAll((all) =>
+      all.flatMap((one) => {
+        const range = document.createRange();
+        range.selectNodeContents(one);
+        const { width, height } = range.getBoundingClientRect();
+        const viewport = one.closest(".react-flow__viewport") as HTMLElement;
+        const zoom = new DOMMatrix(getComputedStyle(viewport).transform).a;
+        const size = zoom * Number.parseFloat(getComputedStyle(one).fontSize);
+        return width > 0 && one.textContent !== "" ? [{ text: one.textContent ?? "", size, height }] : [];
+      }),
+    );
+
+/** Names once the canvas is still: the same number and sizes twice. */
+async function settled(page: Page): ReturnType<typeof names> {
+  let before = "";
+  for (;;) {
+    const now = await names(page);
+    const known = JSON.stringify(now.map(({ text, size }) => [text, size]));
+    if (known === before) return now;
+    before = known;
+    await page.waitForTimeout(150);
+  }
+}
+
+/** Pairs of boxes, open groups left out, that cover a part of each other. */
+const overlaps = (page: Page): Promise<string[]> =>
+  panel(page, "Architecture")
+    .locator(".graph-box, .graph-folded")
+    .evaluateAll((all) => {
+      const rects = all.map((one) => one.getBoundingClientRect());
+      return rects.flatMap((a, i) =>
+        rects
+          .slice(i + 1)
+          .filter((b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)
+          .map((b) => `${a.left},${a.top} and ${b.left},${b.top}`),
+      );
+    });
+
+async function readable(page: Page, least: number): Promise<void> {
+  await expect.poll(async () => (await settled(page)).length).toBeGreaterThanOrEqual(least);
+  const small = (await settled(page)).filter(({ size, height }) => Math.min(size, height) < SMALLEST);
+  expect(small, "names that are too small").toEqual([]);
+  expect(await overlaps(page), "boxes that overlap").toEqual([]);
+}
+
+/** Open another file, and wait for what it shows, but not for its program. */
+async function open(path: string, first: Locator): Promise<void> {
+  await observer.ask({ type: "close", discard: true });
+  await studio.page.getByRole("heading", { name: "Examples" }).waitFor();
+  await observer.ask({ type: "open_file", path });
+  await first.waitFor();
+}
+
+/** Change the width and reload: panels are arranged for the width that they find. */
+async function reloaded(width: number): Promise<void> {
+  await studio.page.setViewportSize({ width, height: 800 });
+  await studio.page.reload();
+}
+
+const foldedGroup = (name: string) =>
+  studio.page.getByRole("group", { name: new RegExp(`^Group ${name}, folded, `) });
+
+test("the groups of planning are folded, names are readable, on a wide and a narrow page", async () => {
+  const { page } = studio;
+  await foldedGroup("north").waitFor();
+  await readable(page, 20);
+  await shot(page, "legible-spa-wide");
+  await reloaded(NARROW);
+  await readable(page, 20);
+  await shot(page, "legible-spa-narrow");
+  await reloaded(WIDE);
+  await readable(page, 20);
+  await button(page, "Unfold north").click();
+  await box(page, "north.motivation").waitFor();
+  await observer.until(() => Array.isArray(observer.document?.layout["folded"]));
+  expect(observer.document?.layout["folded"], "the others stay folded").toEqual(["south", "west", "east"]);
+  await readable(page, 20);
+  await shot(page, "legible-spa-open");
+});
+
+test("five hundred elements in groups are twenty folded groups", async () => {
+  const { page } = studio;
+  await open("grouped.json", foldedGroup("part0"));
+  await readable(page, ELEMENTS / GROUP);
+  await shot(page, "legible-grouped");
+  await button(page, "Unfold part3").click();
+  await box(page, "part3.u75").waitFor();
+  await readable(page, ELEMENTS / GROUP);
+  await shot(page, "legible-grouped-open");
+});
+
+test("five hundred elements without groups are dots until the canvas is zoomed in", async () => {
+  const { page } = studio;
+  await open("many.json", box(page, "u0"));
+  await expect.poll(() => page.locator(".graph-box").count()).toBe(ELEMENTS);
+  await readable(page, 0);
+  await shot(page, "legible-many");
+  for (let i = 0; i < 4; i++) await button(page, "Zoom in").click();
+  await readable(page, 20);
+  await shot(page, "legible-many-near");
+});

@@ -1,0 +1,36 @@
+// Applies the level of detail to the canvas once its zoom rests: to change the size of hundreds of names
+// costs a picture of the browser, and during a movement the browser only scales what it has.
+
+import { useStoreApi } from "@xyflow/react";
+import { type RefObject, useLayoutEffect } from "react";
+import { lookAt, useLook } from "./zoom";
+
+const REST_MS = 80;
+
+export function useZoomLook(around: RefObject<HTMLElement | null>): void {
+  const flow = useStoreApi();
+  useLayoutEffect(() => {
+    let timer = 0;
+    const apply = () => {
+      const { level, text, numbers } = lookAt(flow.getState().transform[2]);
+      const before = useLook.getState();
+      around.current?.setAttribute("data-level", level);
+      around.current?.toggleAttribute("data-numbers", numbers);
+      around.current?.style.setProperty("--graph-text", `${text}px`);
+      if (before.level !== level || before.text !== text) {
+        useLook.setState({ level, text, numbers });
+      }
+    };
+    apply();
+    const leave = flow.subscribe((state, before) => {
+      if (state.transform[2] !== before.transform[2]) {
+        window.clearTimeout(timer);
+        timer = window.setTimeout(apply, REST_MS);
+      }
+    });
+    return () => {
+      window.clearTimeout(timer);
+      leave();
+    };
+  }, [flow, around]);
+}
