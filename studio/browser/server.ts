@@ -1,7 +1,9 @@
 /** `deodar studio` in folders of its own, as a user starts it. */
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
+import { connect } from "node:net";
 import { join } from "node:path";
+import type { Readable } from "node:stream";
 
 const ROOT = join(import.meta.dirname, "..", "..");
 const ADDRESS = /http:\/\/127\.0\.0\.1:\d+\S*(?=\s)/;
@@ -38,6 +40,55 @@ export function python(): string {
   return found;
 }
 
+interface Child {
+  output: Readable[];
+  kill: (signal: NodeJS.Signals) => void;
+  /** How it ended. */
+  ended: Promise<string>;
+}
+
+type Start = (words: string[], folder: string, env: NodeJS.ProcessEnv) => Promise<Child>;
+
+const spawned: Start = async (words, folder, env) => {
+  const child = spawn(python(), ["-m", "deodar", ...words], {
+    cwd: folder,
+    env,
+    stdio: ["ignore", "pipe", "pipe"],
+  });
+  const ended = new Promise<string>((resolve) => {
+    child.once("error", (error) => resolve(`did not start (${error.message})`));
+    child.once("close", (status) => resolve(`ended with status ${status}`));
+  });
+  return { output: [child.stdout, child.stderr], kill: (signal) => child.kill(signal), ended };
+};
+
+/** Name of the environment variable with the socket of `forking.py`, where a start takes no import. */
+export const FORKING = "DEODAR_FORKING";
+
+const forked: Start = async (words, folder, env) => {
+  const socket = connect(process.env[FORKING] ?? "");
+  const ended = new Promise<string>((resolve) => {
+    socket.once("error", (error) => resolve(`did not start (${error.message})`));
+    socket.once("close", () => resolve("ended"));
+  });
+  socket.write(`${JSON.stringify({ words, folder, env })}\n`);
+  const number = await new Promise<number>((resolve, reject) => {
+    // the first line was sent alone, but may arrive with output behind it
+    socket.once("data", (piece) => {
+      socket.pause();
+      const end = piece.indexOf("\n");
+      socket.unshift(piece.subarray(end + 1));
+      resolve(Number(piece.subarray(0, end).toString()));
+    });
+    void ended.then((how) => reject(new Error(`deodar studio ${how}`)));
+  });
+  const kill = (signal: NodeJS.Signals) => {
+    // a process that has ended has no number any more
+    if (!socket.closed) process.kill(number, signal);
+  };
+  return { output: [socket], kill, ended };
+};
+
 /** Start a server and wait until it listens. It works in `folder` and stores unsaved edits in `state`. */
 export async function startServer(
   folder: string,
@@ -46,17 +97,7 @@ export async function startServer(
 ): Promise<Server> {
   const imports = (options.imports ?? []).flatMap((name) => ["--import", name]);
   const file = options.file ? [options.file] : [];
-  const words = [
-    "-m",
-    "deodar",
-    ...imports,
-    "studio",
-    ...file,
-    "--no-browser",
-    "--port",
-    "0",
-    ...(options.words ?? []),
-  ];
+  const words = [...imports, "studio", ...file, "--no-browser", "--port", "0", ...(options.words ?? [])];
   const env = {
     // tests share compiled programs
     DEODAR_CACHE: join(ROOT, ".pytest_cache", "programs"),
@@ -66,10 +107,9 @@ export async function startServer(
     COLUMNS: "400",
     NO_COLOR: "1",
   };
-  const child = spawn(python(), words, { cwd: folder, env, stdio: ["ignore", "pipe", "pipe"] });
+  const child = await (process.env[FORKING] ? forked : spawned)(words, folder, env);
   const orphan = () => child.kill("SIGKILL");
   process.once("exit", orphan);
-  const ended = new Promise<void>((resolve) => child.once("close", () => resolve()));
 
   let text = "";
   let timer: NodeJS.Timeout | undefined;
@@ -79,21 +119,21 @@ export async function startServer(
       reject(new Error(`deodar studio ${why}. It said:\n${text}`));
     };
     timer = setTimeout(fail, PATIENCE, "printed no address");
-    child.once("error", (error) => fail(`did not start (${error.message})`));
-    child.once("close", (status) => fail(`ended with status ${status}`));
-    for (const stream of [child.stdout, child.stderr]) {
+    void child.ended.then((how) => fail(how));
+    for (const stream of child.output) {
       stream.setEncoding("utf8").on("data", (piece: string) => {
         text += piece;
         const found = ADDRESS.exec(text);
         if (found) resolve(found[0]);
       });
+      stream.resume();
     }
   }).finally(() => clearTimeout(timer));
 
   const stop = async (signal: NodeJS.Signals = "SIGTERM") => {
     child.kill(signal);
     const impatient = setTimeout(orphan, GRACE);
-    await ended;
+    await child.ended;
     clearTimeout(impatient);
     process.removeListener("exit", orphan);
   };

@@ -21,11 +21,12 @@ from tests.house.source import ROOT, SRC
 
 SNAPSHOT = Path(__file__).with_name("public_names.txt")
 HEAVY = ["jax", "jaxlib", "numpy", "scipy", "xarray", "zarr", "matplotlib", "PIL", "rich", "psutil"]
+SLOW = ["scipy.stats", "scipy.optimize", "matplotlib", "PIL"]
 
 
-def _loaded(code: str) -> set[str]:
+def _loaded(code: str, packages: list[str] = HEAVY) -> set[str]:
     """Return the heavy packages that a new process has imported after running `code`."""
-    tail = f"\nimport sys, json; print('LOADED', json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
+    tail = f"\nimport sys, json; print('LOADED', json.dumps([m for m in {packages!r} if m in sys.modules]))"
     done = subprocess.run([sys.executable, "-c", code + tail], capture_output=True, text=True, check=True)
     line = next(line for line in done.stdout.splitlines() if line.startswith("LOADED"))
     return set(json.loads(line.removeprefix("LOADED ")))
@@ -257,3 +258,7 @@ def test_a_document_is_read_and_checked_without_plots_or_records() -> None:
         " assert not m.check()"
     )
     assert not _loaded(code) & {"xarray", "zarr", "matplotlib", "PIL", "rich"}
+
+
+def test_the_studio_starts_without_what_it_needs_later() -> None:
+    assert _loaded("import deodar.server.serve", SLOW) == set()

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import jax
 import numpy as np
-from scipy import optimize
 
 from deodar.elements.field import Field
 from deodar.errors import AnalysisError
@@ -133,6 +132,8 @@ def _range(rate: Callable[[np.ndarray], np.ndarray], node: Field, s: float) -> t
 
 
 def _fixed_points(rate: Callable[[np.ndarray], np.ndarray], grid: np.ndarray) -> tuple[FixedPoint, ...]:
+    from scipy import optimize  # start-up time
+
     values = rate(grid)
     found: list[FixedPoint] = []
     for i in np.flatnonzero(values == 0.0):  # the rate is exactly 0 here: the neighbours give the direction

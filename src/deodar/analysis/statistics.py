@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy import stats
 
 from deodar.errors import AnalysisError
 from deodar.numerics.intervals import Interval
@@ -35,6 +34,8 @@ def wilson(hits: float, n: int) -> Interval | None:
         raise AnalysisError(f"{hits:g} of {n} is not a share")
     if n == 0:
         return None
+    from scipy import stats  # start-up time: this takes a third of a second
+
     z = float(stats.norm.ppf(0.5 + LEVEL / 2))
     p, w = hits / n, z * z / n
     middle, half = (p + w / 2) / (1 + w), math.sqrt(p * (1 - p) * w + w * w / 4) / (1 + w)
@@ -46,6 +47,8 @@ def mean_interval(values: npt.ArrayLike) -> Interval | None:
     v = np.asarray(values, float)
     if v.size < 2:
         return None
+    from scipy import stats  # start-up time: this takes a third of a second
+
     half = float(stats.t.ppf(0.5 + LEVEL / 2, v.size - 1)) * float(v.std(ddof=1)) / math.sqrt(v.size)
     return float(v.mean()) - half, float(v.mean()) + half
 
@@ -54,6 +57,8 @@ def median_interval(values: npt.ArrayLike) -> Interval | None:
     """Return the distribution-free 95 % interval of a median, from the order statistics and the binomial
     distribution; None for fewer than six values.
     """
+    from scipy import stats  # start-up time: this takes a third of a second
+
     v = np.sort(np.asarray(values, float))
     k = int(stats.binom.ppf((1 - LEVEL) / 2, v.size, 0.5)) if v.size else 0
     if v.size < 6 or k < 1:
@@ -91,6 +96,8 @@ def difference_interval(first: npt.ArrayLike, second: npt.ArrayLike) -> Interval
     a, b = np.asarray(first, float), np.asarray(second, float)
     if min(a.size, b.size) < 2 or a.std() + b.std() == 0:
         return None
+    from scipy import stats  # start-up time: this takes a third of a second
+
     result: Any = stats.ttest_ind(a, b, equal_var=False)
     low, high = result.confidence_interval(LEVEL)
     return float(low), float(high)
@@ -117,6 +124,8 @@ def anova(groups: Sequence[npt.ArrayLike]) -> tuple[float, float] | None:
     found = [np.asarray(g, float) for g in groups if np.size(g) >= 2]
     if len(found) < 2 or not any(g.std() > 0 for g in found):
         return None
+    from scipy import stats  # start-up time: this takes a third of a second
+
     result: Any = stats.f_oneway(*found)
     return float(result.statistic), float(result.pvalue)
 
