@@ -75,6 +75,28 @@ test("the names of edges state the elements that they connect", async () => {
     .waitFor({ state: "attached" });
 });
 
+test("excitation and inhibition differ in their marks and lines, not only in colour", async () => {
+  const look = (name: string) =>
+    canvas()
+      .getByRole("img", { name, exact: true })
+      .locator(".graph-wire")
+      .evaluate((path) => {
+        const mark = /#([\w-]+)/.exec(path.getAttribute("marker-end") ?? "")?.[1] ?? "";
+        return {
+          mark: document.getElementById(mark)?.innerHTML,
+          dash: getComputedStyle(path).strokeDasharray,
+        };
+      });
+  const [excites, inhibits] = [
+    await look("search.intention to search.satisfied"),
+    await look("search.satisfied to search.intention, inhibition"),
+  ];
+  expect(excites.mark).toContain("path");
+  expect(excites.dash).toBe("none");
+  expect(inhibits.mark).toContain("circle");
+  expect(inhibits.dash).toMatch(/^\d/);
+});
+
 test("a group folds into one box, stays folded when the page is reloaded, and unfolds", async () => {
   const { page } = studio;
   await button(page, "Fold search").click();

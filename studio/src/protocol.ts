@@ -436,7 +436,8 @@ export type Edited = {
 // An element of the document.
 //
 // `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
-// injected; `kernel`: whether the element has an interaction kernel.
+// injected; `kernel`: whether the element has an interaction kernel; `effect`: the sign that it gives to its
+// connections, for their marks.
 export type ElementView = {
   id: string;
   path: string;
@@ -450,6 +451,7 @@ export type ElementView = {
   axes: Record<string, string[]>;
   pushable: boolean;
   kernel: boolean;
+  effect: "+" | "-" | "±";
 };
 
 // Show the open record alone again.

@@ -53,6 +53,20 @@ def test_an_arrow_points_in_its_direction(direction: tuple[float, float]) -> Non
             assert math.dist(point, (x - dx * near, y - dy * near)) == pytest.approx(wires.DOT)
 
 
+def test_inhibition_is_dashed_and_a_delayed_connection_dotted() -> None:
+    lines: dict[tuple[Sign, bool], tuple[float, ...]] = {}
+    signs: tuple[Sign, ...] = ("+", "-", "±")
+    for sign in signs:
+        for delayed in (False, True):
+            straight, *_ = wires.path(RUNS, False, sign, delayed)
+            around, *_ = wires.loop(0, 0, 10, 8, sign, delayed)
+            assert straight.dash == around.dash
+            lines[sign, delayed] = straight.dash
+    assert lines["+", False] == lines["±", False] == ()
+    assert lines["-", True] == lines["-", False] + lines["+", True]
+    assert len(set(lines.values())) == 4
+
+
 def test_the_margin_moves_text_and_shapes_alike() -> None:
     content = [TextLine("u", 3, 4, 10), Shape((("M", 3, 4), ("L", 5, 6)))]
     framed = paint._framed(Drawing(20, 10, "", [SceneItem("box", "", content)]))

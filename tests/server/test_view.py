@@ -52,7 +52,18 @@ def test_the_view_contains_elements_with_values_ports_and_axes() -> None:
     assert u.values["tau"] == 3 and u.values["axes"] == ["x"] and u.values["kernel"][0]["sigma"] == 5
     assert u.values["kernel"][1]["weights"] == {"array": "array", "shape": [3], "min": 1, "max": 1}
     assert u.pushable and not s.pushable and not seen["v"].pushable and seen["v"].every == 2
+    assert u.effect == "+"
     assert {a.key: a.unit for a in shown(model()).axes} == {"x": "deg", "y": ""}
+
+
+def test_the_view_states_the_sign_that_an_element_gives_to_its_connections() -> None:
+    made = dd.Model("signs")
+    made.add(dd.GaussianStimulus("low", [X], center=3, sigma=1, amplitude=-2))
+    made.add(dd.Gain(-1.0, name="minus"))
+    made.add(dd.Gain(2.0, name="plus"))
+    made.add(dd.TransientDetector("change", [X]))
+    effects = {e.path: e.effect for e in shown(made).elements}
+    assert effects == {"low": "-", "minus": "-", "plus": "+", "change": "+"}
 
 
 def test_the_view_contains_document_parameters_and_connections_by_id() -> None:

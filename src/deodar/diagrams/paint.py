@@ -126,10 +126,7 @@ def _item(one: SizedItem, x: float, y: float) -> SceneItem:
         base = top + max(
             boxes.height_at(one, left - x - box.width / 2), boxes.height_at(one, right - x - box.width / 2)
         )
-        drawn = wires.loop(left, base, right, boxes.LOOP - 2 + base - top, loop.sign)
-        part.content += [
-            dc.replace(s, dash=wires.DELAYED) if loop.delayed and k == 0 else s for k, s in enumerate(drawn)
-        ]
+        part.content += wires.loop(left, base, right, boxes.LOOP - 2 + base - top, loop.sign, loop.delayed)
         for k, caption_ in enumerate(reversed(loop.captions)):
             part.content.append(
                 TextLine(
@@ -154,8 +151,7 @@ def _wire(graph: Graph, w: int, found: Arrangement, drawn: dict[str, SizedItem])
             inset = inset if k == 0 else 6.0 - inset
         runs[k] = Segment(run.x0 - inset, run.x1, run.y) if k == 0 else Segment(run.x0, run.x1 + inset, run.y)
     content: list[Shape | TextLine] = []
-    line, *marks = wires.path(runs, backwards, wire.sign)
-    content += [dc.replace(line, dash=wires.DELAYED) if wire.delayed else line, *marks]
+    content += wires.path(runs, backwards, wire.sign, wire.delayed)
     for port, at_left in ((wire.source_port, not backwards), (wire.target_port, backwards)):
         if port:
             run = runs[0] if at_left else runs[-1]

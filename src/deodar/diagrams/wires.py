@@ -11,19 +11,24 @@ from deodar.diagrams.scene import PathCommand, Point, Shape, circle, polygon
 from deodar.numerics.signs import Sign
 
 COLORS: dict[Sign, str] = {"+": "#333333", "-": "#d55e00", "±": "#6a3d9a"}
-"""Colours of excitation, inhibition and both; colour-blind readers can distinguish them, and marks show the
-sign in black and white.
+"""Colours of excitation, inhibition and both; colour-blind readers can distinguish them, and marks and dashes
+show the sign in black and white.
 """
 
 WIDTH = 0.9
 STRAIGHT = 2.5
 """Length of the horizontal end before a mark, so that the mark has the direction of the curve."""
 
-DELAYED = (3.0, 2.0)
+DASHES, DOTS = (4.0, 2.0), (1.0, 2.0)
 ARROW, DOT = 5.0, 2.3
 
 
-def path(runs: Sequence[Segment], backwards: bool, sign: Sign) -> list[Shape]:
+def dash(sign: Sign, delayed: bool = False) -> tuple[float, ...]:
+    """Return the lengths of strokes and gaps of a line: inhibition is dashed, a delayed connection dotted."""
+    return (DASHES if sign == "-" else ()) + (DOTS if delayed else ())
+
+
+def path(runs: Sequence[Segment], backwards: bool, sign: Sign, delayed: bool = False) -> list[Shape]:
     """Return a connection along its horizontal segments, with the mark at its target."""
     points = [p for run in runs for p in ((run.x0, run.y), (run.x1, run.y))]
     points, direction = (points[::-1], -1.0) if backwards else (points, 1.0)
@@ -32,12 +37,17 @@ def path(runs: Sequence[Segment], backwards: bool, sign: Sign) -> list[Shape]:
     level = tip[0] - direction * STRAIGHT
     between = [(min(px, level) if direction > 0 else max(px, level), py) for px, py in points[1:-1]]
     return [
-        Shape(_curve([points[0], *between, (level, y), tip]), COLORS[sign], width=WIDTH),
+        Shape(
+            _curve([points[0], *between, (level, y), tip]),
+            COLORS[sign],
+            width=WIDTH,
+            dash=dash(sign, delayed),
+        ),
         *mark((x, y), (direction, 0.0), sign),
     ]
 
 
-def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Shape]:
+def loop(x: float, y: float, right: float, height: float, sign: Sign, delayed: bool = False) -> list[Shape]:
     """Return a connection that leaves upwards at (x, y) and returns at (right, y)."""
     w = right - x
     end = y - _length(sign)
@@ -45,7 +55,8 @@ def loop(x: float, y: float, right: float, height: float, sign: Sign) -> list[Sh
         ("M", x, y), ("C", x, y - height * 0.9, x + w * 0.1, y - height, x + w / 2, y - height),
         ("C", right - w * 0.1, y - height, right, y - height * 0.9, right, end),
     )  # fmt: skip
-    return [Shape(curve, COLORS[sign], width=WIDTH), *mark((right, y), (0.0, 1.0), sign)]
+    line = Shape(curve, COLORS[sign], width=WIDTH, dash=dash(sign, delayed))
+    return [line, *mark((right, y), (0.0, 1.0), sign)]
 
 
 def mark(tip: Point, direction: Point, sign: Sign) -> list[Shape]:

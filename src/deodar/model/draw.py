@@ -15,8 +15,8 @@ def draw(model: Model, legend: bool = True, depth: int | None = None) -> Diagram
     and groups.
 
     A coupling with one input and one output is drawn as text on the connection. An arrow is excitation, a dot
-    inhibition, an arrow with a dot both. Loops above a field are its own interaction: kernels and global
-    inhibition.
+    and dashes are inhibition, an arrow with a dot is both. Loops above a field are its own interaction:
+    kernels and global inhibition.
 
     Args:
         model: the model; a model with problems can be drawn too.

@@ -50,6 +50,13 @@ def is_coupling(element: Element) -> bool:
     return isinstance(element, Coupling) or type(element).__module__.startswith("deodar.couplings.")
 
 
+def effect(element: Element) -> Sign:
+    """Return the sign that an element gives to its connections: couplings and sources weight what they send,
+    fields and nodes do not.
+    """
+    return element.polarity() if form_of(element) in ("coupling", "source") else "+"
+
+
 def caption(element: Element) -> str:
     """Return a short text of a coupling: its kind, and its characteristic number."""
     value = _main(element)
@@ -155,10 +162,8 @@ class _Sketch:
         last, on = self._follow(first, chained)
         source, target = self.by[first.source], self.by[last.target]
         form, numbers = form_of(source.element), form_of(target.element) == "coupling" and not on
-        sign: Sign = "+"
         # an input of a coupling is a number, which inhibits no field
-        if form == "coupling" or (form == "source" and not numbers):
-            sign = source.element.polarity()
+        sign: Sign = "+" if form == "source" and numbers else effect(source.element)
         for ident in on:
             sign = product(sign, self.by[ident].element.polarity())
         reads = [c.reads for c in (first, last)] + [self.out[i][0].reads for i in on]

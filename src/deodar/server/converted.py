@@ -17,6 +17,7 @@ from deodar.model.check import structure
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.parts import to_json
 from deodar.model.resolve import Node
+from deodar.model.sketch import effect
 from deodar.numerics.axes import Axes, Axis
 from deodar.parameters import FrozenArray
 from deodar.server.to_page import (
@@ -268,6 +269,7 @@ def _element(
         axes={port: [named.get(a, a.name) for a in found] for port, found in ports.items()},
         pushable=e.every == 1 and type(e.element).inject is not Element.inject,
         kernel=e.element.convolution is not None and len(e.element.kernels()) > 0,
+        effect=effect(e.element),
     )
 
 

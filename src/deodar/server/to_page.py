@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from deodar.declarations import Cost, Names
 from deodar.family import Family
+from deodar.numerics.signs import Sign
 from deodar.parameters import ValueForm
 from deodar.server.message import Data, Id, Message
 
@@ -112,7 +113,8 @@ class ElementView(Data, frozen=True):
     """An element of the document.
 
     `axes` lists for each port the keys of its axes, if they are known. `pushable`: whether an input can be
-    injected; `kernel`: whether the element has an interaction kernel.
+    injected; `kernel`: whether the element has an interaction kernel; `effect`: the sign that it gives to its
+    connections, for their marks.
     """
 
     id: Id
@@ -127,6 +129,7 @@ class ElementView(Data, frozen=True):
     axes: dict[str, list[str]]
     pushable: bool
     kernel: bool
+    effect: Sign
 
 
 class EndsView(Data, frozen=True):

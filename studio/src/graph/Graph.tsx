@@ -3,7 +3,6 @@
 import {
   Background,
   BackgroundVariant,
-  MarkerType,
   MiniMap,
   ReactFlow,
   ReactFlowProvider,
@@ -43,6 +42,7 @@ import { useHover } from "./hover";
 import { newPainting, PainterContext } from "./PainterContext";
 import { foldedAround, groupKey, type GraphScene, type SceneNode, type Structure } from "./scene";
 import { Search } from "./Search";
+import { SignMarks } from "./SignMarks";
 import { useStructure } from "./structure";
 import { useAnchor } from "./useAnchor";
 import { useNodes } from "./useNodes";
@@ -52,9 +52,6 @@ import { WireEdge } from "./WireEdge";
 
 const NODES: NodeTypes = { box: Box, frame: GroupFrame, folded: Folded, comment: CommentBox };
 const EDGES: EdgeTypes = { wire: WireEdge };
-const ARROW = {
-  markerEnd: { type: MarkerType.ArrowClosed, width: 14, height: 14, color: "var(--graph-wire)" },
-};
 // Painting dots costs a browser without a graphics card as much as a hundred boxes do.
 const MOST_DOTTED = 60;
 const MAP = { width: 150, height: 96 };
@@ -140,7 +137,6 @@ function Canvas({ structure }: { structure: Structure }) {
           edges={now.wires as Edge[]}
           nodeTypes={NODES}
           edgeTypes={EDGES}
-          defaultEdgeOptions={ARROW}
           onNodesChange={onNodesChange}
           onNodeDragStart={() => useHover.getState().close()}
           onNodeDragStop={(event) => {
@@ -217,6 +213,7 @@ function Canvas({ structure }: { structure: Structure }) {
             }}
           />
         )}
+        <SignMarks />
         <ElementCard />
         <WiringHint />
         <RenameBox />

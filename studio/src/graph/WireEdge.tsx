@@ -12,12 +12,13 @@ import { memo } from "react";
 import { usePicked } from "../build/picked";
 import { useStudio } from "../store";
 import { Pill } from "./Pill";
+import { markOf } from "./SignMarks";
 import type { Rect } from "./layout";
 import type { Wire } from "./scene";
 import { course } from "./wirePath";
 
 export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
-  const { id, source, target, sourceX, sourceY, targetX, targetY, data, markerEnd } = props;
+  const { id, source, target, sourceX, sourceY, targetX, targetY, data } = props;
   const from = useInternalNode(source);
   const to = useInternalNode(target);
   const flow = useStoreApi();
@@ -46,10 +47,11 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
       <BaseEdge
         id={id}
         path={path}
-        markerEnd={markerEnd}
+        markerEnd={`url(#${markOf(data.sign, data.shared)})`}
         interactionWidth={24}
         className="graph-wire"
         data-reads={data.reads}
+        data-sign={data.sign}
         data-touched={touched || undefined}
         data-picked={picked || over || undefined}
       />

@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import type { ElementView } from "../protocol";
 import { chains } from "./chains";
 import { fakeConnections, fakeDocument, fakeElement, fakeForm, fakeKind, kindsOf } from "./fakes";
 
@@ -52,6 +53,25 @@ test("a chain continues from a coupling that is a node", () => {
     ["v", "a", []],
     ["a", "v", ["b"]],
   ]);
+});
+
+test("the sign of an edge is the product of what its couplings and its source weight", () => {
+  const minus = { effect: "-" as const };
+  const [positive, negative, both] = [
+    gain("a"),
+    fakeElement("b", "Gain", minus),
+    fakeElement("c", "Gain", { effect: "±" }),
+  ];
+  const signs = (element: ElementView[], ...paths: string[]) =>
+    chains(fakeDocument([fakeElement("u"), fakeElement("v"), ...element], fakeConnections(...paths)), KINDS)
+      .edges.map(({ sign }) => sign)
+      .join("");
+  expect(signs([], "u v")).toBe("+");
+  expect(signs([positive, negative], "u a b v")).toBe("-");
+  expect(signs([negative, fakeElement("d", "Gain", minus)], "u b d v")).toBe("+");
+  expect(signs([both, negative], "u c b v")).toBe("±");
+  expect(signs([fakeElement("s", "Field", minus)], "s v"), "a negative stimulus").toBe("-");
+  expect(signs([fakeElement("s", "Field", minus), negative], "s b", "u b v"), "into a coupling").toBe("++-");
 });
 
 test("a coupling with two input ports is a node", () => {

@@ -1,6 +1,7 @@
 // Couplings that are drawn on an edge: those in a chain, with one connection in and one out.
 
 import type { ConnectionView, DocumentView, ElementView, Kind } from "../protocol";
+import { product, type Sign } from "./sign";
 
 // A connection as it is drawn: from a node to a node, with the couplings on the way in their order.
 export type Chain = {
@@ -11,7 +12,10 @@ export type Chain = {
   target_port: string;
   couplings: string[];
   reads: string;
+  sign: Sign;
 };
+
+type Unsigned = Omit<Chain, "sign">;
 
 export type Chains = { edges: Chain[]; couplings: Set<string> };
 
@@ -19,7 +23,7 @@ type Wired = Pick<DocumentView, "elements" | "connections">;
 
 // The edges of the canvas, and the couplings that are drawn on them.
 export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
-  const known = new Set(document.elements.map((e) => e.id));
+  const known = new Map(document.elements.map((e) => [e.id, e]));
   const connections = document.connections.filter((c) => known.has(c.source) && known.has(c.target));
   const into = by(connections, "target");
   const from = by(connections, "source");
@@ -31,7 +35,7 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
       )
       .map((e) => e.id),
   );
-  const edges: Chain[] = [];
+  const edges: Unsigned[] = [];
   const couplings = new Set<string>();
   for (const first of connections) {
     if (!links.has(first.source)) {
@@ -42,7 +46,21 @@ export function chains(document: Wired, kinds: Map<string, Kind>): Chains {
   for (const lone of connections.filter((c) => links.has(c.source) && !couplings.has(c.source))) {
     edges.push(edge(lone, lone, [], lone.reads));
   }
-  return { edges, couplings };
+  return { edges: edges.map((edge) => ({ ...edge, sign: signOf(edge, known, kinds) })), couplings };
+}
+
+// An input of a coupling with a box is a number, which inhibits nothing.
+function signOf(
+  { source, target, couplings }: Unsigned,
+  elements: Map<string, ElementView>,
+  kinds: Map<string, Kind>,
+): Sign {
+  const room = (id: string) => kinds.get(elements.get(id)?.kind ?? "")?.room;
+  const weighting =
+    couplings.length === 0 && room(target) === "couplings" && room(source) !== "couplings"
+      ? couplings
+      : [source, ...couplings];
+  return weighting.map((id) => elements.get(id)?.effect ?? "+").reduce(product, "+");
 }
 
 function follow(
@@ -50,7 +68,7 @@ function follow(
   links: Set<string>,
   from: Map<string, ConnectionView[]>,
   passed: Set<string>,
-): Chain {
+): Unsigned {
   const on: string[] = [];
   let last = first;
   let reads = first.reads;
@@ -63,7 +81,7 @@ function follow(
   return edge(first, last, on, reads);
 }
 
-function edge(first: ConnectionView, last: ConnectionView, couplings: string[], reads: string): Chain {
+function edge(first: ConnectionView, last: ConnectionView, couplings: string[], reads: string): Unsigned {
   const { source, source_port } = first;
   const { target, target_port } = last;
   const id = [source, source_port, target, target_port, ...couplings].join(" ");

@@ -17,6 +17,7 @@ export function fakeElement(path: string, kind = "Field", more: Partial<ElementV
     axes: {},
     pushable: false,
     kernel: false,
+    effect: "+",
     ...more,
   };
 }

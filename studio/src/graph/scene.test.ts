@@ -44,6 +44,29 @@ test("edges end at a folded group, and parallel edges become one", () => {
   ]);
 });
 
+test("edges state their sign; a dot lies behind an arrow at the same port", () => {
+  const elements = [
+    ...["a", "b", "c"].map((id) => fakeElement(id)),
+    fakeElement("k", "Gain", { effect: "-" }),
+    fakeElement("l", "Gain", { effect: "-" }),
+  ];
+  const { wires } = scene(fakeDocument(elements, fakeConnections("a b", "c k b", "a l c")), KINDS);
+  expect(wires.map(({ ariaLabel, data }) => [ariaLabel, data?.sign, data?.shared])).toEqual([
+    ["a to b", "+", true],
+    ["c to b, inhibition", "-", true],
+    ["a to c, inhibition", "-", false],
+  ]);
+});
+
+test("the wire of a folded group has the signs of all that it stands for", () => {
+  const elements = [...ELEMENTS, fakeElement("l", "Gain", { effect: "-" })];
+  const wires = scene(
+    fakeDocument(elements, fakeConnections("s g.u", "s l g.v"), { layout: { folded: ["g"] } }),
+    KINDS,
+  ).wires.map(({ data }) => data?.sign);
+  expect(wires).toEqual(["±"]);
+});
+
 test("backward edges have different lanes", () => {
   const elements = [fakeElement("a"), fakeElement("b")];
   const { wires } = scene(fakeDocument(elements, fakeConnections("a b", "b b", "b a", "a a")), KINDS);

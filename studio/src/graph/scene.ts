@@ -9,6 +9,7 @@ import { type CanvasComment, readComments } from "./comments";
 import { elementFamily, type ElementFamily } from "./family";
 import { FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
 import { lanes } from "./lanes";
+import { signText, together, type Sign } from "./sign";
 import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
 
 export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
@@ -23,8 +24,17 @@ export type BoxData = {
   outputs: string[];
 };
 export type GroupData = { key: string; name: string; count: number };
-// `chains`: what a wire stands for; those of a folded group are one.
-export type WireData = { pills: string[]; reads: string; count: number; lane: number; chains: Chain[] };
+// `chains`: what a wire stands for; those of a folded group are one. `shared`: whether an arrow ends at the
+// same port.
+export type WireData = {
+  pills: string[];
+  reads: string;
+  sign: Sign;
+  shared: boolean;
+  count: number;
+  lane: number;
+  chains: Chain[];
+};
 
 export type BoxNode = Node<BoxData, "box">;
 export type FrameNode = Node<GroupData, "frame">;
@@ -214,12 +224,21 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       from === null && to === null ? edge.id : [source, sourceHandle, target, targetHandle].join(" ");
     const known = wires.get(id)?.data;
     if (known !== undefined) {
+      known.sign = together(known.sign, edge.sign);
       known.count += 1;
       known.chains.push(edge);
       known.pills = [];
       continue;
     }
-    const data = { pills: edge.couplings, reads: edge.reads, count: 1, lane: 0, chains: [edge] };
+    const data = {
+      pills: edge.couplings,
+      reads: edge.reads,
+      sign: edge.sign,
+      shared: false,
+      count: 1,
+      lane: 0,
+      chains: [edge],
+    };
     const called = [
       from?.key ?? names.get(edge.source)?.path ?? edge.source,
       to?.key ?? names.get(edge.target)?.path ?? edge.target,
@@ -238,7 +257,16 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       zIndex: 1,
     });
   }
-  return [...wires.values()];
+  const all = [...wires.values()];
+  const end = (wire: Wire) => [wire.target, wire.targetHandle].join(" ");
+  const arrows = new Set(all.filter(({ data }) => data?.sign !== "-").map(end));
+  for (const wire of all) {
+    if (wire.data !== undefined) {
+      wire.data.shared = arrows.has(end(wire));
+      wire.ariaLabel += signText(wire.data.sign);
+    }
+  }
+  return all;
 }
 
 function rectOf(node: string, where: Places, sizes: Map<string, Size>): Rect {

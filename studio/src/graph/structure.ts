@@ -44,6 +44,7 @@ function same(one: ElementView, other: ElementView | undefined): boolean {
       one.id === other.id &&
       one.path === other.path &&
       one.kind === other.kind &&
+      one.effect === other.effect &&
       one.inputs === other.inputs &&
       one.axes === other.axes)
   );

@@ -54,6 +54,7 @@ const element = (
   axes,
   pushable: false,
   kernel: false,
+  effect: "+",
 });
 
 const documentOf = (...elements: ElementView[]) => ({ axes: AXES, elements }) as unknown as DocumentView;
