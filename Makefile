@@ -9,15 +9,25 @@ endif
 # files over two processes, in the order that tests/conftest.py gives them
 SPREAD := -n 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test fast lint types studio page docs schema bench native lowest lock audit clean
+.PHONY: demo test quick optimised browser fast lint types studio page docs schema bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
 test: .venv/installed-test
 	$(MAKE) -j 2 lint types page
+	$(MAKE) -j 2 quick browser
+	$(MAKE) optimised
+
+# tests whose programs are compiled in a quicker way than deodar does, and those that need optimised programs
+quick: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) --durations 30 -m "not default_program"
+
+optimised: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
+
+# the page in a browser: tests that wait for half of their time, so they run beside others
+browser: studio
 	$(BIN)/python studio/build.py browser
 
 # a verdict in about a minute
