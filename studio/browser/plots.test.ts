@@ -1,4 +1,4 @@
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import type { Locator } from "playwright-core";
@@ -40,6 +40,12 @@ const plot = (name: string): Locator => studio.page.getByRole("region", { name, 
 const chart = (name: string, label: string): Locator =>
   plot(name).getByRole("img", { name: label, exact: true });
 const arranged = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
+
+/** Write a file beside the screenshots, if they are kept. */
+function keep(name: string, text: string): void {
+  const folder = process.env["DEODAR_SHOTS"];
+  if (folder) writeFileSync(join(folder, name), text);
+}
 
 async function step(n: number): Promise<void> {
   await observer.ask({ type: "step", n });
@@ -205,6 +211,15 @@ test("a field over two dimensions is a heat map with a scale; a sensor shows its
   await expect.poll(() => colours(map.locator("canvas.plot-heat"))).toBeGreaterThan(5);
   const bar = map.getByRole("img", { name: "activation of spatial as colours over x and y" });
   await expect.poll(() => colours(bar)).toBeGreaterThan(50);
+  // 40 x 40 samples at the same distance are a square
+  const square = await settled(page, () => map.locator(".u-over").boundingBox());
+  expect(Math.abs((square?.width ?? 0) - (square?.height ?? Infinity))).toBeLessThan(2.5);
+  const coming = page.waitForEvent("download");
+  await map.getByRole("button", { name: "Menu of this plot" }).click();
+  await page.getByRole("menuitem", { name: "Export SVG" }).click();
+  const svg = readFileSync(await (await coming).path(), "utf8");
+  keep("plot-heat.svg", svg);
+  expect(svg.match(/<image [^>]*href="data:image\/png;base64,/g), "the values are an image").toHaveLength(1);
   await map.getByRole("combobox", { name: "Port of spatial" }).selectOption("input");
   await map.getByRole("img", { name: "input of spatial as colours over x and y" }).waitFor();
 
@@ -299,6 +314,22 @@ test("a plot is exported as a picture file", async () => {
   expect(width).toBeGreaterThanOrEqual(2 * Math.floor(drawn?.width ?? Infinity) - 2);
   expect(height).toBeGreaterThan(2 * (drawn?.height ?? Infinity) - 2);
   expect(png.length).toBeGreaterThan(5000);
+
+  const next = page.waitForEvent("download");
+  await choose(page, "Menu of this plot", "Export SVG");
+  const vectors = await next;
+  expect(vectors.suggestedFilename()).toBe("u.svg");
+  const svg = readFileSync(await vectors.path(), "utf8");
+  keep("plot-curves.svg", svg);
+  const size = /<svg [^>]*width="([\d.]+)" height="([\d.]+)"/.exec(svg) ?? [];
+  expect([Number(size[1]), Number(size[2])]).toEqual([width / 2, height / 2]);
+  for (const text of ["x (deg)", "threshold 0", "activation"]) expect(svg).toContain(`>${text}</text>`);
+  expect(svg).not.toContain("<image");
+  const lines = [...svg.matchAll(/ d="([^"]*)"/g)].map(([, d = ""]) => d.split("L").length);
+  expect(
+    lines.filter((points) => points > 60),
+    "two curves",
+  ).toHaveLength(2);
 });
 
 test("a plot is exported as a table", async () => {

@@ -9,7 +9,7 @@ import type { Live, Wish } from "../streams";
 import { AxisControl } from "./AxisControl";
 import { Chip } from "./Chip";
 import { inOrder, portColor } from "./colors";
-import { exportPng } from "./exportPng";
+import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
 import { axisLabel, mainPort, points, portAxes, portsAlike } from "./kinds";
 import { type Level, pushAmplitude } from "./levels";
@@ -203,12 +203,15 @@ export function FieldCurve(props: PlotProps) {
         </>
       }
       table={() => ({ header: [x === null ? "" : axisLabel(x), ...curves], columns: data.current })}
-      exportAs={() => {
+      exportAs={(format) => {
         if (chart.current !== null) {
           const { width, height } = chart.current;
           const legend = (look: Look) =>
             curves.map((other) => ({ label: other, color: portColor(other, ports, look.shade) }));
-          void exportPng({ title: element.path, width, height, options, data: data.current, legend });
+          void exportDrawing(
+            { title: element.path, width, height, options, data: data.current, legend },
+            format,
+          );
         }
       }}
     >

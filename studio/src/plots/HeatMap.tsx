@@ -10,9 +10,9 @@ import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
 import { plane } from "./exportCsv";
-import { exportPng } from "./exportPng";
+import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
-import { axisLabel, edges, points, runsDown } from "./kinds";
+import { axisLabel, commonScale, edges, points, runsDown } from "./kinds";
 import { pushAmplitude } from "./levels";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
@@ -108,6 +108,7 @@ export function HeatMap(props: PlotProps) {
       data,
       label: `${port} of ${element.path} as colours over ${x.name} and ${y.name}`,
       along: { x, y },
+      extents: commonScale(x, y),
       read: (_, at) => readPlane(newest.current, x, y, at),
       attach: (self) => {
         const canvas = document.createElement("canvas");
@@ -160,17 +161,20 @@ export function HeatMap(props: PlotProps) {
               columns: plane(points(x, shown.shape[0]), points(y, shown.shape[1]), values.values),
             };
       }}
-      exportAs={() => {
+      exportAs={(format) => {
         if (chart.current !== null && heat.current !== null) {
           const { width, height } = chart.current;
-          void exportPng({
-            title: `${element.path} ${port}`,
-            width,
-            height,
-            options,
-            data: data(),
-            image: heat.current,
-          });
+          void exportDrawing(
+            {
+              title: `${element.path} ${port}`,
+              width,
+              height,
+              options,
+              data: data(),
+              image: heat.current,
+            },
+            format,
+          );
         }
       }}
     >

@@ -8,8 +8,8 @@ import type { CursorAt } from "./chartCursor";
 import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { portColor } from "./colors";
 import { plane as planeRows } from "./exportCsv";
-import { exportPng } from "./exportPng";
-import { axisLabel, cell, edges, points } from "./kinds";
+import { exportDrawing } from "./exportDrawing";
+import { axisLabel, cell, commonScale, edges, points } from "./kinds";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors } from "./mapColors";
 import { paintHeat } from "./paint";
@@ -115,6 +115,7 @@ export function Kernel(props: PlotProps) {
       data,
       label: `Interaction kernel of ${element.path}`,
       along: { x, y },
+      extents: x !== null && y !== null ? commonScale(x, y) : null,
       read: (_, at) => readKernel(newest.current, at),
       attach: (self) => {
         if (plane) {
@@ -159,12 +160,12 @@ export function Kernel(props: PlotProps) {
               columns: planeRows(places, points(y, form?.shape[1]), values),
             };
       }}
-      exportAs={() => {
+      exportAs={(format) => {
         if (chart.current !== null) {
           const { width, height } = chart.current;
           const title = `${element.path} kernel`;
           const image = map.current === null ? {} : { image: map.current };
-          void exportPng({ title, width, height, options, data: data(), ...image });
+          void exportDrawing({ title, width, height, options, data: data(), ...image }, format);
         }
       }}
     >

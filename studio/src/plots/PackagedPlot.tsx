@@ -4,7 +4,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { useEffect, useMemo, useRef, useState } from "react";
 import type { ListedProblem, PlotView } from "../protocol";
 import type { Live, Wish } from "../streams";
-import { exportPicture } from "./exportPng";
+import { exportPicture } from "./exportDrawing";
 import { fits } from "./kinds";
 import { type Look, pageLook, paperLook } from "./look";
 import { attempt, load, packagedFrame, type PlotModule, problemOf } from "./packaged";
@@ -106,10 +106,10 @@ export function PackagedPlot(props: PlotProps & { plot: PlotView }) {
         lost: problem ?? streaming.lost,
       }}
       note={form !== null && form.folded.length > 0 ? `max over ${form.folded.join(", ")}` : ""}
-      exportAs={() => {
+      exportAs={(format) => {
         const sheet = document.createElement("canvas");
         if (drawOn(sheet, paperLook(1), EXPORT_RATIO)) {
-          exportPicture(`${element.path} ${port}`, sheet);
+          exportPicture(`${element.path} ${port}`, sheet, format);
           attempt(plot, () => module?.dispose?.(sheet), tell);
         }
       }}

@@ -8,11 +8,13 @@ import {
   IconFileDescription,
   IconPhotoDown,
   IconTableDown,
+  IconVectorSpline,
 } from "@tabler/icons-react";
 import type { ReactNode } from "react";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import type { DrawingFormat } from "./exportDrawing";
 import { exportCsv, type Table } from "./exportCsv";
 import { type PlotKind, titleOf } from "./kinds";
 import type { PlotParams, PlotSettings } from "./settings";
@@ -41,7 +43,7 @@ type PlotFrameProps = PlotProps & {
   strip?: ReactNode;
   controls?: ReactNode;
   streaming: Streaming;
-  exportAs: () => void;
+  exportAs: (format: DrawingFormat) => void;
   // The values that are drawn; missing: the plot has none as numbers.
   table?: () => Table | null;
   children: ReactNode;
@@ -117,9 +119,16 @@ export function PlotFrame(props: PlotFrameProps) {
                 </Menu.Item>
               ))}
             {kinds.length > 1 && <Menu.Divider />}
-            <Menu.Item leftSection={<IconPhotoDown size={15} />} disabled={!seen} onClick={exportAs}>
-              Export PNG
-            </Menu.Item>
+            {(["png", "svg"] as const).map((format) => (
+              <Menu.Item
+                key={format}
+                leftSection={format === "png" ? <IconPhotoDown size={15} /> : <IconVectorSpline size={15} />}
+                disabled={!seen}
+                onClick={() => exportAs(format)}
+              >
+                Export {format.toUpperCase()}
+              </Menu.Item>
+            ))}
             {table !== undefined && (
               <Menu.Item
                 leftSection={<IconTableDown size={15} />}

@@ -13,7 +13,7 @@ import { BAR_ROOM, drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
 import { plane } from "./exportCsv";
-import { exportPng } from "./exportPng";
+import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, edges, isPicture, points } from "./kinds";
 import { axis, frame, type Look } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
@@ -185,17 +185,20 @@ export function SpaceTime(props: PlotProps) {
           columns: plane(times, points(x, rows.current.width), values),
         };
       }}
-      exportAs={() => {
+      exportAs={(format) => {
         if (chart.current !== null && map.current !== null) {
           const { width, height } = chart.current;
-          void exportPng({
-            title: `${element.path} ${port} over time`,
-            width,
-            height,
-            options,
-            data: data(),
-            image: map.current,
-          });
+          void exportDrawing(
+            {
+              title: `${element.path} ${port} over time`,
+              width,
+              height,
+              options,
+              data: data(),
+              image: map.current,
+            },
+            format,
+          );
         }
       }}
     >

@@ -8,7 +8,7 @@ import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { curveColor } from "./colors";
 import { CourseControls } from "./CourseControls";
-import { exportPng } from "./exportPng";
+import { exportDrawing } from "./exportDrawing";
 import { portAxes } from "./kinds";
 import { axis, frame, type Look } from "./look";
 import { drawMoment } from "./momentLine";
@@ -161,19 +161,22 @@ export function TimeCourse(props: PlotProps) {
         header: [timeUnit === "" ? "time" : `time (${timeUnit})`, ...labels],
         columns: data.current,
       })}
-      exportAs={() => {
+      exportAs={(format) => {
         if (chart.current !== null) {
           const { width, height } = chart.current;
           const legend = (look: Look) =>
             labels.map((label, i) => ({ label, color: curveColor(i, look.shade) }));
-          void exportPng({
-            title: `${element.path} over time`,
-            width,
-            height,
-            options,
-            data: data.current,
-            legend,
-          });
+          void exportDrawing(
+            {
+              title: `${element.path} over time`,
+              width,
+              height,
+              options,
+              data: data.current,
+              legend,
+            },
+            format,
+          );
         }
       }}
     >

@@ -21,7 +21,7 @@ export function drawColorBar(chart: uPlot, look: Look, { table, range, middle: m
   ctx.save();
   for (let i = 0; i < 256; i++) {
     const bottom = bbox.top + bbox.height * (1 - i / 256);
-    const height = bbox.height / 256 + 1;
+    const height = bbox.height / 256 + unit;
     ctx.fillStyle = `rgb(${table[4 * i]} ${table[4 * i + 1]} ${table[4 * i + 2]})`;
     ctx.fillRect(left, Math.max(bbox.top, bottom - height), width, height);
   }

@@ -3,6 +3,7 @@ import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../pro
 import {
   axisLabel,
   cell,
+  commonScale,
   edges,
   firstToPlot,
   fits,
@@ -144,6 +145,17 @@ describe("axes", () => {
   it("have cells around their samples", () => {
     expect(edges(axis("x", 11))).toEqual([-0.5, 10.5]);
     expect([-3, 4.4, 4.6, 20].map((value) => cell(axis("x", 11), 11, value))).toEqual([0, 4, 5, 10]);
+  });
+
+  it("have one scale if they share a unit", () => {
+    const mm = (samples: number, upper: number) => axis("x", samples, { upper, unit: "mm" });
+    expect(commonScale(mm(11, 10), mm(41, 20))).toEqual([11, 20.5]);
+    expect(commonScale(mm(11, 10), axis("y", 11, { unit: "deg" }))).toBeNull();
+    expect(commonScale(mm(11, 10), mm(11, 1000)), "a strip").toBeNull();
+    const angle = axis("hue", 36, { upper: 360, unit: "deg", periodic: true });
+    expect(commonScale(axis("x", 11, { upper: 100, unit: "deg" }), angle)).toBeNull();
+    expect(commonScale(axis("x", 11), axis("y", 11))).toEqual([11, 11]);
+    expect(commonScale(axis("x", 11), axis("y", 5)), "other distances").toBeNull();
   });
 
   it("are named with their unit", () => {

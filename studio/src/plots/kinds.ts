@@ -147,6 +147,20 @@ export function cell(axis: AxisView, count: number, position: number): number {
   return Math.min(count - 1, Math.max(0, Math.floor(((position - first) / (last - first)) * count)));
 }
 
+// The largest ratio of two axes with the same scale: a longer plot would be a mere strip.
+const LONGEST = 8;
+
+// The extents of two axes that have the same scale because they share a unit; null: they do not. A periodic
+// axis, such as an angle, has no scale in common with one that is not periodic. Axes without a unit have the
+// same scale where their samples are at the same distance.
+export function commonScale(x: AxisView, y: AxisView): [number, number] | null {
+  const same = x.unit === y.unit && x.periodic === y.periodic;
+  const near = Math.abs(stepOf(x) - stepOf(y)) < 1e-6 * stepOf(x);
+  const extents = [x, y].map((axis) => edges(axis)[1] - edges(axis)[0]) as [number, number];
+  const ratio = extents[0] / extents[1];
+  return same && (x.unit !== "" || near) && ratio < LONGEST && 1 / ratio < LONGEST ? extents : null;
+}
+
 export function axisLabel(axis: AxisView): string {
   return axis.unit === "" ? axis.name : `${axis.name} (${axis.unit})`;
 }

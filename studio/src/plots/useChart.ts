@@ -19,6 +19,8 @@ export type Chart = {
   options: (look: Look) => ChartOptions;
   // What is drawn at first; afterwards it is set from outside.
   data: () => uPlot.AlignedData;
+  // The extents of both scales, if they have the same scale.
+  extents?: [number, number] | null;
   // What it shows, in words.
   label: string;
   // What its scales show, for the linked cursor.
@@ -37,6 +39,9 @@ export type ChartRefs = {
 };
 
 const LEAST = 40;
+
+// How often a size is corrected for the same scale on both axes: labels take another room in each size.
+const TRIES = 3;
 
 export function useChart(made: Chart, key: string): ChartRefs {
   const host = useRef<HTMLDivElement>(null);
@@ -61,12 +66,21 @@ export function useChart(made: Chart, key: string): ChartRefs {
     const look = pageLook();
     const current = latest.current;
     const options = current.options(look);
+    let tries = 0;
+    const fit = (self: uPlot) => {
+      const size = fitted(self, place, latest.current.extents ?? null);
+      if (size !== null && tries < TRIES) {
+        tries++;
+        // Not while it draws.
+        queueMicrotask(() => chart.current === self && self.setSize(size));
+      }
+    };
     const moved = (self: uPlot) => {
       read(self);
       cursor.current?.tell();
     };
     const hooks = {
-      draw: [...(options.hooks?.draw ?? []), () => cursor.current?.follow()],
+      draw: [...(options.hooks?.draw ?? []), fit, () => cursor.current?.follow()],
       setCursor: [moved],
     };
     const whole = { ...options, hooks, ...sizeOf(place) };
@@ -80,9 +94,12 @@ export function useChart(made: Chart, key: string): ChartRefs {
     created.ctx.canvas.setAttribute("role", "img");
     created.ctx.canvas.setAttribute("aria-label", current.label);
     const detach = current.attach?.(created, look);
+    let room = sizeOf(place);
     const observer = new ResizeObserver(() => {
       const size = sizeOf(place);
-      if (place.clientWidth > 0 && (size.width !== created.width || size.height !== created.height)) {
+      if (place.clientWidth > 0 && (size.width !== room.width || size.height !== room.height)) {
+        room = size;
+        tries = 0;
         created.setSize(size);
       }
     });
@@ -103,6 +120,27 @@ export function useChart(made: Chart, key: string): ChartRefs {
 
 function sizeOf(place: HTMLElement): { width: number; height: number } {
   return { width: Math.max(LEAST, place.clientWidth), height: Math.max(LEAST, place.clientHeight) };
+}
+
+// The size in which both axes have the same scale; null: the chart has it.
+function fitted(
+  chart: uPlot,
+  place: HTMLElement,
+  extents: [number, number] | null,
+): { width: number; height: number } | null {
+  if (extents === null) {
+    return null;
+  }
+  const { width, height } = sizeOf(place);
+  const inner = { width: chart.bbox.width / devicePixelRatio, height: chart.bbox.height / devicePixelRatio };
+  const around = { width: chart.width - inner.width, height: chart.height - inner.height };
+  const scale = Math.min((width - around.width) / extents[0], (height - around.height) / extents[1]);
+  const size = {
+    width: Math.round(around.width + scale * extents[0]),
+    height: Math.round(around.height + scale * extents[1]),
+  };
+  const near = Math.abs(size.width - chart.width) <= 1 && Math.abs(size.height - chart.height) <= 1;
+  return near || scale <= 0 ? null : size;
 }
 
 // uPlot asks for its canvas while it is made and leaves no choice. Without a graphics card, canvases that the

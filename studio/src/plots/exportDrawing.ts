@@ -1,0 +1,178 @@
+// A plot as a file: drawn again in the colours of paper, with its title and legend, as PNG at twice its size
+// or as SVG.
+
+import uPlot from "uplot";
+import { font, type Look, paperLook } from "./look";
+import { saveFile } from "./save";
+import { recordingPaths, SvgContext } from "./svgContext";
+import type { ChartOptions } from "./useChart";
+
+export type DrawingFormat = "png" | "svg";
+
+export type LegendEntry = { label: string; color: string };
+
+export type PlotDrawing = {
+  title: string;
+  width: number;
+  height: number;
+  options: (look: Look) => ChartOptions;
+  data: uPlot.AlignedData;
+  legend?: (look: Look) => LegendEntry[];
+  // Lies under the axes and fills their inside.
+  image?: HTMLCanvasElement;
+};
+
+// Units of a drawing for each pixel of the page. Charts round lengths to units.
+const FACTORS: Record<DrawingFormat, number> = { png: 2, svg: 8 };
+const HEAD = 26;
+const LINE = 20;
+const MARGIN = 10;
+const SWATCH = 14;
+
+// Save a chart.
+export async function exportDrawing(drawing: PlotDrawing, format: DrawingFormat): Promise<void> {
+  const { title, width, image } = drawing;
+  const legend = placed(drawing.legend?.(paperLook(1)) ?? [], width);
+  const lines = legend.reduce((most, { line }) => Math.max(most, line + 1), 0);
+  const sheet = new Sheet(format, title, width, drawing.height + HEAD + LINE * lines);
+  const { ctx, factor } = sheet;
+  const { chart, content } = await drawnAgain(drawing, format, factor);
+  const top = (HEAD + LINE * lines) * factor;
+  if (image !== undefined) {
+    const { left, top: inner, width: across, height: down } = chart.bbox;
+    ctx.imageSmoothingEnabled = false;
+    ctx.drawImage(image, left, top + inner, across, down);
+  }
+  if (content instanceof SvgContext) {
+    (ctx as unknown as SvgContext).include(content, 0, top);
+  } else {
+    ctx.drawImage(chart.ctx.canvas, 0, top);
+  }
+  drawLegend(sheet, legend);
+  chart.destroy();
+  sheet.save();
+}
+
+// Save a picture without axes: its samples become squares.
+export function exportPicture(title: string, image: HTMLCanvasElement, format: DrawingFormat): void {
+  const square = Math.max(1, Math.floor(640 / Math.max(image.width, image.height))) / 2;
+  const [width, height] = [image.width * square, image.height * square];
+  const sheet = new Sheet(format, title, width + 16, height + HEAD + 8);
+  const { ctx, factor } = sheet;
+  ctx.imageSmoothingEnabled = false;
+  ctx.drawImage(image, 8 * factor, HEAD * factor, width * factor, height * factor);
+  sheet.save();
+}
+
+// A canvas, or an SVG with the interface of one, with the title of a drawing.
+class Sheet {
+  readonly ctx: CanvasRenderingContext2D;
+  readonly factor: number;
+  readonly save: () => void;
+
+  constructor(format: DrawingFormat, title: string, width: number, height: number) {
+    const factor = FACTORS[format];
+    const look = paperLook(factor);
+    const canvas = document.createElement("canvas");
+    canvas.width = Math.round(width * factor);
+    canvas.height = Math.round(height * factor);
+    const ctx = format === "svg" ? asCanvasContext(new SvgContext("sheet")) : canvas.getContext("2d");
+    if (ctx === null) {
+      throw new Error("The browser gives no canvas to draw on.");
+    }
+    ctx.fillStyle = look.ground;
+    ctx.fillRect(0, 0, canvas.width, canvas.height);
+    ctx.fillStyle = look.text;
+    ctx.font = `600 ${font(look, 13)}`;
+    ctx.textBaseline = "middle";
+    ctx.fillText(title, MARGIN * factor, (HEAD / 2) * factor, canvas.width - 2 * MARGIN * factor);
+    this.ctx = ctx;
+    this.factor = factor;
+    this.save = () => {
+      if (format === "png") {
+        canvas.toBlob((blob) => blob !== null && saveFile(blob, title, format), "image/png");
+      } else {
+        const text = (ctx as unknown as SvgContext).document(width, height, factor);
+        saveFile(new Blob([text], { type: "image/svg+xml" }), title, format);
+      }
+    };
+  }
+}
+
+type DrawnChart = { chart: uPlot; content: SvgContext | null };
+
+async function drawnAgain(drawing: PlotDrawing, format: DrawingFormat, factor: number): Promise<DrawnChart> {
+  // uPlot multiplies by the device's pixels itself.
+  const look = paperLook(factor / devicePixelRatio);
+  const size = {
+    width: Math.round(drawing.width * look.unit),
+    height: Math.round(drawing.height * look.unit),
+  };
+  const make = () =>
+    new uPlot({ ...drawing.options(look), ...size }, drawing.data, document.createElement("div"));
+  const drawn = () => new Promise((done) => setTimeout(done));
+  if (format === "png") {
+    const chart = make();
+    await drawn();
+    return { chart, content: null };
+  }
+  const content = new SvgContext("chart");
+  const chart = await recordingPaths(async () => {
+    const made = withContext(asCanvasContext(content), make);
+    await drawn();
+    return made;
+  });
+  return { chart, content };
+}
+
+// uPlot asks for the context of its canvas while it is made.
+function withContext<T>(ctx: CanvasRenderingContext2D, make: () => T): T {
+  const asked = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = (() => ctx) as unknown as typeof asked;
+  try {
+    return make();
+  } finally {
+    HTMLCanvasElement.prototype.getContext = asked;
+  }
+}
+
+// It has the methods of a canvas context that charts call.
+function asCanvasContext(context: SvgContext): CanvasRenderingContext2D {
+  return context as unknown as CanvasRenderingContext2D;
+}
+
+type Placed = { entry: LegendEntry; x: number; line: number };
+
+// The positions of the entries of a legend, in lines no longer than the sheet.
+function placed(entries: LegendEntry[], width: number): Placed[] {
+  const ctx = document.createElement("canvas").getContext("2d");
+  if (ctx === null) {
+    return [];
+  }
+  ctx.font = font(paperLook(1));
+  let x = MARGIN;
+  let line = 0;
+  return entries.map((entry) => {
+    const length = ctx.measureText(entry.label).width + SWATCH + 4;
+    if (x > MARGIN && x + length > width - MARGIN) {
+      x = MARGIN;
+      line++;
+    }
+    const place = { entry, x, line };
+    x += length + 16;
+    return place;
+  });
+}
+
+function drawLegend({ ctx, factor }: Sheet, places: Placed[]): void {
+  const look = paperLook(factor);
+  ctx.font = font(look);
+  ctx.textBaseline = "middle";
+  for (const { entry, x, line } of places) {
+    const y = (HEAD + (line + 0.5) * LINE) * factor;
+    ctx.fillStyle = entry.color;
+    ctx.fillRect(x * factor, y - factor, SWATCH * factor, 2 * factor);
+    ctx.fillStyle = look.text;
+    ctx.fillText(entry.label, (x + SWATCH + 4) * factor, y);
+  }
+}
