@@ -201,6 +201,22 @@ test("a plot shows the time courses of a node and of another element", async () 
   });
   await chart("Time course of u", "activation, off output over time").waitFor();
   await shot(page, "plot-course");
+
+  await choose(page, "Menu of this plot", "Phase plot");
+  const phase = plot("Phase plot of u");
+  const drawing = chart("Phase plot of u", "rate of change (1/ms) over activation of u");
+  await expect.poll(() => colours(drawing)).toBeGreaterThan(60);
+  await shot(page, "plot-phase");
+  const alone = await drawn(drawing);
+  await button(page, "First frame").click();
+  await expect.poll(() => drawn(drawing)).not.toBe(alone);
+  await button(page, "Live").click();
+  await beside(page, "Settings of this plot", async (settings) => {
+    await settings.getByLabel("rate of change of the other axis").uncheck();
+    await settings.getByRole("combobox", { name: "Element of the vertical axis" }).click();
+    await settings.getByRole("option", { name: "off", exact: true }).click();
+  });
+  await phase.getByRole("img", { name: "off output over activation of u" }).waitFor();
 });
 
 test("a field over two dimensions is a heat map with a scale; a sensor shows its picture", async () => {

@@ -7,6 +7,7 @@ import { HeatMap } from "../plots/HeatMap";
 import { isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
 import { Kernel } from "../plots/Kernel";
 import { PackagedPlot } from "../plots/PackagedPlot";
+import { Phase } from "../plots/Phase";
 import { Picture } from "../plots/Picture";
 import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
@@ -22,6 +23,7 @@ const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   heat: HeatMap,
   picture: Picture,
   space_time: SpaceTime,
+  phase: Phase,
   kernel: Kernel,
 };
 

@@ -101,7 +101,8 @@ export function plotTitle({ element, kind }: { element: string; kind: PlotKind |
     return "Plot";
   }
   const over = kind === "course" || kind === "space_time";
-  return over ? `${found.name} over time` : kind === "kernel" ? `Kernel of ${found.name}` : found.name;
+  const of = { kernel: "Kernel", phase: "Phase" }[kind ?? ""];
+  return over ? `${found.name} over time` : of === undefined ? found.name : `${of} of ${found.name}`;
 }
 
 type Plot = { element: string; kind: PlotKind; port: string };

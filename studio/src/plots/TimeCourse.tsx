@@ -15,7 +15,8 @@ import { drawMoment } from "./momentLine";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { CalmRange, reading } from "./range";
 import type { TraceSetting } from "./settings";
-import { sideBySide, timeRange } from "./traces";
+import { sideBySide, timeRange, traceLabel } from "./traces";
+import { traceOf } from "./TraceControl";
 import { type ChartOptions, useChart } from "./useChart";
 import { useLatest } from "./useLatest";
 import { useStreams } from "./useStreams";
@@ -26,14 +27,8 @@ export function TimeCourse(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
   const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
-  const own = useStudio((state) =>
-    JSON.stringify(
-      ownTrace(
-        element.id,
-        port,
-        state.document === null ? 0 : (portAxes(state.document, element, port)?.length ?? 0),
-      ),
-    ),
+  const own = useStudio(({ document }) =>
+    JSON.stringify(traceOf(element.id, port, (document && portAxes(document, element, port)) || [], "max")),
   );
   const kept = JSON.stringify(settings.traces);
   const traces = useMemo(
@@ -43,7 +38,7 @@ export function TimeCourse(props: PlotProps) {
   const labels = useStudio((state) =>
     traces
       .map((trace) =>
-        labelOf(
+        traceLabel(
           trace,
           trace.element === element.id ? "" : (state.elements.get(trace.element)?.path ?? "gone"),
         ),
@@ -150,7 +145,7 @@ export function TimeCourse(props: PlotProps) {
       ))}
       controls={
         <CourseControls
-          element={element.id}
+          first={JSON.parse(own) as TraceSetting}
           traces={traces}
           settings={settings}
           shown={() => rangeOf(chart.current)}
@@ -189,16 +184,6 @@ export function TimeCourse(props: PlotProps) {
       />
     </PlotFrame>
   );
-}
-
-function ownTrace(element: string, port: string, axes: number): TraceSetting {
-  return { element, port, reduce: axes === 0 ? "at" : "max", at: [] };
-}
-
-// The element is named where it is another one than that of the plot.
-function labelOf({ port, reduce, at }: TraceSetting, path: string): string {
-  const name = `${path} ${port}`.trim();
-  return reduce === "at" ? (at.length === 0 ? name : `${name} at ${at.join(", ")}`) : `${reduce} of ${name}`;
 }
 
 function rangeOf(chart: uPlot | null): [number, number] {

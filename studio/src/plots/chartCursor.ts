@@ -6,8 +6,18 @@ import { type Along, type Coordinate, linkedCursor, valueOn } from "./linked";
 // Values on the scales at the cursor. Where the cursor is in another chart, one of them may be unknown.
 export type CursorAt = { x: number | null; y: number | null };
 
+// A course through the plane of a chart: the place at a time, and the time of the nearest place.
+export type Orbit = {
+  at: (time: number) => readonly [x: number, y: number] | null;
+  time: (x: number, y: number) => number | null;
+};
+
+type Linkable = { along?: { x: Along; y?: Along }; orbit?: Orbit };
+
 // Where uPlot draws no cursor.
 const NOWHERE = -10;
+
+const NOTHING: { x: Along; y?: Along } = { x: null };
 
 export class ChartCursor {
   private inside = false;
@@ -18,7 +28,7 @@ export class ChartCursor {
   constructor(
     private chart: uPlot,
     private host: HTMLElement,
-    private along: () => { x: Along; y?: Along },
+    private linkable: () => Linkable,
   ) {
     const { signal } = this.listening;
     chart.over.addEventListener("mouseenter", () => this.enter(true), { signal });
@@ -41,8 +51,10 @@ export class ChartCursor {
   tell(): void {
     if (this.inside) {
       const at = this.at();
-      const { x, y = null } = this.along();
-      linkedCursor.point(this, at === null ? [] : coordinatesOf([x, at.x], [y, at.y]));
+      const { along: { x, y = null } = NOTHING, orbit } = this.linkable();
+      const time = at === null || at.x === null || at.y === null ? null : orbit?.time(at.x, at.y);
+      const coordinates = at === null ? [] : coordinatesOf([x, at.x], [y, at.y], ["time", time ?? null]);
+      linkedCursor.point(this, coordinates);
     }
   }
 
@@ -77,7 +89,13 @@ export class ChartCursor {
   }
 
   private link(coordinates: Coordinate[]): void {
-    const { x: across, y: up = null } = this.along();
+    const { along: { x: across, y: up = null } = NOTHING, orbit } = this.linkable();
+    const time = orbit === undefined ? null : valueOn("time", coordinates);
+    const place = time === null ? null : (orbit?.at(time) ?? null);
+    if (place !== null) {
+      this.show({ x: place[0], y: place[1] });
+      return;
+    }
     const { clientWidth, clientHeight } = this.chart.over;
     const seen = (along: Along, scale: string, room: number) => {
       const value = valueOn(along, coordinates);

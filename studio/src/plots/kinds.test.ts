@@ -65,22 +65,22 @@ const LEVELLED = { levels: { charge: { threshold: "theta" } } } as unknown as Ki
 describe("kinds of plots", () => {
   it("follow from the axes", () => {
     const [x, y, hue, channel] = AXES as [AxisView, AxisView, AxisView, AxisView];
-    expect(plotKinds(null)).toEqual(["course"]);
-    expect(plotKinds([])).toEqual(["course"]);
-    expect(plotKinds([x])).toEqual(["curve", "course", "space_time"]);
-    expect(plotKinds([x, y])).toEqual(["heat", "course", "curve", "space_time"]);
-    expect(plotKinds([x, y, hue])).toEqual(["heat", "course", "curve", "space_time"]);
+    expect(plotKinds(null)).toEqual(["course", "phase"]);
+    expect(plotKinds([])).toEqual(["course", "phase"]);
+    expect(plotKinds([x])).toEqual(["curve", "course", "space_time", "phase"]);
+    expect(plotKinds([x, y])).toEqual(["heat", "course", "curve", "space_time", "phase"]);
+    expect(plotKinds([x, y, hue])).toEqual(["heat", "course", "curve", "space_time", "phase"]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
-    expect(plotKinds([x], [], true)).toEqual(["curve", "course", "space_time", "kernel"]);
+    expect(plotKinds([x], [], true)).toEqual(["curve", "course", "space_time", "phase", "kernel"]);
   });
 
   it("of packages come last, where the axes fit", () => {
     const [x, y, hue, channel] = AXES as [AxisView, AxisView, AxisView, AxisView];
     const plot = (axes: number, periodic = false) =>
       ({ name: "odd", title: "Odd", axes, periodic }) as PlotView;
-    expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "space_time", "odd"]);
-    expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course", "curve", "space_time"]);
+    expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "space_time", "phase", "odd"]);
+    expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course", "curve", "space_time", "phase"]);
     expect([[], [x], [x, y], [x, y, hue], [x, y, channel]].map((axes) => fits(plot(2), axes))).toEqual([
       false,
       false,

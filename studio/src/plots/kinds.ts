@@ -2,7 +2,7 @@
 
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 
-export type OwnPlot = "course" | "curve" | "heat" | "picture" | "space_time" | "kernel";
+export type OwnPlot = "course" | "curve" | "heat" | "picture" | "space_time" | "phase" | "kernel";
 
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;
@@ -13,6 +13,7 @@ export const PLOT_TITLES: Record<OwnPlot, string> = {
   heat: "Heat map",
   picture: "Picture",
   space_time: "Space-time plot",
+  phase: "Phase plot",
   kernel: "Interaction kernel",
 };
 
@@ -29,13 +30,13 @@ export function portAxes(document: DocumentView, element: ElementView, port: str
 // best one first, those of packages last.
 export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = [], kernel = false): PlotKind[] {
   if (axes === null || axes.length === 0) {
-    return ["course"];
+    return ["course", "phase"];
   }
   const own = isPicture(axes)
     ? ["picture", "course"]
     : axes.length === 1
-      ? ["curve", "course", "space_time"]
-      : ["heat", "course", "curve", "space_time"];
+      ? ["curve", "course", "space_time", "phase"]
+      : ["heat", "course", "curve", "space_time", "phase"];
   return [
     ...own,
     ...(kernel ? ["kernel"] : []),

@@ -17,6 +17,10 @@ export type PlotSettings = {
   traces: TraceSetting[];
   // The newest time that is shown, in time units; null: all.
   window: number | null;
+  // The time courses of a phase plot: to the right (null: the plot's own), and upwards (null: the rate of
+  // change of the other one).
+  across: TraceSetting | null;
+  up: TraceSetting | null;
   // Whether time runs downwards, not to the right.
   down: boolean;
   // The names of the axes that are drawn (none: the first ones), and positions on others.
@@ -54,6 +58,8 @@ export function readSettings(given: Record<string, unknown>): PlotSettings {
     scale: SCALES.find((scale) => scale.name === given["scale"])?.name ?? "auto",
     traces: Array.isArray(given["traces"]) ? given["traces"].filter(isTrace) : [],
     window: WINDOWS.includes(given["window"] as number | null) ? (given["window"] as number | null) : 2000,
+    across: isTrace(given["across"]) ? given["across"] : null,
+    up: isTrace(given["up"]) ? given["up"] : null,
     down: given["down"] === true,
     drawn: isTexts(given["drawn"]) ? given["drawn"] : [],
     at: isRecord(given["at"])

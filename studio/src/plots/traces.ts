@@ -1,6 +1,7 @@
 // Several time courses: samples of different times on one axis.
 
 import type { History } from "../history";
+import type { TraceSetting } from "./settings";
 
 export type Traces = [times: number[], ...values: (number | null)[][]];
 
@@ -61,6 +62,12 @@ function merged(parts: { times: number[]; values: number[] }[]): Traces {
       next[i] = hit ? at + 1 : at;
     });
   }
+}
+
+// What a time course shows, in words; the path names its element where that is not clear.
+export function traceLabel({ port, reduce, at }: TraceSetting, path: string): string {
+  const name = `${path} ${port}`.trim();
+  return reduce === "at" ? (at.length === 0 ? name : `${name} at ${at.join(", ")}`) : `${reduce} of ${name}`;
 }
 
 // The times that are shown: the newest `window` time units, or all. While less than that has passed, the axis

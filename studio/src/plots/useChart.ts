@@ -5,7 +5,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useRef } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { ChartCursor, type CursorAt } from "./chartCursor";
+import { ChartCursor, type CursorAt, type Orbit } from "./chartCursor";
 import type { Along } from "./linked";
 import { type Look, pageLook } from "./look";
 import { useLatest } from "./useLatest";
@@ -25,6 +25,8 @@ export type Chart = {
   label: string;
   // What its scales show, for the linked cursor.
   along?: { x: Along; y?: Along };
+  // A course through its plane, for the time of the linked cursor.
+  orbit?: Orbit;
   // What lies at the cursor, in words.
   read?: (chart: uPlot, at: CursorAt) => string;
   // Adds other content to the chart; returns a function that removes it.
@@ -89,7 +91,7 @@ export function useChart(made: Chart, key: string): ChartRefs {
     words.className = "plot-readout numbers";
     created.over.append(words);
     readout.current = words;
-    const pointer = new ChartCursor(created, place, () => latest.current.along ?? { x: null });
+    const pointer = new ChartCursor(created, place, () => latest.current);
     cursor.current = pointer;
     created.ctx.canvas.setAttribute("role", "img");
     created.ctx.canvas.setAttribute("aria-label", current.label);
