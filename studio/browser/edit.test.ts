@@ -1,7 +1,9 @@
+import { readFileSync } from "node:fs";
+
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { box, button, openEmpty, panel, select, type } from "./hands";
+import { box, button, file, openEmpty, panel, select, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -166,6 +168,17 @@ test("a frame drawn with Shift selects boxes, and commands align them", async ()
   await page.keyboard.press("Enter");
   await observer.until(() => at("b")?.x === at("a")?.x);
   expect(at("b")?.y).toBe(200);
+});
+
+test("the commands and the menu of files export the document as a Python script", async () => {
+  const { page } = studio;
+  await page.keyboard.press("Control+k");
+  const commands = page.getByRole("dialog", { name: "Commands and elements" });
+  await commands.getByRole("combobox").fill("python");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Enter")]);
+  expect(download.suggestedFilename()).toBe("untitled.py");
+  expect(readFileSync(await download.path(), "utf8")).toContain('dd.GaussianStimulus("a", [x]');
+  await Promise.all([page.waitForEvent("download"), file(page, "Export as Python script")]);
 });
 
 test("Ctrl+K goes to an element; a right click on a box lists what can be done with it", async () => {

@@ -71,7 +71,7 @@ export type Announced = {
 // of values that changed and `unmatched` lists the values that could not be applied. `imported` is a sentence
 // on the import of a file of another tool. `version` is the first version of the document with the change, if
 // the request made one. `made` lists the ids of new elements, `group` the names of a new group; `text` is
-// what the request asked for: a document for the clipboard.
+// what the request asked for: a document for the clipboard, or a script.
 export type Answer = {
   type: "answer";
   request: number;
@@ -511,6 +511,12 @@ export type ExperimentView = {
   trials: number;
   repeated: number | null;
   run: RunView | null;
+};
+
+// Return a Python script that makes the document, the `text` of the answer.
+export type ExportScript = {
+  type: "export_script";
+  request?: number;
 };
 
 // A file that could not be opened, with all its problems; an empty list clears an earlier message.
@@ -1360,6 +1366,7 @@ export type ToServer =
   | MakeGroup
   | Ungroup
   | CopyElements
+  | ExportScript
   | Paste
   | PlaceBoxes
   | SetMany

@@ -366,3 +366,18 @@ def test_an_edit_that_cannot_be_compiled_leaves_the_run_and_its_failure_ends_wit
 
     with studio(root, root / "selection.json", trust=True) as address:
         play(address, scene)
+
+
+def test_the_script_of_the_open_document_makes_the_same_document(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.do("rename", element=p.element("u"), name="renamed")
+        script = (await p.do("export_script"))["text"]
+        await p.do("save", path="again.json")
+        space: dict[str, Any] = {"__name__": "script"}
+        exec(script, space)
+        assert space["make"]().to_json() == (root / "again.json").read_text(encoding="utf-8")
+        assert script.endswith('dd.save(make(), "selection.json")\n'), "the name of the file that was open"
+
+    with studio(root) as address:
+        play(address, scene)

@@ -33,26 +33,34 @@ typo).
 
 
 def add(
-    doc: Document, element: Element, group: PathNames = (), every: int = 1, after: Entry | None = None
+    doc: Document,
+    element: Element,
+    group: PathNames = (),
+    every: int = 1,
+    after: Entry | None = None,
+    ident: str = "",
 ) -> tuple[Document, Entry]:
     """Return a document with one more element.
 
-    An element without a name is named after the element `after` that it reads: `u>Gain`, `u>Gain2`.
+    An element without a name is named after the element `after` that it reads: `u>Gain`, `u>Gain2`. `ident`
+    is its id; empty: the one that follows from its path.
     """
     if isinstance(element, Element) and not element.name:
         group, base = (group or after.group, f"{after.names[-1]}>") if after else (group, "")
         base += type(element).__name__
         taken = doc.by_names()
         element = dc.replace(element, name=_free(base, lambda name: (*group, name) in taken))
-    doc, entries = add_all(doc, [(element, group, every)])
+    if ident:
+        require_id(ident, doc.by_id())
+    doc, entries = add_all(doc, [(element, group, every)], ident)
     return doc, entries[0]
 
 
 def add_all(
-    doc: Document, elements: Iterable[tuple[Element, PathNames, int]]
+    doc: Document, elements: Iterable[tuple[Element, PathNames, int]], ident: str = ""
 ) -> tuple[Document, list[Entry]]:
     """Return a document with more elements, given as (element, group, step in ticks); every element has a
-    name.
+    name. `ident`: the id of a single element, if it does not follow from its path.
     """
     entries: list[Entry] = []
     taken, ids, groups = dict(doc.by_names()), dict(doc.by_id()), set(doc.groups)
@@ -67,7 +75,7 @@ def add_all(
         _vacant(doc, names, taken, groups)
         _unambiguous(doc, names, element)
         path = display(names)
-        entry = Entry(stored_id(path, ids), names, element, every)
+        entry = Entry(ident or stored_id(path, ids), names, element, every)
         entries.append(entry)
         taken[names] = entry
         ids[entry.id] = entry
@@ -573,6 +581,26 @@ def _unambiguous(doc: Document, names: PathNames, element: Element) -> None:
                 f"a document parameter is called {k.name!r}, like a parameter of {path}",
                 fix="Give one of them another name",
             )
+
+
+def require_id(ident: Any, taken: Collection[str]) -> None:
+    """Raise unless an id is valid and free."""
+    if not isinstance(ident, str) or len(ident) != 8 or any(c not in "0123456789abcdef" for c in ident):
+        raise ParameterError(f"the id is {show(ident)}; expected eight hexadecimal digits")
+    if ident in taken:
+        raise ModelError(f"the id {ident} belongs to another element")
+
+
+def link_group(doc: Document, group: PathNames, template: str, elements: Mapping[str, str]) -> Document:
+    """Return a document in which an existing group is linked to a template.
+
+    `elements` are paths in the document by the ids of the template's elements.
+    """
+    if group not in doc.groups:
+        fix = did_you_mean(display(group), [display(g) for g in doc.groups])
+        raise UnknownName(f"there is no group {display(group)!r}", fix=fix)
+    pairs = tuple((ident, find.element(doc, own).id) for ident, own in elements.items())
+    return dc.replace(doc, uses=(*doc.uses, Use(group, template, pairs)))
 
 
 def require_ticks(every: Any, where: str) -> None:

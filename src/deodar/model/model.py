@@ -18,6 +18,7 @@ from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
 from deodar.model.handle import Handle as Handle
 from deodar.model.paths import PathNames, display, quote, readings, split
+from deodar.model.script import script
 from deodar.parameters import show
 
 
@@ -88,15 +89,20 @@ class Model:
     # ----------------------------------------------------------------------------------------------- building
 
     @renamed.arguments("dd.Model.add")
-    def add(self, element: Element, group: str = "", ticks: int = 1, after: Handle | None = None) -> Handle:
+    def add(
+        self, element: Element, group: str = "", ticks: int = 1, after: Handle | None = None, id: str = ""
+    ) -> Handle:
         """Add an element and return its handle.
 
         `ticks` is the length of the element's step: with `ticks=10` it takes a step of 10 dt at every tenth
         tick. Elements without a state (couplings, stimuli) have no step: they follow their inputs at every
         tick; noise draws new values every `ticks` ticks.
+
+        `id` is the stored identity of the element, eight hexadecimal digits, which key its noise. Without it
+        the id follows from the path; scripts state the id of an element that was renamed or moved.
         """
         near = self.entry(after.id) if after is not None else None
-        doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, near)
+        doc, entry = edit.add(self.document, element, split(group) if group else (), ticks, near, id)
         self.commit(doc)
         self.declared[entry.id] = _caller()
         return Handle(self, entry.id)
@@ -176,6 +182,13 @@ class Model:
         self.commit(edit.insert(self.document, template.document, lambda n: target + n, linked=link))
         self._doubt(template)
 
+    def link_group(self, group: str, template: str, elements: Mapping[str, str]) -> None:
+        """Link an existing group to a template, as `insert` with `link` does.
+
+        `elements` are the paths of its elements, by the ids of the template's elements that they copy.
+        """
+        self.commit(edit.link_group(self.document, split(group), template, elements))
+
     def refresh(self, template: Model) -> None:
         """Update all groups that are linked to a template of this name to its present content.
 
@@ -222,7 +235,7 @@ class Model:
             self.commit(edit.unlink(self.document, found.entry.id, found.parameter))
 
     def describe(self, **values: Any) -> None:
-        """Set general properties: name, time_unit, dt, t0, notes."""
+        """Set general properties: name, time_unit, dt, t0, notes, layout."""
         self.commit(edit.describe(self.document, **values))
 
     def commit(self, document: Document) -> None:
@@ -293,6 +306,14 @@ class Model:
     def to_json(self) -> str:
         """Return the document as JSON text (arrays by name only; `save` writes them to a file)."""
         return files.dumps(self.document)[0]
+
+    def to_script(self, path: str = "") -> str:
+        """Return a Python script that makes the same document.
+
+        The script declares a function `make` that returns the model. Run as a program it writes the document
+        to the file `path`; by default this is the name of the model.
+        """
+        return script(self.document, path)
 
     def __repr__(self) -> str:
         d = self.document

@@ -19,7 +19,7 @@ from deodar.errors import (
 )
 from deodar.leaves import leaves
 from deodar.model import edit, find
-from deodar.model.document import KEYS, READS, VERSION, Document, Entry, Use
+from deodar.model.document import KEYS, READS, VERSION, Document, Entry
 from deodar.model.migrations import migrate
 from deodar.model.parts import part_from_json
 from deodar.model.paths import PathNames, display, split, stored_id
@@ -263,18 +263,10 @@ class _Reader:
                 )
                 continue
             pairs = cast("dict[str, str]", elements)
-            doc = self.attempt(where, doc, lambda d, p=path, n=template, e=pairs: _used(d, p, n, e))
+            doc = self.attempt(
+                where, doc, lambda d, p=path, n=template, e=pairs: edit.link_group(d, split(p), n, e)
+            )
         return doc
-
-
-def _used(doc: Document, path: str, template: str, elements: Mapping[str, str]) -> Document:
-    group = split(path)
-    if group not in doc.groups:
-        raise UnknownName(
-            f"there is no group {path!r}", fix=did_you_mean(path, [display(g) for g in doc.groups])
-        )
-    pairs = tuple((ident, find.element(doc, own).id) for ident, own in elements.items())
-    return dc.replace(doc, uses=(*doc.uses, Use(group, template, pairs)))
 
 
 def _connected(doc: Document, row: Mapping[str, str]) -> Document:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
-from deodar.model import building, clipboard, edit, files, find, fits, starting
+from deodar.model import building, clipboard, edit, files, find, fits, script, starting
 from deodar.model.building import Around, EndPorts
 from deodar.model.document import Document
 from deodar.model.paths import PathNames
@@ -113,6 +113,13 @@ async def _copy(hub: Hub, page: Page, m: to_server.CopyElements) -> Answer:
         lambda: clipboard.text(building.excerpt(doc, m.elements, _groups(m.groups)))
     )
     return Answer(request=m.request, text=text)
+
+
+@handles(to_server.ExportScript)
+async def _export_script(hub: Hub, page: Page, m: to_server.ExportScript) -> Answer:
+    doc, path = hub.project.document(), hub.project.file
+    written = await asyncio.to_thread(script.script, doc, "" if path is None else path.name)
+    return Answer(request=m.request, text=written)
 
 
 @handles(to_server.Paste)

@@ -743,7 +743,7 @@ class Answer(Message, frozen=True, tag="answer"):
     of values that changed and `unmatched` lists the values that could not be applied. `imported` is a
     sentence on the import of a file of another tool. `version` is the first version of the document with the
     change, if the request made one. `made` lists the ids of new elements, `group` the names of a new group;
-    `text` is what the request asked for: a document for the clipboard.
+    `text` is what the request asked for: a document for the clipboard, or a script.
     """
 
     request: int

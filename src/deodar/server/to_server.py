@@ -331,6 +331,11 @@ class CopyElements(Request, frozen=True, kw_only=True, tag="copy"):
 
 
 @MESSAGES.register
+class ExportScript(Request, frozen=True, kw_only=True, tag="export_script"):
+    """Return a Python script that makes the document, the `text` of the answer."""
+
+
+@MESSAGES.register
 class Paste(DocumentRequest, frozen=True, kw_only=True, tag="paste"):
     """Add the content of a document, given as text, to a group; the answer has the new ids in `made`.
 

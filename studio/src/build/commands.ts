@@ -1,5 +1,6 @@
 // All commands, elements and kinds in one list (Ctrl+K), and those for the selection at a right click.
 
+import { exportScript } from "../files/exportScript";
 import type { Point } from "../graph/layout";
 import { keysText, type Shortcut } from "../shortcuts";
 import { useStudio } from "../store";
@@ -10,6 +11,17 @@ import type { ListEntry } from "./entries";
 import { isEditable } from "./editable";
 import { kindEntries, selectedOne, spotFor } from "./palette";
 import { getPointer, getStage } from "./stage";
+
+// Commands without keys.
+const WITHOUT_KEYS: ListEntry[] = [
+  {
+    id: "command export script",
+    family: "Commands",
+    title: "Export as Python script",
+    words: "code download",
+    run: exportScript,
+  },
+];
 
 export function openCommands(shortcuts: readonly Shortcut[]): void {
   const { document, kinds } = useStudio.getState();
@@ -30,6 +42,7 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
     at: null,
     entries: [
       ...commandEntries(shortcuts),
+      ...WITHOUT_KEYS,
       ...alignmentEntries(),
       ...elements,
       ...added.map((entry) => ({ ...entry, family: `Add: ${entry.family.toLowerCase()}` })),

@@ -2,6 +2,7 @@
 
 import { Menu, UnstyledButton } from "@mantine/core";
 import {
+  IconBrandPython,
   IconChevronDown,
   IconDeviceFloppy,
   IconFileExport,
@@ -17,6 +18,7 @@ import {
 import { useStudio } from "../store";
 import { Logo } from "../gallery/Logo";
 import { ask } from "../dialogs/dialogs";
+import { exportScript } from "../files/exportScript";
 import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
 import { useView } from "../gallery/view";
@@ -89,6 +91,9 @@ export function FileMenu() {
           onClick={() => void saveAs()}
         >
           Save as…
+        </Menu.Item>
+        <Menu.Item leftSection={<IconBrandPython {...ICON} />} onClick={() => void exportScript()}>
+          Export as Python script
         </Menu.Item>
         <Menu.Divider />
         <Menu.Item leftSection={<IconFileImport {...ICON} />} onClick={() => void takeValues()}>

@@ -1,0 +1,39 @@
+"""The command `deodar script FILE`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from deodar import codec
+from deodar.cli import _options
+from deodar.model import output
+
+HELP = "write a Python script that makes the same document"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    _options.add_document(parser)
+    parser.add_argument(
+        "--out", "-o", type=Path, metavar="SCRIPT", help="the script to write (default: print it)"
+    )
+    _options.add_force(parser)
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Write the script, or print it."""
+    # start-up time: this brings JAX
+    from deodar.importers.opening import load
+
+    made = load(args.file).to_script(f"{args.file.stem}.json")
+    if args.out is not None:
+        output.write(output.claim(args.out, args.force), made.encode())
+    if args.json:
+        print(codec.text({"out": None if args.out is None else str(args.out), "script": made}))
+    elif args.out is None:
+        print(made, end="")
+    else:
+        print(f"Wrote {_options.shown(args.out)}. Type: python {_options.shown(args.out)}")
+    return 0
