@@ -19,6 +19,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray
 
 import deodar as dd
@@ -58,7 +59,11 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "plane": ("plane", {"record": ["u", "n.output"], "every": 2}),
     "trials": ("line", {"record": ["u"], "every": 3, "trials": 5}),
     "pieces": ("line", {"record": ["n"], "every": 50, "trials": 4, "batch": 2}),
+    "workers": ("line", {"record": ["n"], "every": 50, "trials": 4, "workers": 2}),
 }
+
+RESUMED = tuple(case for case in CASES if case != "workers")
+"""Cases that are stopped after a number of steps: the pieces of workers stop where their chunks end."""
 
 
 def child(case: str, out: str, notes: str) -> None:
@@ -67,9 +72,12 @@ def child(case: str, out: str, notes: str) -> None:
     with open(notes, "wb", buffering=0) as file:
 
         def note(done: int) -> None:
-            file.write(f"{time.time()!r} {done}\n".encode())
+            if done:  # workers begin after their parent
+                file.write(f"{time.time()!r} {done}\n".encode())
 
-        dd.simulate(model(kind), STEPS, seed=3, out=out, progress=note, **settings)
+        dd.simulate(
+            model(kind), STEPS * (10 if case == "workers" else 1), seed=3, out=out, progress=note, **settings
+        )
 
 
 def kill(folder: Path, case: str, seconds: float, outcome: Outcome, limit: float = LOST_SECONDS) -> Path:
@@ -95,7 +103,13 @@ def kill(folder: Path, case: str, seconds: float, outcome: Outcome, limit: float
     outcome.samples += samples
     every = int(CASES[case][1].get("every", 1))
     steps = (samples - 1) * every if samples else 0
-    lost = [killed - float(at) for at, done in lines if int(done) % STEPS >= steps + every]
+    own = [samples] * 2
+    if case == "workers" and samples:  # both pieces note the sum of their steps
+        values = record["n.activation"].values
+        own = [int(np.isfinite(values[first]).sum()) for first in (0, 2)]
+        lost = [killed - float(at) for at, done in lines if int(done) >= sum(own) * every]
+    else:
+        lost = [killed - float(at) for at, done in lines if int(done) % STEPS >= steps + every]
     outcome.worst = max([outcome.worst, *lost])
     if any(age > limit for age in lost):
         outcome.errors.append(f"{case}: {max(lost):.2f} s are lost")
@@ -106,8 +120,12 @@ def kill(folder: Path, case: str, seconds: float, outcome: Outcome, limit: float
     whole = expected.isel(cut)
     for name in record.data_vars:
         same = record[name].values[..., :samples].tobytes() == whole[name].values.tobytes()
-        if case == "pieces":  # of the second piece nothing may be written yet
-            same = record[name].values[:2].tobytes() == whole[name].values[:2].tobytes()
+        if case in ("pieces", "workers"):  # of the second piece nothing may be written yet
+            same = all(
+                record[name].values[k, : own[k // 2]].tobytes()
+                == whole[name].values[k, : own[k // 2]].tobytes()
+                for k in range(4 if case == "workers" else 2)
+            )
         if not same:
             outcome.errors.append(f"{case}: {name} differs from an undisturbed run")
     return out
@@ -161,6 +179,6 @@ def attack(folder: Path, kills: int, seed: int, longest: float = 3.0, limit: flo
         case = list(CASES)[k % len(CASES)]
         seconds = (k + draw.random()) / kills * longest
         shutil.rmtree(kill(folder, case, seconds, outcome, limit), ignore_errors=True)
-    for case in CASES:
+    for case in RESUMED:
         resume(folder, case, outcome)
     return outcome

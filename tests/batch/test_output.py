@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import json
-from collections.abc import Callable
+import pickle
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.batch import output
+from deodar.batch import output, sent
+from deodar.batch.compute import compute
+from deodar.batch.output import OutputPart, RunOutput
+from deodar.batch.pieces import EMPTY, PieceResult
+from deodar.batch.request import SimulationRequest
+from deodar.batch.sent import SentOutput, SentPart
 from deodar.cli import main
 from deodar.errors import Interrupted, NotFinite, OutputExists, RecordError
 from deodar.recording import files
@@ -89,6 +95,83 @@ def test_a_stopped_run_is_resumed_to_the_same_record(case: str, tmp_path: Path) 
             return
         assert about(caught.value.data)["complete"] is False
     assert dd.resume(tmp_path / "run").load().identical(here)
+
+
+@pytest.fixture
+def sent_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Compute the pieces of workers in this process, and receive pickled what they send."""
+
+    def run(
+        model: dd.Model,
+        world: dd.World | None,
+        pieces: Sequence[SimulationRequest],
+        workers: int,
+        out: RunOutput,
+        between: Callable[[int], None],
+    ) -> list[PieceResult | None]:
+        parts: list[PieceResult | None] = [EMPTY if k in out.done else None for k in range(len(pieces))]
+        for k in [k for k, part in enumerate(parts) if part is None]:
+
+            def send(message: sent.PieceMessage, k: int = k) -> None:
+                sent.receive(out, k, pickle.loads(pickle.dumps(message)))
+
+            part = OutputPart(SentOutput(SentPart.of(out, k), model.document, send), k, out.region(k))
+            try:
+                parts[k] = compute(
+                    model, pieces[k], world, lambda done, k=k: between(k * 40 + done), out=part
+                )
+            except Interrupted as error:
+                parts[k] = PieceResult(error.data, False)
+                break
+        return parts
+
+    monkeypatch.setattr("deodar.batch.simulate.in_workers", run)
+
+
+@pytest.mark.usefixtures("sent_here")
+def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) -> None:
+    given: dict[str, Any] = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES["workers"]}
+    here = dd.simulate(model(), 40, batch=2, **given | {"workers": None})
+    record = tmp_path / "run" / "record.zarr"
+    with pytest.raises(Interrupted) as caught:
+        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(20), **given)
+    kept = caught.value.data["u.activation"].values
+    assert np.isfinite(kept[:2, :4]).all() and about(caught.value.data)["complete"] is False
+    assert checkpoint.read(record / output.PIECE_CHECKPOINT.format(0))[0]["steps"] == 20
+    begun: list[int] = []
+
+    def note(done: int) -> None:
+        begun.append(done)
+        stopping(60)(done)
+
+    with pytest.raises(Interrupted):
+        dd.resume(tmp_path / "run", progress=note)
+    assert begun[0] > 20, "it continues from the stored state"
+    assert sorted(p.name for p in record.glob("state*")) == ["state-1.npz", "state.npz"]
+    resumed = dd.resume(tmp_path / "run").load()
+    assert [p.name for p in record.glob("state*")] == ["state.npz"]
+    for name in here.variables:
+        assert resumed[name].values.tobytes() == here[name].values.tobytes()
+
+
+@pytest.mark.usefixtures("sent_here")
+def test_samples_of_workers_after_their_states_are_dropped_where_differences_are_accepted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
+    state = tmp_path / "run" / "record.zarr" / output.PIECE_CHECKPOINT.format(1)
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
+        with pytest.raises(Interrupted):
+            dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(50), **given)
+        early = state.read_bytes()
+        with pytest.raises(Interrupted):
+            dd.resume(tmp_path / "run", progress=stopping(70))
+    state.write_bytes(early)
+    assert finite(tmp_path / "run", 6) == 4
+    with pytest.raises(Interrupted):
+        dd.resume(tmp_path / "run", progress=stopping(56), accept=lambda found: True)
+    assert finite(tmp_path / "run", 3) == 4 and finite(tmp_path / "run", 6) == 2
 
 
 def test_a_run_in_a_world_is_resumed(tmp_path: Path) -> None:

@@ -131,6 +131,38 @@ def test_a_resumed_record_continues_after_the_given_samples(
     assert files.load_record(tmp_path / "r.zarr").identical(whole)
 
 
+def test_two_regions_that_are_written_in_turns_keep_their_samples_and_times(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One is three chunks ahead of the other; some of their samples come between two commits, in turns."""
+    monkeypatch.setattr(growing, "LONGEST_CHUNK", 4)
+    whole = record(every=1, trials=2)
+    writer = begin(whole, tmp_path / "r.zarr", piece={"trial": 1})
+
+    def add(trial: int, first: int, stop: int) -> None:
+        part = whole.isel(time=slice(first, stop), trial=slice(trial, trial + 1))
+        arrays = {str(n): v.values for n, v in part.data_vars.items()}
+        writer.put("time", part["time"].values, arrays, first, (slice(trial, trial + 1),))
+
+    ends = [0, 0]
+    for k in range(21):
+        for trial, n in ((0, 3), (1, 1)):
+            stop = min(ends[trial] + n, 21)
+            if stop > ends[trial]:
+                add(trial, ends[trial], stop)
+                ends[trial] = stop
+        if k % 3 == 0:
+            writer.commit()
+            found = dd.open_record(tmp_path / "r.zarr")
+            assert found["time"].values.tolist() == whole["time"].values[: max(ends)].tolist()
+            for trial, end in enumerate(ends):
+                for name in whole.data_vars:
+                    kept = found[name].isel(trial=trial, time=slice(end)).values
+                    np.testing.assert_array_equal(kept, whole[name].isel(trial=trial, time=slice(end)).values)
+    writer.close(True)
+    assert files.load_record(tmp_path / "r.zarr").identical(whole)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="other systems do not lock folders")
 def test_a_second_writer_is_refused(whole: xarray.Dataset, tmp_path: Path) -> None:
     writer = begin(whole, tmp_path / "r.zarr")

@@ -7,7 +7,7 @@ import hashlib
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, RecordError
 from deodar.model.document import Document
 from deodar.numerics.axes import shape
-from deodar.recording import probe, provenance, stored
+from deodar.recording import probe
 from deodar.session import checkpoint
 from deodar.session.run import Run
 
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 CHECKPOINT = "state.npz"
 """File of the last state, in the folder of the record."""
+
+PIECE_CHECKPOINT = "state-{}.npz"
+"""File of the last state of a piece that a worker process runs; removed when the piece is complete."""
 
 CHECKPOINT_SECONDS = 30.0
 """Wall time between two stored states, in seconds, unless a document time is given (a guess)."""
@@ -49,6 +52,63 @@ class Sampling(NamedTuple):
     def times(self, doc: Document, first: int, n: int) -> np.ndarray:
         """Return the times of `n` samples from number `first` on."""
         return doc.t0 + (self.start + (first + np.arange(n)) * self.gap) * self.dt
+
+
+StoredState = tuple[dict[str, Any], list[np.ndarray]]
+"""A stored state: its text and its arrays."""
+
+
+class Writer(Protocol):
+    """What a part of a record calls to add samples: `GrowingRecord`, or the pipe of a worker process."""
+
+    def put(
+        self,
+        dimension: str,
+        times: np.ndarray,
+        arrays: Mapping[str, np.ndarray],
+        first: int | None = None,
+        region: Region = (),
+    ) -> None: ...
+
+
+class PartOwner(Protocol):
+    """The record that a part belongs to: `RunOutput`, or its image in a worker process.
+
+    Attributes:
+        doc: the document.
+        grid: for each path of the sweep its values.
+        labels: the numbers of the trials; None without this dimension.
+        settings: what the record states of the whole run.
+        state: the stored state that the part may continue from.
+        state_file: the file of this state.
+        snapshots: document time between two stored states; None: about every 30 s of wall time.
+    """
+
+    doc: Document
+    grid: dict[str, list[float]]
+    labels: list[int] | None
+    settings: Mapping[str, Any]
+    state: StoredState | None
+    state_file: str
+    snapshots: float | None
+
+    def begin(self, empty: Callable[[], xarray.Dataset]) -> Writer:
+        """Return the writer; the first call creates the record from what `empty` returns."""
+        ...
+
+    def store(self, run: Run, about: Mapping[str, Any]) -> None:
+        """Store the state of a part's run, after all samples before it."""
+        ...
+
+    def ended(self, number: int, reasons: Mapping[tuple[int, ...], str]) -> None:
+        """Note that a part is complete, and which copies of the whole run diverged in it."""
+        ...
+
+
+def sizes(owner: PartOwner) -> dict[str, int]:
+    """Return the dimensions of the copies of the whole run, with their lengths."""
+    trials = {} if owner.labels is None else {"trial": len(owner.labels)}
+    return {path: len(values) for path, values in owner.grid.items()} | trials
 
 
 class RunOutput:
@@ -81,7 +141,8 @@ class RunOutput:
         self.force, self.snapshots = force, snapshots
         self.path = path
         self.record = files.locate(path)[0] if resume else folder.growing(path)
-        self.state: tuple[dict[str, Any], list[np.ndarray]] | None = None
+        self.state: StoredState | None = None
+        self.state_file = str(self.record / CHECKPOINT)
         self.resumes, self.cuts, self.longer = resume, cut, dict[str, Any]()
         if resume:
             if (self.record / CHECKPOINT).exists():  # else the run begins again
@@ -119,25 +180,25 @@ class RunOutput:
 
     def plan(self, doc: Document, cut: Pieces, settings: Mapping[str, Any]) -> None:
         """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
-        self.doc, self.cut, self.settings = doc, cut, {**settings, "batch": cut.batch}
+        self.doc, self.cut = doc, cut
+        self.settings: Mapping[str, Any] = {**settings, "batch": cut.batch}
         self.grid: dict[str, list[float]] = settings["sweep"]
         self.labels: list[int] | None = settings["trials"]
 
-    def told(self) -> list[Any]:
-        """Return which copies of complete pieces diverged, and why, as plain data."""
-        return [[list(copy), reason] for copy, reason in self.reasons.items()]
-
     def part(self, number: int) -> OutputPart:
         """Return the part of the record that a piece of the run writes."""
+        return OutputPart(self, number, self.region(number))
+
+    def region(self, number: int) -> Region:
+        """Return the copies of a piece."""
         first = number * self.cut.length
         mine = slice(first, min(first + self.cut.length, self.cut.total))
-        region = tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in self.sizes().items())
-        return OutputPart(self, number, region)
+        return tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in sizes(self).items())
 
-    def sizes(self) -> dict[str, int]:
-        """Return the dimensions of the copies of the whole run, with their lengths."""
-        trials = {} if self.labels is None else {"trial": len(self.labels)}
-        return {path: len(values) for path, values in self.grid.items()} | trials
+    def piece_state(self, number: int) -> StoredState | None:
+        """Return the stored state of a piece that a worker process ran; None: there is none."""
+        place = self.record / PIECE_CHECKPOINT.format(number)
+        return checkpoint.read(place) if self.resumes and place.exists() else None
 
     def begin(self, empty: Callable[[], xarray.Dataset]) -> GrowingRecord:
         """Return the writer of the record. The first call creates it from what `empty` returns, a record
@@ -164,10 +225,35 @@ class RunOutput:
         from deodar.recording.growing import GrowingRecord
 
         about: dict[str, Any] = {"lengths": {}, "piece": -1} if self.state is None else self.state[0]
-        writer = GrowingRecord.resumed(self.record, about["lengths"], self.longer, self.cuts)
-        if self.cuts and about["piece"] >= 0:  # another piece may be longer than this one
-            writer.erase(self.part(int(about["piece"])).region, int(about["taken"]))
+        states = [state[0] for k in range(self.cut.count) if (state := self.piece_state(k)) is not None]
+        lengths = dict(about["lengths"])
+        for one in states:
+            lengths = {d: max(n, lengths.get(d, 0)) for d, n in one["lengths"].items()}
+        writer = GrowingRecord.resumed(self.record, lengths, self.longer, self.cuts)
+        if self.cuts:  # other pieces may be longer than these
+            taken = {int(one["piece"]): int(one["taken"]) for one in (about, *states) if one["piece"] >= 0}
+            begun = range(self.cut.count) if self.settings["workers"] is not None else taken
+            for k in (k for k in begun if k not in self.done):
+                writer.erase(self.region(k), taken.get(k, 0))
         return writer
+
+    def store(self, run: Run, about: Mapping[str, Any]) -> None:
+        """Store the state of the run of a part, after all samples before it."""
+        if self.writer is not None:
+            self.write_state(checkpoint.taken(run, about), CHECKPOINT)
+
+    def write_state(self, state: StoredState, name: str) -> None:
+        """Write a state into the folder of the record, after all samples until now."""
+        assert self.writer is not None
+        self.writer.commit()
+        reasons = [[list(copy), reason] for copy, reason in self.reasons.items()]
+        about = {"lengths": self.writer.lengths, "done": self.done, "reasons": reasons}
+        checkpoint.write(({**state[0], **about, "pieces": self.cut.count}, state[1]), self.record / name)
+
+    def ended(self, number: int, reasons: Mapping[tuple[int, ...], str]) -> None:
+        """Note that a piece is complete, and which of its copies diverged, with their reasons."""
+        self.reasons.update(reasons)
+        self.done.append(number)
 
     def close(self) -> xarray.Dataset:
         """Complete the record and return it, opened."""
@@ -180,7 +266,7 @@ class RunOutput:
             writer.commit()
             for copy in self.reasons:
                 writer.blank(copy)
-            lost = diverged.coordinate(self.sizes(), self.reasons)
+            lost = diverged.coordinate(sizes(self), self.reasons)
         writer.close(True, lost)
         return files.open_record(self.record)
 
@@ -204,7 +290,7 @@ class RunOutput:
 class OutputPart:
     """The part of a record that one piece of a run writes."""
 
-    def __init__(self, out: RunOutput, number: int, region: Region) -> None:
+    def __init__(self, out: PartOwner, number: int, region: Region) -> None:
         self.out, self.number, self.region = out, number, region
         self._saved = time.monotonic()
         self._saved_at = self._taken = 0
@@ -229,56 +315,19 @@ class OutputPart:
             probe.series(self.names, strides, conditions), dict(zip(self.names, thresholds, strict=True))
         )
 
-    def write(self, data: xarray.Dataset, complete: bool) -> None:
-        """Write the record of the piece, which a worker process computed."""
-        # start-up time: this imports xarray
-        from deodar.recording import diverged
-
-        data, reasons = diverged.taken_apart(data, list(self.out.sizes()))
-        writer = self.out.begin(lambda: self._like(data))
-        values = {str(name): variable.values for name, variable in data.data_vars.items()}
-        writer.put("time", data["time"].values, values, first=0, region=self.region)
-        writer.commit()
-        if not complete:
-            return
-        self.end(reasons)
-        about = {"piece": -1, "lengths": writer.lengths, "done": self.out.done}
-        about["reasons"] = self.out.told()
-        stored.write(
-            self.out.record / CHECKPOINT, about | {"pieces": self.out.cut.count}, [], checkpoint.KIND
-        )
-
-    def _like(self, data: xarray.Dataset) -> xarray.Dataset:
-        """Return a record of all copies without samples, from that of a piece."""
-        # start-up time: these import xarray
-        import xarray
-
-        from deodar.recording.record import about
-
-        sizes = self.out.sizes() | {"time": 0}
-        labels = {**self.out.grid, **({} if self.out.labels is None else {"trial": self.out.labels})}
-        coords = {d: (d, np.asarray(v, data[d].dtype), data[d].attrs) for d, v in labels.items()}
-        variables = {
-            name: (v.dims, np.empty([sizes.get(str(d), n) for d, n in v.sizes.items()], v.dtype), v.attrs)
-            for name, v in data.data_vars.items()
-        }
-        rest = {name: v for name, v in data.isel(time=slice(0)).coords.items() if name not in coords}
-        text = codec.line({**about(data), **self.out.settings})
-        return xarray.Dataset(variables, {**rest, **coords}, data.attrs | {provenance.KEY: text})
-
     def _collect(self, k: int, seen: tuple[np.ndarray, ...]) -> None:
         """Write samples from number `k` on."""
-        sizes = [part.stop - part.start for part in self.region]
+        own = [part.stop - part.start for part in self.region]
         lead = len(self.program.batch.shape)
         n = seen[0].shape[lead]
-        copies = self._copies(sizes)
+        copies = self._copies(own)
         values = {
-            name: a[tuple(map(slice, copies))].reshape(*sizes, *a.shape[lead:])
+            name: a[tuple(map(slice, copies))].reshape(*own, *a.shape[lead:])
             for name, a in zip(self.names, seen, strict=True)
         }
         writer = self.out.begin(self._empty)
         times = self.sampling.times(self.out.doc, k, n)
-        for one in self.selector.choose(k, times, values, len(sizes)):
+        for one in self.selector.choose(k, times, values, len(own)):
             writer.put(one.dimension, one.times, one.values, one.first, self.region)
         self._taken = k + n
 
@@ -336,22 +385,15 @@ class OutputPart:
 
     def _save(self, run: Run, done: int) -> None:
         """Store the state of the run after `done` steps, and all samples before it."""
-        if self.out.writer is None:
-            return
         self._saved, self._saved_at = time.monotonic(), done
-        self.out.writer.commit()
         about = {
             "piece": self.number,
             "steps": done,
-            "lengths": self.out.writer.lengths,
             "above": self.selector.above,
             "taken": self._taken,
-            "done": self.out.done,
-            "reasons": self.out.told(),
             "of": self.digest,
-            "pieces": self.out.cut.count,
         }
-        checkpoint.save(run, self.out.record / CHECKPOINT, about)
+        self.out.store(run, about)
 
     def _resumed(self, run: Run) -> int:
         """Set the run to the stored state of this piece; return the number of its steps, 0 without one."""
@@ -361,7 +403,7 @@ class OutputPart:
         if about.get("of") != self.digest:
             raise RecordError(
                 "the stored state is of another run",
-                where=str(self.out.record / CHECKPOINT),
+                where=self.out.state_file,
                 fix="Remove it; the run then begins again",
             )
         checkpoint.put(run, about, arrays)
@@ -372,20 +414,19 @@ class OutputPart:
     def end(self, reasons: Mapping[tuple[int, ...], str]) -> None:
         """Note that the piece is complete, and which of its copies diverged, with their reasons."""
         starts = [part.start for part in self.region]
-        for place, reason in reasons.items():
-            self.out.reasons[tuple(k + s for k, s in zip(place, starts, strict=True))] = reason
-        self.out.done.append(self.number)
+        whole = {tuple(k + s for k, s in zip(place, starts, strict=True)): r for place, r in reasons.items()}
+        self.out.ended(self.number, whole)
 
-    def _copies(self, sizes: Sequence[int]) -> list[int]:
+    def _copies(self, own: Sequence[int]) -> list[int]:
         """Return the lengths of the batch axes without the copies that only fill the piece up."""
-        points = int(np.prod(sizes[: len(self.out.grid)], dtype=int))
-        return ([points] if self.out.grid else []) + ([sizes[-1]] if self.out.labels is not None else [])
+        points = int(np.prod(own[: len(self.out.grid)], dtype=int))
+        return ([points] if self.out.grid else []) + ([own[-1]] if self.out.labels is not None else [])
 
     def _empty(self) -> xarray.Dataset:
         # start-up time: this imports xarray
         from deodar.recording import record
 
-        copies, doc = self._copies(list(self.out.sizes().values())), self.out.doc
+        copies, doc = self._copies(list(sizes(self.out).values())), self.out.doc
         variables: list[Any] = []
         for ident, port, place in self.variables:
             axes = self.program.axes(place)

@@ -2,7 +2,8 @@
 
 The pool has no threads of its own, so that no part of it outlives the call that uses it.
 
-Each worker has a pipe. It receives a task, sends the result back, and ends when its pipe is closed. The
+Each worker has a pipe. It receives a task, may send messages during it, sends the result back, and ends when
+its pipe is closed. The
 parent waits for pipes and for the end of processes at the same time; a result that it has not received then
 is not read later.
 """
@@ -36,17 +37,18 @@ class Pool:
     Args:
         count: number of processes.
         main: whether they import the main script, as functions that it defines need.
+        talks: whether the first argument of each task is a function that sends a message to this process.
     """
 
-    def __init__(self, count: int, main: bool = False) -> None:
-        self._count, self._main = count, main
+    def __init__(self, count: int, main: bool = False, talks: bool = False) -> None:
+        self._count, self._main, self._talks = count, main, talks
         self._idle: list[tuple[SpawnProcess, Connection]] = []
         self._busy: dict[Connection, tuple[SpawnProcess, Hashable]] = {}
 
     def __enter__(self) -> Self:
         with _quiet(self._main):
             for _ in range(self._count):
-                self._idle.append(_started())
+                self._idle.append(_started(self._talks))
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *others: object) -> None:
@@ -76,8 +78,12 @@ class Pool:
         with contextlib.suppress(BrokenPipeError, ConnectionResetError):
             pipe.send((function, arguments))
 
-    def wait(self, seconds: float) -> list[tuple[Any, Any]]:
-        """Return keys and results of completed tasks, after waiting at most `seconds` for one of them.
+    def wait(self, seconds: float, heard: Callable[[Any, Any], None] | None = None) -> list[tuple[Any, Any]]:
+        """Return keys and results of completed tasks, after waiting at most `seconds` for a message.
+
+        Args:
+            seconds: the longest wait.
+            heard: called with the key of a task and each message that it sends.
 
         Raises:
             WorkerError: a process has died, or a result cannot be sent between processes.
@@ -95,6 +101,10 @@ class Pool:
                     "a worker process ended unexpectedly; the system may have stopped it for lack of memory",
                     fix="Use fewer workers, or a smaller batch",
                 ) from None
+            if good is None:
+                assert heard is not None
+                heard(key, result)
+                continue
             if not good:
                 raise result
             del self._busy[pipe]
@@ -103,10 +113,10 @@ class Pool:
         return out
 
 
-def _started() -> tuple[SpawnProcess, Connection]:
+def _started(talks: bool) -> tuple[SpawnProcess, Connection]:
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_serve, args=(there,))
+    process = context.Process(target=_serve, args=(there, talks))
     process.start()
     there.close()  # so that the worker's end is the only one, and its death is detected
     return process, here
@@ -135,14 +145,19 @@ def _quiet(main: bool) -> Generator[None]:
 # ---------------------------------------------------------------------------------------------- in the worker
 
 
-def _serve(pipe: Connection) -> None:
+def _serve(pipe: Connection, talks: bool) -> None:
     """Run tasks until the pipe is closed: on one core, without Ctrl-C, and at most until the parent ends."""
     os.environ["NPROC"] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
+
+    def send(message: object) -> None:  # it waits while the parent has many unread messages
+        pipe.send_bytes(pickle.dumps((None, message)))
+
     with contextlib.suppress(EOFError, BrokenPipeError, ConnectionResetError):
         while True:
-            pipe.send_bytes(_done(*pipe.recv()))
+            function, arguments = pipe.recv()
+            pipe.send_bytes(_done(function, (send, *arguments) if talks else arguments))
 
 
 def _done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:

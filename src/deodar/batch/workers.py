@@ -14,12 +14,14 @@ import tempfile
 from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 
+from deodar.batch import sent
 from deodar.batch.compute import compute
-from deodar.batch.output import RunOutput
+from deodar.batch.output import OutputPart, RunOutput
 from deodar.batch.packed import PackedModel
 from deodar.batch.pieces import EMPTY, PieceResult
 from deodar.batch.pool import Pool
 from deodar.batch.request import SimulationRequest
+from deodar.batch.sent import SentOutput, SentPart
 from deodar.errors import Interrupted
 from deodar.model.model import Model
 from deodar.session.interrupt import SecondInterrupt
@@ -39,12 +41,14 @@ class WorkerTask:
         board: the file that all processes map: for each piece the completed steps, and at the end whether to
             stop.
         number: number of the piece.
+        sent: how the piece sends its samples, which the parent writes; None: the result has them.
     """
 
     packed: PackedModel
     request: SimulationRequest
     board: str
     number: int
+    sent: SentPart | None = None
 
 
 def run(
@@ -64,8 +68,7 @@ def run(
         world: the world of its sensors; every worker has a copy of it.
         pieces: the simulation of each piece.
         workers: number of processes.
-        out: the file that receives the record of each piece when it is complete; pieces that it has are not
-            run again.
+        out: the file that receives the samples of all pieces; pieces that it has are not run again.
         between: function that is called from time to time with the number of completed steps of all pieces; a
             KeyboardInterrupt that it raises stops all.
 
@@ -76,16 +79,19 @@ def run(
     packed = PackedModel.of(model, world)
     known = set() if out is None else set(out.done)
     parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(len(pieces))]
-    with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces))) as pool:
-        waiting = [WorkerTask(packed, piece, path, k) for k, piece in enumerate(pieces)]
-        waiting = [task for task in waiting[::-1] if task.number not in known]
+    with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces)), talks=True) as pool:
+        waiting = [k for k in range(len(pieces))[::-1] if k not in known]
+
+        def heard(number: int, message: sent.PieceMessage) -> None:
+            assert out is not None
+            sent.receive(out, number, message)
+
         while waiting or pool.busy:
             while waiting and pool.idle:
-                pool.give(waiting[-1].number, work, waiting.pop())
-            for number, part in pool.wait(LOOK_EVERY):
-                if out is not None and part.data is not None:
-                    out.part(number).write(part.data, part.complete)
-                    part = part._replace(data=None)
+                k = waiting.pop()
+                how = None if out is None else SentPart.of(out, k)
+                pool.give(k, work, WorkerTask(packed, pieces[k], path, k, how))
+            for number, part in pool.wait(LOOK_EVERY, heard):
                 parts[number] = part
             if not board[-1]:
                 try:
@@ -122,8 +128,8 @@ def _mapped(path: str) -> Generator[memoryview]:
 # ---------------------------------------------------------------------------------------------- in the worker
 
 
-def work(job: WorkerTask) -> PieceResult:
-    """Run one piece."""
+def work(send: Callable[[sent.PieceMessage], None], job: WorkerTask) -> PieceResult:
+    """Run one piece; `send` sends what it records to the process that writes it."""
     with _mapped(job.board) as board:
 
         def report(done: int) -> None:
@@ -131,7 +137,10 @@ def work(job: WorkerTask) -> PieceResult:
             if board[-1]:
                 raise KeyboardInterrupt
 
+        model, part = job.packed.model, None
+        if job.sent is not None:
+            part = OutputPart(SentOutput(job.sent, model.document, send), job.number, job.sent.region)
         try:
-            return compute(job.packed.model, job.request, job.packed.world(), report)
+            return compute(model, job.request, job.packed.world(), report, out=part)
         except Interrupted as error:
             return PieceResult(error.data, False)

@@ -58,6 +58,10 @@ Region = tuple[slice, ...]
 """The copies (points of a sweep, trials) that samples belong to: a slice of each leading dimension."""
 
 
+TailKey = tuple[str, tuple[tuple[int, int], ...]]
+"""An array and a region of it."""
+
+
 class _Samples(NamedTuple):
     """Samples that wait: values of `arrays` (by name) at `times`, from number `first` on."""
 
@@ -206,7 +210,9 @@ class GrowingRecord:
         except BaseException:
             self._unlock()
             raise
-        self._tails: dict[tuple[str, Region], _Tail] = {}
+        self._tails: dict[TailKey, _Tail] = {}
+        # samples of each dimension whose times are written; all pieces of a run have the same times
+        self._timed = dict(self.lengths)
         self._waiting: list[_Samples] = []
         self._bytes = 0
         self._changed = threading.Condition()
@@ -441,26 +447,30 @@ class GrowingRecord:
 
     def _write(self, waiting: Sequence[_Samples], lengths: Mapping[str, int]) -> None:
         self._require_present()
+        used: dict[TailKey, _Tail] = {}
         for samples in waiting:
             for name, values in samples.arrays.items():
-                self._tail(self._names.get(name, name), samples.region).add(samples.first, values)
-            self._tail(self._names.get(samples.dimension, samples.dimension), ()).add(
-                samples.first, samples.times
-            )
-        for tail in self._tails.values():
+                self._tail(self._names.get(name, name), samples.region, used).add(samples.first, values)
+            new = max(0, self._timed[samples.dimension] - samples.first)
+            if new < len(samples.times):
+                times = self._tail(self._names.get(samples.dimension, samples.dimension), (), used)
+                times.add(samples.first + new, samples.times[new:])
+                self._timed[samples.dimension] = samples.first + len(samples.times)
+        for tail in used.values():
             tail.write()
+        if waiting:
+            self._tails = used  # those of a complete piece are dropped
         self._commit(lengths)
 
-    def _tail(self, name: str, region: Region) -> _Tail:
+    def _tail(self, name: str, region: Region, used: dict[TailKey, _Tail]) -> _Tail:
+        """Return the last chunks of an array in a region, and add them to those used."""
         key = name, tuple((part.start, part.stop) for part in region)
-        if key not in self._tails:
-            for other in [k for k in self._tails if k[0] == name]:
-                self._tails.pop(other).write()
+        tail = used.get(key) or self._tails.get(key)
+        if tail is None:
             dimension = self._dimension[name]
-            self._tails[key] = _Tail(  # type: ignore[index]
-                self._arrays[name], self._axis[name], region, lambda: self.known[dimension]
-            )
-        return self._tails[key]  # type: ignore[index]
+            tail = _Tail(self._arrays[name], self._axis[name], region, lambda: self.known[dimension])
+        used[key] = tail
+        return tail
 
     def _commit(self, lengths: Mapping[str, int]) -> None:
         """Replace the metadata of the group, which state the lengths of all arrays."""

@@ -17,24 +17,32 @@ from deodar.session.run import Run
 KIND = "state of a run"
 
 
-def save(run: Run, path: Path, about: Mapping[str, Any]) -> None:
-    """Write the state of a run: elements, learned weights, clock, world, copies that diverged.
+def taken(run: Run, about: Mapping[str, Any]) -> tuple[dict[str, Any], list[np.ndarray]]:
+    """Return the state of a run: elements, learned weights, clock, world, copies that diverged.
 
     The noise follows from seed and tick. `about` is what the reader needs besides.
 
     Raises:
         RecordError: the world keeps something that a file cannot hold.
-        OutputError: the system refused.
     """
     own = stored.leaves(run.state, "the model")
     world, theirs = world_file.to_file(run.exchange.keep())
     lost = [[list(copy), error.problems[0].what, error.step] for copy, error in run.lost.items()]
     text = {"clock": dc.asdict(run.clock), "leaves": len(own), "world": world, "lost": lost}
-    stored.write(path, {**about, "run": text}, [*own, *theirs], KIND)
+    return {**about, "run": text}, [*own, *theirs]
+
+
+def write(state: tuple[Mapping[str, Any], list[np.ndarray]], path: Path) -> None:
+    """Write what `taken` returned.
+
+    Raises:
+        OutputError: the system refused.
+    """
+    stored.write(path, state[0], state[1], KIND)
 
 
 def read(path: Path) -> tuple[dict[str, Any], list[np.ndarray]]:
-    """Return what `save` wrote: its text and arrays, for `put`.
+    """Return what `write` wrote: its text and arrays, for `put`.
 
     Raises:
         RecordError: there is none, or it is damaged.
