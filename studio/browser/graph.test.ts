@@ -45,6 +45,7 @@ test("elements are boxes with name and kind, couplings are drawn on their edges"
     await box(page, path).waitFor();
   expect(await box(page, "search.intention").innerText()).toMatch(/intention/);
   expect(await box(page, "search.intention").getAttribute("aria-label")).toMatch(/, Field$/);
+  expect(await box(page, "search.intention").locator(".graph-dimensions").textContent()).toBe("0-D");
   expect(await box(page, "search.expects").count(), "a coupling is no box").toBe(0);
   await button(page, "search.expects, 2.5").click();
   await inspected("expects").waitFor();

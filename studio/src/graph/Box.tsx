@@ -2,10 +2,11 @@
 
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
+import { Sketch } from "../build/Sketch";
 import { type PortFits, usePortFits } from "../build/usePortFits";
 import { askFits, useWiring } from "../build/wiring";
 import { useStudio } from "../store";
-import { BOX, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
+import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
 import { useHover } from "./hover";
 import { LiveBox } from "./LiveBox";
 import { Mark } from "./Mark";
@@ -41,7 +42,7 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
         <div className="graph-box-name one-line" title={path}>
           {name}
         </div>
-        <div className="graph-box-kind one-line">{title}</div>
+        <Signs title={title} kind={data.kind} dimensions={data.dimensions} />
         <Mark element={id} />
       </div>
       {port !== null && level !== "dot" && (
@@ -57,6 +58,22 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
     </div>
   );
 });
+
+// The kind in words and as the palette draws it, and the number of dimensions.
+function Signs({ title, kind, dimensions }: Pick<BoxNode["data"], "title" | "kind" | "dimensions">) {
+  const known = useStudio((state) => state.kinds.get(kind));
+  return (
+    <div className="graph-box-kind">
+      <span className="one-line">{title}</span>
+      {known !== undefined && <Sketch kind={known} />}
+      {dimensions !== null && (
+        <span className="graph-dimensions" title={dimensionsText(dimensions)}>
+          {dimensions}-D
+        </span>
+      )}
+    </div>
+  );
+}
 
 // The name of a port is worth its place only where there are several.
 type PortsProps = {

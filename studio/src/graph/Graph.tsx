@@ -7,6 +7,7 @@ import {
   ReactFlow,
   ReactFlowProvider,
   useReactFlow,
+  useStoreApi,
   type Edge,
   type EdgeTypes,
   type NodeTypes,
@@ -82,6 +83,12 @@ function Canvas({ structure }: { structure: Structure }) {
   const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
   useEffect(() => layer.change(), [layer, nodes]);
   const flow = useReactFlow();
+  const views = useStoreApi();
+  // Every change of the view, also one that the page makes itself.
+  useEffect(
+    () => views.subscribe(({ transform }, before) => transform !== before.transform && layer.change()),
+    [views, layer],
+  );
   const stage = useStage(around, now, (element) => {
     useStudio.getState().select([element]);
     center(element);

@@ -25,10 +25,19 @@ function same(one: string[] | undefined, other: string[] | undefined): boolean {
   return one?.join() === other?.join();
 }
 
+// The number of axes of the port that the box shows; null as long as they are not known.
+export function dimensions(element: ElementView): number | null {
+  return element.axes[livePort(element) ?? ""]?.length ?? null;
+}
+
+export function dimensionsText(n: number): string {
+  return n === 1 ? "1 dimension" : `${n} dimensions`;
+}
+
 // The height of the live picture: a number needs less than a curve; an unknown content gets the full height.
 export function liveHeight(element: ElementView): number {
   const port = livePort(element);
-  return port === null ? 0 : element.axes[port]?.length === 0 ? LIVE.number : LIVE.curve;
+  return port === null ? 0 : dimensions(element) === 0 ? LIVE.number : LIVE.curve;
 }
 
 export function boxSize(element: ElementView): Size {

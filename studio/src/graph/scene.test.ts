@@ -44,6 +44,19 @@ test("edges end at a folded group, and parallel edges become one", () => {
   ]);
 });
 
+test("a box states its family and its dimensions, as long as they are known", () => {
+  const over = (id: string, ...axes: string[]) =>
+    fakeElement(id, "Field", { outputs: ["output", "activation"], axes: { activation: axes } });
+  const elements = [over("node"), over("field", "x"), over("plane", "x", "y"), fakeElement("unknown")];
+  const boxes = scene(fakeDocument(elements), KINDS).nodes;
+  expect(boxes.map(({ data }) => "dimensions" in data && [data.family, data.dimensions])).toEqual([
+    ["other", 0],
+    ["other", 1],
+    ["other", 2],
+    ["other", null],
+  ]);
+});
+
 test("edges state their sign; a dot lies behind an arrow at the same port", () => {
   const elements = [
     ...["a", "b", "c"].map((id) => fakeElement(id)),

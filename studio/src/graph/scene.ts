@@ -3,7 +3,7 @@
 
 import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
 import type { DocumentView, ElementView, Kind } from "../protocol";
-import { boxSize, portHeight, readBoxes, readFolded } from "./boxes";
+import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes";
 import { chains, type Chain } from "./chains";
 import { type CanvasComment, readComments } from "./comments";
 import { elementFamily, type ElementFamily } from "./family";
@@ -20,6 +20,8 @@ export type BoxData = {
   name: string;
   title: string;
   family: ElementFamily;
+  kind: string;
+  dimensions: number | null;
   inputs: string[];
   outputs: string[];
 };
@@ -155,7 +157,17 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
     ...size,
     measured: size,
     handles: [...ports(inputs, "target", size), ...ports(outputs, "source", size)],
-    data: { element: id, path, name, title, family, inputs, outputs },
+    data: {
+      element: id,
+      path,
+      name,
+      title,
+      family,
+      kind: element.kind,
+      dimensions: dimensions(element),
+      inputs,
+      outputs,
+    },
     ariaLabel: `${path}, ${title}`,
     zIndex: 2,
   };
