@@ -6,11 +6,14 @@ import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { ident, many } from "./bench/documents";
+import { mainThread } from "./bench/frames";
+import { panned, zoomed } from "./bench/measures";
 import { box, button, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
 const SMALLEST = 9;
+const RATE = 20;
 const WIDE = 1280;
 const NARROW = 640;
 const ELEMENTS = 500;
@@ -160,4 +163,18 @@ test("five hundred elements without groups are dots until the canvas is zoomed i
   for (let i = 0; i < 4; i++) await button(page, "Zoom in").click();
   await readable(page, 20);
   await shot(page, "legible-many-near");
+});
+
+test("five hundred elements whose model runs are moved and zoomed at 20 frames a second", async () => {
+  const { page } = studio;
+  await button(page, "Show everything").click();
+  await button(page, "Play").click();
+  await observer.until(() => observer.time > 20);
+  for (const [name, gesture] of Object.entries({ moving: panned, zooming: zoomed })) {
+    await gesture(page, 0.5); // graphics in software compile at the first use
+    await settled(page);
+    const { rate, cpu } = await mainThread(page, () => gesture(page, 1.5));
+    console.log(`${ELEMENTS} elements, ${name}: ${rate.toFixed(1)} frames/s, ${cpu.toFixed(1)} ms CPU each`);
+    expect(cpu, `processor time of a frame while ${name}`).toBeLessThan(1000 / RATE);
+  }
 });

@@ -20,6 +20,42 @@ export interface Smoothness {
   gpu: number;
 }
 
+/**
+ * Frames of a page during a gesture: their rate, and the processor time in ms that the main thread of the
+ * page spends on each. That time hardly depends on what else the machine does.
+ */
+export async function mainThread(
+  page: Page,
+  gesture: () => Promise<void>,
+): Promise<{ rate: number; cpu: number }> {
+  const session = await page.context().newCDPSession(page);
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
+  const task = async () => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    return metrics.find(({ name }) => name === "TaskDuration")?.value ?? NaN;
+  };
+  const count = await page.evaluateHandle(() => {
+    const count = { frames: 0, going: true };
+    const next = () => {
+      count.frames += 1;
+      if (count.going) requestAnimationFrame(next);
+    };
+    requestAnimationFrame(next);
+    return count;
+  });
+  const from = performance.now();
+  const before = await task();
+  await gesture();
+  const after = await task();
+  const seconds = (performance.now() - from) / 1000;
+  const frames = await count.evaluate((found) => {
+    found.going = false;
+    return found.frames;
+  });
+  await session.detach();
+  return { rate: frames / seconds, cpu: (1000 * (after - before)) / frames };
+}
+
 /** Measure a page for some seconds. Only canvases that a selector names count for `least`. */
 export async function smoothness(
   browser: Browser,

@@ -89,6 +89,12 @@ export async function manyElements(count: number): Promise<void> {
     ]);
     show(`${count} elements, panning: time between pictures, 95 of 100 below`, moved.p95, "ms", "<= 50");
     costs(`${count} elements, panning`, moved);
+    const [scaled] = await Promise.all([
+      smoothness(browser, page, SECONDS, ".none"),
+      zoomed(page, SECONDS + 1),
+    ]);
+    show(`${count} elements, panning: pictures of the browser`, moved.rate, "1/s", ">= 20");
+    show(`${count} elements, zooming: pictures of the browser`, scaled.rate, "1/s", ">= 20");
   });
 }
 
@@ -117,7 +123,8 @@ async function settled(page: Page): Promise<void> {
   await page.waitForTimeout(3000);
 }
 
-async function panned(page: Page, seconds: number): Promise<void> {
+/** Drag the canvas for some seconds. */
+export async function panned(page: Page, seconds: number): Promise<void> {
   const end = Date.now() + 1000 * seconds;
   await page.mouse.move(640, 300);
   await page.mouse.down();
@@ -125,4 +132,11 @@ async function panned(page: Page, seconds: number): Promise<void> {
     await page.mouse.move(640 + 200 * Math.sin(i / 12), 380 + 150 * Math.cos(i / 15));
   }
   await page.mouse.up();
+}
+
+/** Zoom the canvas in and out with the wheel for some seconds. */
+export async function zoomed(page: Page, seconds: number): Promise<void> {
+  const end = Date.now() + 1000 * seconds;
+  await page.mouse.move(640, 380);
+  for (let i = 0; Date.now() < end; i++) await page.mouse.wheel(0, i % 24 < 12 ? -60 : 60);
 }

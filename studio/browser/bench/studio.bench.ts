@@ -8,4 +8,5 @@ test("first paint of a document", () => firstPaint("a document", selection, ".pl
 test("response of a plot to a slider", () => sliderToPlot(20));
 test("ten plots", tenPlots);
 test("canvas with two hundred elements", () => manyElements(200));
+test("canvas with five hundred elements", () => manyElements(500));
 test("slowdown of the engine", () => slowdown(5));

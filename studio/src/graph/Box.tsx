@@ -12,11 +12,11 @@ import { LiveBox } from "./LiveBox";
 import { Mark } from "./Mark";
 import type { BoxNode } from "./scene";
 import { useProblem, useWarning } from "./problem";
-import { useLook } from "./zoom";
+import { useDetail } from "./useDetail";
 
 export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<BoxNode>) {
   const { element: id, path, name, title, family, inputs, outputs } = data;
-  const level = useLook((look) => look.level);
+  const level = useDetail();
   const selected = useStudio((state) => state.selected.includes(id));
   const port = useStudio((state) => shownPort(state.elements.get(id), state.document?.record?.ports[id]));
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);

@@ -3,9 +3,9 @@
 
 import { useStoreApi } from "@xyflow/react";
 import { type RefObject, useLayoutEffect } from "react";
-import { lookAt, useLook } from "./zoom";
+import { lookAt, useLook, useMoving } from "./zoom";
 
-const REST_MS = 80;
+const REST_MS = 160;
 
 export function useZoomLook(around: RefObject<HTMLElement | null>): void {
   const flow = useStoreApi();
@@ -22,15 +22,21 @@ export function useZoomLook(around: RefObject<HTMLElement | null>): void {
       }
     };
     apply();
+    const rest = () => {
+      apply();
+      useMoving.setState({ moving: false });
+    };
     const leave = flow.subscribe((state, before) => {
-      if (state.transform[2] !== before.transform[2]) {
+      if (state.transform !== before.transform) {
         window.clearTimeout(timer);
-        timer = window.setTimeout(apply, REST_MS);
+        timer = window.setTimeout(rest, REST_MS);
+        useMoving.setState({ moving: true });
       }
     });
     return () => {
       window.clearTimeout(timer);
       leave();
+      useMoving.setState({ moving: false });
     };
   }, [flow, around]);
 }

@@ -30,3 +30,6 @@ export function lookAt(zoom: number): CanvasLook {
 
 // The look of the canvas now.
 export const useLook = create<CanvasLook>(() => lookAt(1));
+
+// Whether the view is being moved or zoomed.
+export const useMoving = create<{ moving: boolean }>(() => ({ moving: false }));
