@@ -4,7 +4,7 @@ import { join } from "node:path";
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { panels, plot as plotOf, selection } from "./bench/documents";
+import { ident, panels, plot as plotOf, selection } from "./bench/documents";
 import { beside, button, choose, colours, drawn, panel, reopen, settled } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -20,13 +20,23 @@ const linked = {
   },
 };
 
+/** A field and a stimulus that is on during two time windows. */
+const edited = {
+  ...selection,
+  elements: {
+    ...selection.elements,
+    left: { ...selection.elements.left, id: ident("left"), windows: [{ kind: "Window", start: 20 }] },
+  },
+  layout: { panels: panels([[plotOf("u", "curve", "activation")], [plotOf("left", "course", "output")]]) },
+};
+
 let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
   studio = await startStudio({
     copies: ["examples/selection.json", "examples/node.json", "examples/saliency.json"],
-    files: { "linked.json": JSON.stringify(linked) },
+    files: { "linked.json": JSON.stringify(linked), "edited.json": JSON.stringify(edited) },
     file: "selection.json",
   });
   observer = await studio.observe();
@@ -184,6 +194,47 @@ test("a plot shows the interaction kernel while a slider moves", async () => {
   expect(await drawn(drawing)).not.toBe(before);
   await shot(page, "plot-kernel");
 });
+
+test("axis, interaction kernel and time windows are edited in the plot that shows them", async () => {
+  const { page } = studio;
+  await reopen(page, observer, "edited.json");
+  const axis = () => observer.document?.axes[0];
+  const before = axis()?.upper;
+  // a click on the axis itself
+  const drawn = await plot("Curves of u").locator(".u-axis").first().boundingBox();
+  if (drawn === null) throw new Error("the plot has no axis");
+  await page.mouse.click(drawn.x + drawn.width / 2, drawn.y + drawn.height / 2);
+  const upper = page.getByRole("textbox", { name: "To of the axis x", exact: true });
+  await upper.fill("80");
+  await upper.press("Enter");
+  await observer.until(() => axis()?.upper === 80);
+  await shot(page, "plot-axis");
+  await upper.fill("-5");
+  await upper.press("Enter");
+  await page.getByRole("region", { name: "Axis x" }).getByRole("alert").waitFor();
+  expect(axis()?.upper).toBe(80);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await observer.ask({ type: "undo" });
+  await observer.until(() => axis()?.upper === before);
+
+  await plot("Curves of u").getByRole("button", { name: "Menu of this plot" }).click();
+  await page.getByRole("menuitem", { name: "Interaction kernel", exact: true }).click();
+  await edit("Interaction kernel of u", "u", "kernel.0.amplitude", 7);
+  await shot(page, "plot-kernel-edit");
+  await page.keyboard.press("Escape");
+  await edit("Time course of left", "left", "windows.0.stop", 350);
+  await shot(page, "plot-windows-edit");
+});
+
+/** Type a number into a parameter beside a plot. */
+async function edit(name: string, element: string, parameter: string, value: number): Promise<void> {
+  await plot(name).getByRole("button", { name: "Edit what this plot shows" }).click();
+  const field = studio.page.getByRole("dialog").getByRole("textbox", { name: parameter, exact: true });
+  await field.fill(String(value));
+  await field.press("Enter");
+  await observer.until(() => observer.value(element, parameter) === value);
+}
 
 test("a plot shows the time courses of a node and of another element", async () => {
   const { page } = studio;

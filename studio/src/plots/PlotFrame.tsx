@@ -10,13 +10,14 @@ import {
   IconTableDown,
   IconVectorSpline,
 } from "@tabler/icons-react";
-import type { ReactNode } from "react";
+import { type MouseEvent, type ReactNode, useState } from "react";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import type { DrawingFormat } from "./exportDrawing";
 import { exportCsv, type Table } from "./exportCsv";
-import { type PlotKind, titleOf } from "./kinds";
+import { type PlotKind, portAxes, titleOf } from "./kinds";
+import { PlotParameters } from "./PlotParameters";
 import type { PlotParams, PlotSettings } from "./settings";
 import type { Streaming } from "./useStreams";
 import "./plots.css";
@@ -70,7 +71,15 @@ export function PlotFrame(props: PlotFrameProps) {
   const running = useStudio((state) => state.clock?.running ?? false);
   const record = useStudio((state) => state.document?.record != null);
   const packaged = useStudio((state) => state.welcome?.plots) ?? [];
+  const document = useStudio((state) => state.document);
+  const axes = document === null ? [] : (portAxes(document, element, port) ?? []);
+  const [editing, setEditing] = useState(false);
   const { lost, seen } = streaming;
+  const onClick = (event: MouseEvent) => {
+    if (event.target instanceof Element && event.target.closest(".u-axis") !== null) {
+      setEditing(true);
+    }
+  };
   return (
     <section className="plot" aria-label={`${titleOf(kind, packaged)} of ${element.path}`}>
       <header className="plot-head">
@@ -92,6 +101,7 @@ export function PlotFrame(props: PlotFrameProps) {
           {note !== undefined && note !== "" && <span className="plot-note">{note}</span>}
           <div className="plot-legend">{legend}</div>
         </div>
+        <PlotParameters element={element} kind={kind} axes={axes} opened={editing} onOpened={setEditing} />
         {controls !== undefined && (
           <Popover position="bottom-end" width={260} shadow="md" trapFocus>
             <Popover.Target>
@@ -153,7 +163,7 @@ export function PlotFrame(props: PlotFrameProps) {
         </Menu>
       </header>
       {strip}
-      <div className="plot-body">
+      <div className="plot-body" role="presentation" onClick={onClick}>
         {children}
         {!seen && (
           <div className="plot-message" role="status">

@@ -15,6 +15,7 @@ import { drawMoment } from "./momentLine";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { CalmRange, reading } from "./range";
 import type { TraceSetting } from "./settings";
+import { drawWindows, timeWindows } from "./timeWindows";
 import { sideBySide, timeRange, traceLabel } from "./traces";
 import { traceOf } from "./TraceControl";
 import { type ChartOptions, useChart } from "./useChart";
@@ -49,6 +50,9 @@ export function TimeCourse(props: PlotProps) {
   // A line marks the moment of the past that the page shows.
   const moment = useStudio((state) => state.clock?.timeline?.time ?? null);
   const marked = useLatest(moment);
+
+  const on = JSON.stringify(timeWindows(element.values));
+  const windows = useLatest(JSON.parse(on) as [number, number][]);
 
   const lives = useRef<Live[]>([]);
   const data = useRef<uPlot.AlignedData>([[]]);
@@ -110,7 +114,12 @@ export function TimeCourse(props: PlotProps) {
         spanGaps: true,
       })),
     ],
-    hooks: { draw: [(self) => drawMoment(self, marked.current, look)] },
+    hooks: {
+      draw: [
+        (self) => drawWindows(self, windows.current, look),
+        (self) => drawMoment(self, marked.current, look),
+      ],
+    },
   });
   const { host, chart } = useChart(
     {
@@ -122,6 +131,7 @@ export function TimeCourse(props: PlotProps) {
     },
     JSON.stringify([labels, timeUnit, settings.range]),
   );
+  useEffect(() => chart.current?.redraw(false), [chart, on]);
   const remove = (at: number) => set({ traces: traces.filter((_, i) => i !== at) });
 
   return (

@@ -1,14 +1,11 @@
 // One element: its kind, its equation and its parameters.
 
-import { useMemo } from "react";
-
 import type { AxisView } from "../../protocol";
 import { useStudio } from "../../store";
 import { ElementHeader } from "./ElementHeader";
+import { ElementPlace } from "./ElementPlace";
 import { Equation } from "./Equation";
 import { PartFields } from "../forms/PartFields";
-import { axesOf } from "../parameters/leaf";
-import { type Place, PlaceContext } from "../place";
 import { PortTable } from "./PortTable";
 import { ProblemBanner } from "./ProblemBanner";
 
@@ -18,21 +15,11 @@ export function ElementInspector({ id }: { id: string }) {
   const element = useStudio((state) => state.elements.get(id));
   const kind = useStudio((state) => state.kinds.get(element?.kind ?? ""));
   const axes = useStudio((state) => state.document?.axes) ?? NO_AXES;
-  const timeUnit = useStudio((state) => state.document?.time_unit ?? "");
-  const found = element === undefined ? "" : JSON.stringify(axesOf(element, kind, axes));
-  const place = useMemo(
-    (): Place => ({
-      element: id,
-      timeUnit,
-      ...(JSON.parse(found || '{"axes": [], "own": false}') as Pick<Place, "axes" | "own">),
-    }),
-    [id, timeUnit, found],
-  );
   if (element === undefined) {
     return <div className="inspector-empty">This element was removed.</div>;
   }
   return (
-    <PlaceContext.Provider value={place}>
+    <ElementPlace id={id}>
       <ElementHeader element={element} kind={kind} />
       <ProblemBanner element={id} />
       {kind === undefined ? (
@@ -47,6 +34,6 @@ export function ElementInspector({ id }: { id: string }) {
           <PortTable element={element} kind={kind} axes={axes} />
         </>
       )}
-    </PlaceContext.Provider>
+    </ElementPlace>
   );
 }

@@ -1,6 +1,9 @@
-// What axes are: name, range, samples.
+// What axes are: name, range, samples; a click on a line opens its fields.
+
+import { Popover, UnstyledButton } from "@mantine/core";
 
 import type { AxisView } from "../../protocol";
+import { AxisFields } from "../axes/AxisFields";
 import { numberText } from "../numbers/number";
 
 export function AxisLines({ axes }: { axes: AxisView[] }) {
@@ -8,15 +11,24 @@ export function AxisLines({ axes }: { axes: AxisView[] }) {
     <ul className="axis-lines">
       {axes.map((axis) => (
         <li key={axis.key}>
-          <b className="one-line" title={axis.name}>
-            {axis.name}
-          </b>
-          <span>
-            {numberText(axis.lower)} to {numberText(axis.upper)} {axis.unit}
-          </span>
-          <span className="dim">
-            {axis.samples} samples{axis.periodic ? ", periodic" : ""}
-          </span>
+          <Popover position="left-start" width={230} shadow="md" trapFocus>
+            <Popover.Target>
+              <UnstyledButton className="axis-line" aria-label={`Edit the axis ${axis.name}`}>
+                <b className="one-line" title={axis.name}>
+                  {axis.name}
+                </b>
+                <span>
+                  {numberText(axis.lower)} to {numberText(axis.upper)} {axis.unit}
+                </span>
+                <span className="dim">
+                  {axis.samples} samples{axis.periodic ? ", periodic" : ""}
+                </span>
+              </UnstyledButton>
+            </Popover.Target>
+            <Popover.Dropdown>
+              <AxisFields axis={axis} />
+            </Popover.Dropdown>
+          </Popover>
         </li>
       ))}
     </ul>

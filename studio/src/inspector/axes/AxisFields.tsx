@@ -1,0 +1,101 @@
+// The properties of one of the document's axes. A change acts on every element that has the axis.
+
+import { Switch, TextInput } from "@mantine/core";
+import { useState } from "react";
+
+import type { AxisView, ListedProblem } from "../../protocol";
+import { socket } from "../../socket";
+import { useStudio } from "../../store";
+import { ProblemLine } from "../../widgets/ProblemLine";
+import { NumberBox } from "../numbers/NumberBox";
+
+type Properties = Omit<AxisView, "key">;
+
+export function AxisFields({ axis }: { axis: AxisView }) {
+  const [problem, setProblem] = useState<ListedProblem | null>(null);
+  const users = useStudio(
+    (state) =>
+      state.document?.elements.filter(({ axes }) =>
+        Object.values(axes).some((keys) => keys.includes(axis.key)),
+      ).length ?? 0,
+  );
+  const change = async (next: Partial<Properties>): Promise<boolean> => {
+    const { key, ...properties } = axis;
+    const { answer } = await socket.ask({ type: "change_axis", key, axis: { ...properties, ...next } });
+    const found = answer.problems?.[0] ?? null;
+    setProblem(found);
+    return found === null;
+  };
+  const number = (name: "lower" | "upper" | "samples", label: string, unit = "") => (
+    <label className="axis-field">
+      <span>{label}</span>
+      <NumberBox
+        label={`${label} of the axis ${axis.name}`}
+        value={axis[name]}
+        unit={unit}
+        rejected={problem !== null}
+        onCommit={(value) => (value === null ? Promise.resolve(false) : change({ [name]: value }))}
+        onForget={() => setProblem(null)}
+        onComplain={setProblem}
+      />
+    </label>
+  );
+  return (
+    <section className="axis-fields" aria-label={`Axis ${axis.name}`}>
+      <b className="one-line">Axis {axis.name}</b>
+      <TextField label="Name" axis={axis} name="name" change={change} />
+      {number("lower", "From", axis.unit)}
+      {number("upper", "To", axis.unit)}
+      {number("samples", "Samples")}
+      <TextField label="Unit" axis={axis} name="unit" change={change} />
+      <Switch
+        size="xs"
+        label="Periodic"
+        checked={axis.periodic}
+        onChange={(event) => void change({ periodic: event.currentTarget.checked })}
+      />
+      <p className="dim">
+        {users === 1 ? "One element has this axis." : `${users} elements have this axis.`}
+      </p>
+      <ProblemLine problem={problem} />
+    </section>
+  );
+}
+
+type TextFieldProps = {
+  label: string;
+  axis: AxisView;
+  name: "name" | "unit";
+  change: (next: Partial<Properties>) => Promise<boolean>;
+};
+
+// Enter or leaving the field commits it, Escape resets it.
+function TextField({ label, axis, name, change }: TextFieldProps) {
+  const [draft, setDraft] = useState<string | null>(null);
+  const take = async () => {
+    if (draft !== null && (draft === axis[name] || (await change({ [name]: draft })))) {
+      setDraft(null);
+    }
+  };
+  return (
+    <label className="axis-field">
+      <span>{label}</span>
+      <TextInput
+        size="xs"
+        aria-label={`${label} of the axis ${axis.name}`}
+        value={draft ?? axis[name]}
+        autoComplete="off"
+        spellCheck={false}
+        onChange={(event) => setDraft(event.currentTarget.value)}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") {
+            void take();
+          } else if (event.key === "Escape") {
+            setDraft(null);
+          }
+        }}
+        onBlur={() => void take()}
+      />
+    </label>
+  );
+}
