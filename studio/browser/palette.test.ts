@@ -37,6 +37,12 @@ async function ground(across: number, down: number): Promise<{ x: number; y: num
   return { x: all.x + all.width * across, y: all.y + all.height * down };
 }
 
+/** The same place, from the corner of the canvas. */
+async function inPane({ x, y }: { x: number; y: number }): Promise<{ x: number; y: number }> {
+  const all = await studio.page.locator(".react-flow__pane").boundingBox();
+  return { x: x - (all?.x ?? 0), y: y - (all?.y ?? 0) };
+}
+
 test("the gallery and the file menu open an empty document", async () => {
   const { page } = studio;
   await file(page, /^Close/);
@@ -157,6 +163,44 @@ test("the list of elements is a panel: a line is dragged to the canvas, or click
   await box(page, "box_stimulus").waitFor();
   await shot(page, "palette-panel");
   expect(kinds().sort()).toEqual(["BoxStimulus", "Field"]);
+});
+
+test("architectures are added whole: entered at the pointer, or dragged from the panel", async () => {
+  const { page } = studio;
+  const at = await ground(0.3, 0.3);
+  await page.mouse.move(at.x, at.y);
+  await page.keyboard.press("/");
+  await search().fill("behaviour one");
+  await palette().getByText("One behaviour, to be inserted as a group").waitFor();
+  await page.keyboard.press("Enter");
+  await box(page, "behaviour.intention").waitFor();
+  expect(observer.document?.groups).toEqual([["behaviour"]]);
+  const first = await box(page, "behaviour.task").boundingBox();
+  expect(Math.abs((first?.x ?? 0) - at.x)).toBeLessThan(200);
+
+  await page.keyboard.press("/");
+  await search().fill("working memory");
+  await expect
+    .poll(() =>
+      palette()
+        .locator("img.chooser-picture")
+        .evaluate((img: HTMLImageElement) => img.naturalWidth),
+    )
+    .toBeGreaterThan(0);
+  await shot(page, "palette-template");
+  await page.keyboard.press("Escape");
+
+  await button(page, "Open panels and plots").click();
+  await page.getByRole("menuitem", { name: "Elements", exact: true }).click();
+  const list = panel(page, "Elements");
+  await list.getByRole("combobox").fill("working memory");
+  const down = await ground(0.2, 0.8);
+  await list.getByRole("option", { name: "Working memory" }).dragTo(page.locator(".react-flow__pane"), {
+    targetPosition: await inPane(down),
+  });
+  await box(page, "working_memory.cue").waitFor();
+  await page.keyboard.press("Control+z");
+  await observer.until(() => observer.document?.groups.length === 1);
 });
 
 test("the palette is legible in both colour schemes and on a narrow page", async () => {

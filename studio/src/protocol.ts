@@ -1289,11 +1289,13 @@ export type StopRecord = {
 
 // A model that can be added to a document as a group.
 //
-// `room` is `architectures`, published models, or `examples`, documents of the gallery.
+// `room` is `architectures`, published models, or `examples`, documents of the gallery. `picture` is the
+// address of a picture; it may be empty.
 export type TemplateView = {
   name: string;
   title: string;
   sentence: string;
+  picture: string;
   room: "architectures" | "examples";
 };
 

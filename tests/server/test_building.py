@@ -266,6 +266,8 @@ def test_every_template_is_added_as_a_group(root: Path) -> None:
         }
         assert {"behaviour", "saliency", "serial_order"} <= set(rooms["architectures"])
         assert "selection" in rooms["examples"] and all(t["title"] and t["sentence"] for t in listed)
+        pictures = {t["name"]: t["picture"] for t in listed}
+        assert pictures["selection"] == "examples/selection.png" and pictures["feature_space"] == ""
         for template in ("behaviour", "selection"):
             answer = await p.do("add_template", name=template, at=[100, 50])
             assert answer["group"] == [template] and answer["made"]

@@ -17,27 +17,33 @@ from deodar.server.to_page import TemplateView
 
 
 def listed() -> list[TemplateView]:
-    """Return all templates: architectures, then examples."""
+    """Return all templates: architectures, then examples; an architecture has the picture of the example of
+    its name.
+    """
+    shown = {e.name: e for e in gallery.examples()}
     published = [
         TemplateView(
             name=name,
             title=title(name.capitalize()),
             sentence=_sentence(make),
+            picture=shown[name].picture if name in shown else "",
             room="architectures",
         )
         for name, make in _architectures().items()
     ]
     others = [
-        TemplateView(name=e.name, title=e.title, sentence=e.sentence, room="examples")
-        for e in gallery.examples()
+        TemplateView(name=e.name, title=e.title, sentence=e.sentence, picture=e.picture, room="examples")
+        for e in shown.values()
         if e.name not in _architectures()
     ]
     return published + others
 
 
 def _sentence(make: Callable[[], Model]) -> str:
+    """Return the first sentence of a function's description, without the verb."""
     summary = docstring.parse(inspect.getdoc(make) or "").summary
-    return summary.split(". ")[0].removesuffix(".") + "."
+    said = summary.split(". ")[0].removesuffix(".").removeprefix("Create ").replace("`", "")
+    return f"{said[:1].upper()}{said[1:]}."
 
 
 def document(name: str) -> Document:

@@ -222,12 +222,14 @@ class ExampleView(Data, frozen=True):
 class TemplateView(Data, frozen=True):
     """A model that can be added to a document as a group.
 
-    `room` is `architectures`, published models, or `examples`, documents of the gallery.
+    `room` is `architectures`, published models, or `examples`, documents of the gallery. `picture` is the
+    address of a picture; it may be empty.
     """
 
     name: str
     title: str
     sentence: str
+    picture: str
     room: Literal["architectures", "examples"]
 
 

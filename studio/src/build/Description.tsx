@@ -1,7 +1,8 @@
 // What a kind computes, below the list: its equation and the meaning of its parameters.
 
 import { Tex } from "../widgets/Tex";
-import type { Kind } from "../protocol";
+import type { Kind, TemplateView } from "../protocol";
+import { TemplatePicture } from "./TemplatePicture";
 
 const LINES = 2;
 const MOST = 5;
@@ -23,6 +24,16 @@ export function Description({ kind }: { kind: Kind }) {
           {meanings.length > MOST && ", …"}
         </p>
       )}
+    </div>
+  );
+}
+
+// A model that is added whole: its picture and its first sentence.
+export function TemplateDescription({ template }: { template: TemplateView }) {
+  return (
+    <div className="chooser-description chooser-template">
+      <TemplatePicture key={template.name} template={template} className="chooser-picture" />
+      <p className="chooser-meanings">{template.sentence}</p>
     </div>
   );
 }

@@ -1,8 +1,10 @@
-// One line of a list: the sketch of a kind, its title, and why it cannot be chosen, if so.
+// One line of a list: the sketch of a kind or the picture of a template, its title, and why it cannot be
+// chosen, if so.
 
-import { carry } from "./carried";
+import { carriedBy, carry } from "./carried";
 import type { ListEntry } from "./entries";
 import { Sketch } from "./Sketch";
+import { TemplatePicture } from "./TemplatePicture";
 
 type Props = {
   id: string;
@@ -14,8 +16,8 @@ type Props = {
 };
 
 export function EntryLine({ id, entry, active, draggable, onLook, onChoose }: Props) {
-  const { title, note, why, kind } = entry;
-  const carried = draggable && why === undefined ? kind : undefined;
+  const { title, note, why, kind, template } = entry;
+  const carried = draggable ? carriedBy(entry) : null;
   return (
     <div
       id={id}
@@ -25,15 +27,16 @@ export function EntryLine({ id, entry, active, draggable, onLook, onChoose }: Pr
       aria-selected={active}
       aria-disabled={why !== undefined}
       title={why}
-      draggable={carried !== undefined}
-      onDragStart={(event) => carried !== undefined && carry(event.dataTransfer, carried.name)}
+      draggable={carried !== null}
+      onDragStart={(event) => carried !== null && carry(event.dataTransfer, carried)}
       onPointerMove={() => !active && why === undefined && onLook()}
       // the text field keeps the focus
-      onPointerDown={(event) => carried === undefined && event.preventDefault()}
+      onPointerDown={(event) => carried === null && event.preventDefault()}
       onClick={onChoose}
       onKeyDown={(event) => event.key === "Enter" && onChoose()}
     >
       {kind !== undefined && <Sketch kind={kind} />}
+      {template !== undefined && <TemplatePicture template={template} className="chooser-thumbnail" />}
       <span className="chooser-words">
         <span className="one-line">{title}</span>
         {why !== undefined && <span className="chooser-why one-line">{why}</span>}

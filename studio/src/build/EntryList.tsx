@@ -5,7 +5,7 @@ import { IconSearch } from "@tabler/icons-react";
 import { type KeyboardEvent, useEffect, useId, useMemo, useState } from "react";
 
 import "./chooser.css";
-import { Description } from "./Description";
+import { Description, TemplateDescription } from "./Description";
 import { type ListEntry, search } from "./entries";
 import { EntryLine } from "./EntryLine";
 
@@ -109,6 +109,7 @@ export function EntryList({
         ))}
       </div>
       {active?.kind !== undefined && <Description kind={active.kind} />}
+      {active?.template !== undefined && <TemplateDescription template={active.template} />}
     </>
   );
 }

@@ -9,7 +9,7 @@ import { useChooser } from "./chooser";
 import { addElement } from "./edits";
 import type { ListEntry } from "./entries";
 import { isEditable } from "./editable";
-import { kindEntries, selectedOne, spotFor } from "./palette";
+import { kindEntries, knownTemplates, selectedOne, spotFor, templateEntries } from "./palette";
 import { getPointer, getStage } from "./stage";
 
 // Commands without keys.
@@ -34,7 +34,10 @@ export function openCommands(shortcuts: readonly Shortcut[]): void {
     run: () => getStage()?.center(id),
   }));
   const added = isEditable()
-    ? kindEntries(kinds, selectedOne(), (kind) => addElement(kind.name, spotFor(kind, at)))
+    ? [
+        ...kindEntries(kinds, selectedOne(), (kind) => addElement(kind.name, spotFor(kind, at))),
+        ...templateEntries(knownTemplates(), at),
+      ]
     : [];
   useChooser.getState().open({
     label: "Commands and elements",

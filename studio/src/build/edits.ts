@@ -33,6 +33,18 @@ export async function addElement(kind: string, spot: Placing, adding: Adding = {
   showMade(answer.made ?? []);
 }
 
+// Add a model as a group.
+export async function addTemplate(name: string, spot: Placing): Promise<void> {
+  const document = useStudio.getState().document;
+  const answer = await request({
+    type: "add_template",
+    name,
+    group: document === null ? [] : pathOf(spot.group, document),
+    at: [spot.at.x, spot.at.y],
+  });
+  showMade(answer.made ?? []);
+}
+
 // Add a part to a list of parts, such as a kernel, or put it into the place of another.
 export function addPart(element: string, parameter: string, several: boolean, part: Kind): Promise<Answer> {
   const value = part.example ?? { kind: part.name };

@@ -1,6 +1,6 @@
 // What a chooser lists: entries by family, found by typed words.
 
-import type { Kind } from "../protocol";
+import type { Kind, TemplateView } from "../protocol";
 
 export type ListEntry = {
   id: string;
@@ -12,6 +12,8 @@ export type ListEntry = {
   words?: string;
   // The kind whose sketch and equation are shown.
   kind?: Kind;
+  // The model whose picture and sentence are shown.
+  template?: TemplateView;
   // The element that the entry is about.
   element?: string;
   // Why the entry cannot be chosen.

@@ -2,11 +2,11 @@
 
 import type { Point } from "../graph/layout";
 import type { Kinds } from "../inspector/parameters/leaf";
-import type { Kind } from "../protocol";
+import type { Kind, TemplateView } from "../protocol";
 import { useStudio } from "../store";
 import { useChooser } from "./chooser";
 import { addComment } from "./commenting";
-import { addElement, addPart } from "./edits";
+import { addElement, addPart, addTemplate } from "./edits";
 import type { WireEnds } from "./ends";
 import type { ListEntry } from "./entries";
 import { isEditable } from "./editable";
@@ -41,6 +41,20 @@ export function elementEntry(kind: Kind, add: (kind: Kind) => unknown): ListEntr
     words: `${kind.name} ${wordsOf(kind)}`,
     run: () => add(kind),
   };
+}
+
+const ROOMS = { architectures: "Architectures, added whole", examples: "Examples, added whole" };
+
+// Published architectures and examples, each added as a group.
+export function templateEntries(templates: TemplateView[], at: Point | null): ListEntry[] {
+  return templates.map((template) => ({
+    id: `template ${template.name}`,
+    family: ROOMS[template.room],
+    title: template.title,
+    template,
+    words: `${template.name} ${template.sentence} template model`,
+    run: () => addTemplate(template.name, spotFor(null, at)),
+  }));
 }
 
 export type Selected = { id: string; name: string; kind: Kind | undefined };
@@ -86,11 +100,13 @@ export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): v
     at,
     entries:
       wire === undefined
-        ? [...entries, commentEntry(at)]
+        ? [...entries, commentEntry(at), ...templateEntries(knownTemplates(), at)]
         : entries.filter(({ kind }) => kind !== undefined && passes(kind)),
     empty: "No kind matches",
   });
 }
+
+export const knownTemplates = (): TemplateView[] => useStudio.getState().welcome?.templates ?? [];
 
 function commentEntry(at: Point | null): ListEntry {
   return {
@@ -105,8 +121,9 @@ function commentEntry(at: Point | null): ListEntry {
 // A kind with an input, of which a connection can pass through the elements.
 export const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
 
-// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle.
-export function spotFor(kind: Kind, at: Point | null): Placing {
+// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle, like
+// templates (no kind).
+export function spotFor(kind: Kind | null, at: Point | null): Placing {
   const stage = getStage();
   if (stage === null) {
     return { at: { x: 0, y: 0 }, group: "" };
@@ -116,7 +133,7 @@ export function spotFor(kind: Kind, at: Point | null): Placing {
     return under(stage.toFlow(at), scene);
   }
   const selected = selectedOne();
-  if (selected !== null && !scene.pills.has(selected.id)) {
+  if (kind !== null && selected !== null && !scene.pills.has(selected.id)) {
     return beside(selected.id, !isSource(kind), scene);
   }
   const { left, top, width, height } = stage.around.getBoundingClientRect();

@@ -5,11 +5,12 @@ import { useReactFlow } from "@xyflow/react";
 import { type DragEvent, type MouseEvent, type RefObject, useEffect, useMemo, useRef } from "react";
 
 import { glide } from "../graph/glide";
+import type { Point } from "../graph/layout";
 import type { GraphScene } from "../graph/scene";
 import { useStudio } from "../store";
-import { carried, isCarried } from "./carried";
+import { type Carried, carried, isCarried } from "./carried";
 import { listen } from "./clipboard";
-import { addElement } from "./edits";
+import { addElement, addTemplate } from "./edits";
 import { openPalette, passes, spotFor } from "./palette";
 import { usePicked } from "./picked";
 import { getPointer, getStage, setStage } from "./stage";
@@ -78,18 +79,28 @@ export function useStage(
       },
       onDragLeave: () => usePicked.setState({ over: null }),
       onDrop: (event: DragEvent) => {
-        const kind = useStudio.getState().kinds.get(carried(event.dataTransfer));
+        const dropped = carried(event.dataTransfer);
         const { over } = usePicked.getState();
         usePicked.setState({ over: null });
-        if (kind !== undefined) {
+        if (dropped !== null) {
           event.preventDefault();
-          const wire = over === null || !passes(kind) ? null : firstOf(over);
-          void addElement(kind.name, spotFor(kind, place(event)), wire === null ? {} : { wire });
+          drop(dropped, place(event), over);
         }
       },
     }),
     [],
   );
+}
+
+// Add what was dropped; a kind that is dropped on a connection is inserted into it.
+function drop({ what, name }: Carried, at: Point, over: string | null): void {
+  const kind = useStudio.getState().kinds.get(name);
+  if (what === "template") {
+    void addTemplate(name, spotFor(null, at));
+  } else if (kind !== undefined) {
+    const wire = over === null || !passes(kind) ? null : firstOf(over);
+    void addElement(name, spotFor(kind, at), wire === null ? {} : { wire });
+  }
 }
 
 const place = ({ clientX, clientY }: MouseEvent) => ({ x: clientX, y: clientY });
