@@ -3,7 +3,8 @@
     python examples/pictures.py
 
 Every function below runs one document for as long as its notes say and draws it, `NAME.png`. Activation is
-drawn from dark to bright, the threshold as a thin line; time runs to the right.
+drawn in the colours of the manual and the studio: blue below the threshold, white at it, red above. Time runs
+to the right.
 """
 
 from __future__ import annotations
@@ -19,15 +20,21 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import TwoSlopeNorm, to_rgb
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from PIL import Image
 
 import deodar as dd
 
 HERE = Path(__file__).parent
 SIZE = (320, 200)
-COLORS = matplotlib.colormaps["cividis"]
-DARK, BRIGHT, LINE = COLORS(0.0), COLORS(1.0), (1.0, 1.0, 1.0, 0.9)
+COLORS = matplotlib.colormaps[dd.figures.DIVERGING]
+DARK, LINE = COLORS(0.0), (1.0, 1.0, 1.0, 0.9)
+ACTIVATION = "#56b4e9"
+"""The colour of activation on dark ground, as in the studio."""
+EDGE = [withStroke(linewidth=3.6, foreground="#202020")]
+"""The edge of a white line, which can be seen on every colour of the map."""
 SCALE = 3
 """Drawn so much larger, then made smaller: soft edges."""
 
@@ -68,8 +75,7 @@ def heat(axes: Axes, values: np.ndarray, low: float, high: float, threshold: boo
         origin="lower",
         aspect="auto",
         cmap=COLORS,
-        vmin=low,
-        vmax=high,
+        norm=TwoSlopeNorm(0, min(low, -1e-6), max(high, 1e-6)),
         extent=(0, width, 0, height),
         interpolation="bilinear",
     )
@@ -79,8 +85,8 @@ def heat(axes: Axes, values: np.ndarray, low: float, high: float, threshold: boo
             np.arange(height) + 0.5,
             values.T,
             levels=[0],
-            colors=[LINE],
-            linewidths=0.8,
+            colors=["#202020"],
+            linewidths=0.5,
         )
     axes.set_xlim(0, width)
     axes.set_ylim(0, height)
@@ -88,9 +94,9 @@ def heat(axes: Axes, values: np.ndarray, low: float, high: float, threshold: boo
 
 def course(axes: Axes, u: xarray.DataArray, low: float, high: float) -> None:
     """The activation of a node over time, bright where it is on."""
-    axes.fill_between(u.time, u, 0, where=u > 0, color=COLORS(0.75), linewidth=0)
+    axes.fill_between(u.time, u, 0, where=u > 0, color=ACTIVATION, alpha=0.6, linewidth=0)
     axes.axhline(0, color=LINE, linewidth=0.5)
-    axes.plot(u.time, u, color=BRIGHT, linewidth=1.6)
+    axes.plot(u.time, u, color=ACTIVATION, linewidth=1.6)
     axes.set_xlim(float(u.time[0]), float(u.time[-1]))
     axes.set_ylim(low, high)
 
@@ -192,7 +198,7 @@ def motor_attractor() -> Figure:
     heat(axes, u, float(np.quantile(u, 0.01)), float(u.max()), threshold=False)
     place = (turn + 180) / 360 * u.shape[1]
     place[1:][np.abs(np.diff(place)) > u.shape[1] / 2] = np.nan
-    axes.plot(np.arange(len(place)) + 0.5, place, color="white", linewidth=1.8)
+    axes.plot(np.arange(len(place)) + 0.5, place, color="white", linewidth=1.8, path_effects=EDGE)
     return figure
 
 
@@ -249,6 +255,7 @@ def plan() -> Figure:
         dd.architectures.PLAN_START + data["gone.activation"].values,
         color="white",
         linewidth=2.2,
+        path_effects=EDGE,
     )
     return figure
 
@@ -271,13 +278,12 @@ def spa() -> Figure:
         u.values.T,
         extent=(x[0], x[-1], y[0], y[-1]),
         cmap=COLORS,
-        vmin=-12,
-        vmax=10,
+        norm=TwoSlopeNorm(0, -12, 10),
         interpolation="bilinear",
         aspect="auto",
         origin="lower",
     )
-    axes.plot(pose[:, 0], pose[:, 1], color="white", linewidth=2.2)
+    axes.plot(pose[:, 0], pose[:, 1], color="white", linewidth=2.2, path_effects=EDGE)
     axes.plot(pose[0, 0], pose[0, 1], "o", color="white", markersize=7)
     return figure
 
@@ -361,8 +367,10 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
 
 def scale_colors() -> Image.Image:
     """The colours of the scale, pure and mixed with the white of lines, for pictures that hold no others."""
-    pure = COLORS(np.linspace(0, 1, 40))[:, :3]
+    pure = np.array([*COLORS(np.linspace(0, 1, 40))[:, :3], to_rgb(ACTIVATION), to_rgb("#202020")])
+    ground = np.array(DARK[:3])
     mixed = [pure[::5] * (1 - part) + part for part in (0.33, 0.67)]
+    mixed += [ground * (1 - part) + np.array([to_rgb(ACTIVATION)]) * part for part in (0.3, 0.6, 0.8)]
     palette = Image.new("P", (1, 1))
     palette.putpalette((np.concatenate([pure, *mixed, [[1, 1, 1]]]) * 255).round().astype(np.uint8).tobytes())
     return palette

@@ -48,7 +48,7 @@ def curves(
     ordered = v.transpose(*others, *([TRIAL] if TRIAL in v.dims else []), across)
     reading = read or (lambda part: values(ordered[..., part]))
     x, flat, mean = _course.reduced(reading, x, view.variable.nbytes / len(x), many)
-    colors = _colors(v, others, grid)
+    colors = _colors(v, others, grid, view.name)
     marker: dict[str, Any] = {"marker": "o", "markersize": 3.5, "linestyle": "none"} if len(x) == 1 else {}
     for k, point in enumerate(np.ndindex(*grid)):
         rows, label = flat[point].reshape(-1, len(x)), _label(v, others, point, labels)
@@ -101,9 +101,13 @@ def limits(ax: Axes, view: View) -> None:
         ax.set_ylim(*view.value_range)
 
 
-def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...]) -> list[Any]:
-    """Return colours: ordered ones for values of one dimension, distinct ones for positions and mixtures."""
+def _colors(v: xarray.DataArray, others: list[str], grid: tuple[int, ...], name: str) -> list[Any]:
+    """Return colours: that of the port for a single line, ordered ones for values of one dimension, distinct
+    ones for positions and mixtures.
+    """
     n = int(np.prod(grid))
+    if n == 1:
+        return [_style.port_color(name)]
     if len(others) == 1 and n > 2 and v[others[0]].dtype.kind in "iuf" and others[0] in v.coords:
         return list(matplotlib.colormaps[_style.SEQUENTIAL](np.linspace(0.0, 0.85, n)))
     return [_style.COLORS[k % len(_style.COLORS)] for k in range(n)]

@@ -38,10 +38,11 @@ class Palette:
     """The meaning of colours, in all figures.
 
     Attributes:
-        activation, output, input: lines of a field or node; `input` also shades the times of an input.
+        activation, output, input, interaction: lines of a field or node, on the page of the studio too;
+            `input` also shades the times of an input.
         excitation, inhibition, mixed: signs of couplings, as in pictures of models, and of their inputs.
         falling: a branch or state that is reached from above; `activation` is reached from below.
-        threshold: the line at the threshold, and reference lines.
+        threshold: the lines at the threshold and at the resting level, and reference lines.
         wall, obstacle, obstacle_edge, start, goal: parts of an arena.
         window: shading of a time window.
         moment: a line at one time.
@@ -50,7 +51,8 @@ class Palette:
 
     activation: str = BLUE
     output: str = GREEN
-    input: str = ORANGE
+    input: str = "#bf7f00"
+    interaction: str = "#b0568c"
     excitation: str = "#333333"
     inhibition: str = VERMILION
     mixed: str = "#6a3d9a"
@@ -69,6 +71,16 @@ class Palette:
 
 
 COLOR = Palette()
+
+PORTS = ("activation", "output", "input", "interaction")
+"""The ports of a field that have a colour of their own."""
+
+
+def port_color(variable: str) -> str:
+    """Return the colour of the line of a variable, by the name of its port."""
+    port = variable.rsplit(".", 1)[-1]
+    return getattr(COLOR, port) if port in PORTS else COLORS[0]
+
 
 ROUTES = (GREEN, BLUE, VERMILION, GREY)
 """Colours of alternatives of which a run takes one; the last colour: none of them."""

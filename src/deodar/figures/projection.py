@@ -117,7 +117,7 @@ def _panel(
     if len(onto) == 2:
         _map.paint(ax, values, view, onto[0], onto[1], colors)
         return
-    ax.plot(view.points(onto[0]), values, color=_style.COLORS[0])
+    ax.plot(view.points(onto[0]), values, color=_style.port_color(view.name))
     if threshold is not None:
         _lines.level(ax, view)
     _lines.limits(ax, view)

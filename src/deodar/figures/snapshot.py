@@ -117,6 +117,7 @@ def _values(ax: Axes, view: View, k: int) -> None:
     v = view.chosen()
     v = v.isel({view.time: k}) if view.time in v.dims else v
     swept = [d for d in view.sweeps if d in v.dims]
+    color = _style.port_color(view.name)
     if len(swept) > 1:
         raise RecordError(
             f"was swept over {', '.join(swept)}; one of them is drawn",
@@ -125,7 +126,7 @@ def _values(ax: Axes, view: View, k: int) -> None:
         )
     if not swept:
         across = v[TRIAL].values if TRIAL in v.dims else np.zeros(1)
-        ax.plot(across, np.atleast_1d(values(v)), "o", markersize=3, color=_style.COLORS[0])
+        ax.plot(across, np.atleast_1d(values(v)), "o", markersize=3, color=color)
         ax.set_xlabel("trial" if TRIAL in v.dims else "")
         ax.margins(x=0.05)
         if TRIAL not in v.dims:
@@ -134,9 +135,16 @@ def _values(ax: Axes, view: View, k: int) -> None:
         x = v[swept[0]].values
         rows = values(v.transpose(swept[0], ...)).reshape(len(x), -1)
         if rows.shape[1] > 1:
-            ax.plot(x, rows, "o", markersize=2, alpha=0.35, color=_style.COLORS[0], markeredgewidth=0)
+            ax.plot(x, rows, "o", markersize=2, alpha=0.35, color=color, markeredgewidth=0)
         label = f"mean of {rows.shape[1]} trials" if rows.shape[1] > 1 else None
-        ax.plot(x, rows.mean(1, dtype=float), "o-", markersize=3.5, color=_style.COLORS[0], label=label)
+        ax.plot(
+            x,
+            rows.mean(1, dtype=float),
+            "o-",
+            markersize=3.5,
+            color=color,
+            label=label,
+        )
         ax.set_xlabel(swept[0])
         ax.margins(x=0.05)
         if label:

@@ -64,7 +64,7 @@ def fill(place: FigureBase, view: View) -> None:
         if len(view.space) == 2:
             _map.paint(ax, shown, view, view.space[0], view.space[1], colors)
         else:
-            ax.plot(view.points(view.space[0]), shown, color=_style.COLORS[0])
+            ax.plot(view.points(view.space[0]), shown, color=_style.port_color(view.name))
             _lines.level(ax, view)
             _lines.limits(ax, view)
             ax.set_xlabel(view.axis_label(view.space[0]))

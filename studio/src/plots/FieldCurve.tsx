@@ -174,13 +174,7 @@ export function FieldCurve(props: PlotProps) {
             />
           ))}
           {names.length > 0 && (
-            <Chip
-              label={LEVELS}
-              color="var(--text-dim)"
-              dashed
-              on={withLevels}
-              toggle={() => toggle(LEVELS)}
-            />
+            <Chip label={LEVELS} color="var(--level)" dashed on={withLevels} toggle={() => toggle(LEVELS)} />
           )}
         </>
       }

@@ -48,8 +48,8 @@ const ANCHORS: Record<ScaleName, string[]> = {
 };
 
 export const SCALES: { name: ScaleName; label: string }[] = [
-  { name: "cividis", label: "Blue to yellow" },
   { name: "viridis", label: "Violet to yellow" },
+  { name: "cividis", label: "Blue to yellow" },
   { name: "diverging", label: "Blue to red, white at 0" },
   { name: "gray", label: "Black to white" },
 ];
@@ -66,7 +66,7 @@ export function scale(name: ScaleName): Scale {
 }
 
 // The scale for values on both sides of 0 and the one for values on one side.
-export const sequential = scale("cividis");
+export const sequential = scale("viridis");
 export const diverging = scale("diverging");
 
 // Okabe and Ito's colours, with the two that vanish on white or on black exchanged for their neighbours.
@@ -83,18 +83,40 @@ export function curveColor(n: number, shade: Shade): string {
   return colors[n % colors.length] ?? "#808080";
 }
 
-// The colours that ports of these names have in every plot; others follow in order.
-const FIRST_PORTS = ["activation", "output", "input", "interaction"];
+// The colours of a field and of a level, in every box and plot. The light ones are those of
+// `dd.figures.COLOR`, and theme.css has both: a test compares all three.
+export const FIELD_COLORS = {
+  light: {
+    activation: "#0072b2",
+    output: "#009e73",
+    input: "#bf7f00",
+    interaction: "#b0568c",
+    level: "#555555",
+  },
+  dark: {
+    activation: "#56b4e9",
+    output: "#1fbf92",
+    input: "#e6a817",
+    interaction: "#e29ac4",
+    level: "#9faaa4",
+  },
+} as const;
+
+// Ports of other names follow in order.
+const FIRST_PORTS = ["activation", "output", "input", "interaction"] as const;
+type FirstPort = (typeof FIRST_PORTS)[number];
+const isFirst = (port: string): port is FirstPort => FIRST_PORTS.some((known) => known === port);
 
 export function inOrder(ports: string[]): string[] {
-  const known = FIRST_PORTS.filter((port) => ports.includes(port));
-  return [...known, ...ports.filter((port) => !known.includes(port))];
+  return [...FIRST_PORTS.filter((port) => ports.includes(port)), ...ports.filter((port) => !isFirst(port))];
 }
 
 export function portColor(port: string, ports: string[], shade: Shade): string {
-  const known = FIRST_PORTS.indexOf(port);
-  const others = ports.filter((p) => !FIRST_PORTS.includes(p));
-  return curveColor(known >= 0 ? known : FIRST_PORTS.length + Math.max(0, others.indexOf(port)), shade);
+  if (isFirst(port)) {
+    return FIELD_COLORS[shade][port];
+  }
+  const others = ports.filter((other) => !isFirst(other));
+  return curveColor(FIRST_PORTS.length + Math.max(0, others.indexOf(port)), shade);
 }
 
 // Whether the page is dark at present.

@@ -2,6 +2,7 @@
 // no room.
 
 import type uPlot from "uplot";
+import { FIELD_COLORS } from "./colors";
 import type { Level } from "./levels";
 import { font, type Look } from "./look";
 import { short } from "./range";
@@ -16,8 +17,8 @@ export function drawLevels(chart: uPlot, levels: Level[], look: Look): void {
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
-  ctx.strokeStyle = look.dim;
-  ctx.fillStyle = look.dim;
+  ctx.strokeStyle = FIELD_COLORS[look.shade].level;
+  ctx.fillStyle = FIELD_COLORS[look.shade].level;
   ctx.lineWidth = scale;
   ctx.setLineDash([5 * scale, 4 * scale]);
   ctx.font = font({ ...look, unit: scale }, 10.5);

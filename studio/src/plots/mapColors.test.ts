@@ -6,7 +6,7 @@ const LEVELLED = { levels: { charge: { threshold: "theta" } } } as unknown as Ki
 
 it("a port with levels has a scale with two sides, unless another one is chosen", () => {
   expect(scaleOf("auto", LEVELLED, "charge")).toEqual({ name: "diverging", twoSided: true });
-  expect(scaleOf("auto", LEVELLED, "output")).toEqual({ name: "cividis", twoSided: false });
+  expect(scaleOf("auto", LEVELLED, "output")).toEqual({ name: "viridis", twoSided: false });
   expect(scaleOf("gray", LEVELLED, "charge")).toEqual({ name: "gray", twoSided: false });
   expect(scaleOf("diverging", undefined, "any")).toEqual({ name: "diverging", twoSided: true });
 });

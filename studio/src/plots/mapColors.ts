@@ -16,7 +16,7 @@ export function scaleOf(
   port: string,
 ): { name: ScaleName; twoSided: boolean } {
   const twoSided = chosen === "diverging" || (chosen === "auto" && hasLevels(kind, port));
-  return { name: chosen !== "auto" ? chosen : twoSided ? "diverging" : "cividis", twoSided };
+  return { name: chosen !== "auto" ? chosen : twoSided ? "diverging" : "viridis", twoSided };
 }
 
 export function middleOf(twoSided: boolean, levels: Level[]): number | null {
