@@ -18,6 +18,8 @@ const WIDE = 1280;
 const NARROW = 640;
 const ELEMENTS = 500;
 const GROUP = 25;
+/** Between what is shown of planning: its boxes without couplings, and its four folded groups. */
+const SPA_WIRES = 53;
 const EXAMPLES = join(import.meta.dirname, "..", "..", "examples");
 const SPA = readdirSync(EXAMPLES).filter((name) => /^spa\..*npz$|^spa\.json$/.test(name));
 
@@ -101,6 +103,10 @@ const overlaps = (page: Page): Promise<string[]> =>
       );
     });
 
+/** The number of wires that are drawn. */
+const wires = (page: Page): Promise<number> =>
+  panel(page, "Architecture").locator(".react-flow__edge").count();
+
 async function readable(page: Page, least: number): Promise<void> {
   await expect.poll(async () => (await settled(page)).length).toBeGreaterThanOrEqual(least);
   const small = (await settled(page)).filter(({ size, height }) => Math.min(size, height) < SMALLEST);
@@ -129,6 +135,7 @@ test("the groups of planning are folded, names are readable, on a wide and a nar
   const { page } = studio;
   await foldedGroup("north").waitFor();
   await readable(page, 20);
+  await expect.poll(() => wires(page)).toBe(SPA_WIRES);
   await shot(page, "legible-spa-wide");
   await reloaded(NARROW);
   await readable(page, 20);
@@ -159,6 +166,7 @@ test("five hundred elements without groups are dots until the canvas is zoomed i
   await open("many.json", box(page, "u0"));
   await expect.poll(() => page.locator(".graph-box").count()).toBe(ELEMENTS);
   await readable(page, 0);
+  await expect.poll(() => wires(page)).toBe(observer.document?.connections.length);
   await shot(page, "legible-many");
   for (let i = 0; i < 4; i++) await button(page, "Zoom in").click();
   await readable(page, 20);

@@ -37,7 +37,11 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
       onPointerEnter={({ currentTarget }) => useWiring.getState().wiring === null && enter(id, currentTarget)}
       onPointerLeave={leave}
     >
-      {level !== "dot" && <Ports element={id} names={inputs} side="target" height={height} fits={fits} />}
+      {level === "dot" ? (
+        <Anchors names={inputs} side="target" height={height} />
+      ) : (
+        <Ports element={id} names={inputs} side="target" height={height} fits={fits} />
+      )}
       <div className="graph-box-head">
         <div className="graph-box-name one-line" title={path}>
           {name}
@@ -54,7 +58,11 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
           height={level === "full" ? live : LIVE.number}
         />
       )}
-      {level !== "dot" && <Ports element={id} names={outputs} side="source" height={height} fits={fits} />}
+      {level === "dot" ? (
+        <Anchors names={outputs} side="source" height={height} />
+      ) : (
+        <Ports element={id} names={outputs} side="source" height={height} fits={fits} />
+      )}
     </div>
   );
 });
@@ -107,6 +115,19 @@ function Ports({ element, names, side, height, fits }: PortsProps) {
       </Handle>
     );
   });
+}
+
+// The places of ports that are not shown: xyflow measures them and draws the wires to them.
+function Anchors({ names, side, height }: Pick<PortsProps, "names" | "side" | "height">) {
+  return names.map((name, n) => (
+    <div
+      key={name}
+      className={`graph-anchor ${side}`}
+      data-handleid={name === "" ? undefined : name}
+      data-handlepos={side === "target" ? Position.Left : Position.Right}
+      style={{ top: portHeight(height, n, names.length) }}
+    />
+  ));
 }
 
 function known<T, R>(value: T | undefined, of: (value: T) => R): R | null {
