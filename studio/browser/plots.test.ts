@@ -51,6 +51,19 @@ const chart = (name: string, label: string): Locator =>
   plot(name).getByRole("img", { name: label, exact: true });
 const arranged = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
 
+/** The number of different colours of a scene that is drawn by WebGL. */
+async function shades(scene: Locator): Promise<number> {
+  await scene.waitFor();
+  return scene.evaluate((element) => {
+    const copy = document.createElement("canvas");
+    copy.width = (element as HTMLCanvasElement).width;
+    copy.height = (element as HTMLCanvasElement).height;
+    const ctx = copy.getContext("2d") as CanvasRenderingContext2D;
+    ctx.drawImage(element as HTMLCanvasElement, 0, 0);
+    return new Set(new Uint32Array(ctx.getImageData(0, 0, copy.width, copy.height).data.buffer)).size;
+  });
+}
+
 /** Write a file beside the screenshots, if they are kept. */
 function keep(name: string, text: string): void {
   const folder = process.env["DEODAR_SHOTS"];
@@ -335,6 +348,63 @@ test("a field over three axes is cut at a position, and any two axes are drawn",
   await curves.getByRole("slider", { name: "Position on y" }).press("Home");
   await observer.until(() => arranged().includes('"at":{"y":'));
   await shot(page, "plot-section-curve");
+});
+
+test("a field is a surface, and one over three axes is cut by three planes", async () => {
+  const { page } = studio;
+  const chunks = () =>
+    page.evaluate(() =>
+      performance.getEntriesByType("resource").filter(({ name }) => /\/sceneStage-[^/]*\.js/.test(name)),
+    );
+  await reopen(page, observer, "saliency.json");
+  await step(60);
+  expect(await chunks(), "three.js is loaded when it is needed").toHaveLength(0);
+  await choose(page, "Menu of this plot", "Surface");
+  const surface = plot("Surface of spatial");
+  const scene = surface.getByRole("img", { name: "activation of spatial as a surface over x and y" });
+  await expect.poll(() => shades(scene)).toBeGreaterThan(20);
+  expect(await chunks()).toHaveLength(1);
+  const before = await drawn(scene);
+  await surface.getByRole("group").press("ArrowLeft");
+  await expect.poll(() => drawn(scene)).not.toBe(before);
+  await observer.until(() => arranged().includes('"azimuth"'));
+  const coming = page.waitForEvent("download");
+  await choose(page, "Menu of this plot", "Export SVG");
+  const svg = readFileSync(await (await coming).path(), "utf8");
+  keep("plot-surface.svg", svg);
+  expect(svg.match(/<image /g)).toHaveLength(1);
+  for (const text of ["x", "y", "activation"]) expect(svg).toContain(`>${text}</text>`);
+  await shot(page, "plot-surface");
+
+  await choose(page, "Open panels and plots", "perceptual");
+  await plot("Heat map of perceptual").getByRole("button", { name: "Menu of this plot" }).click();
+  await page.getByRole("menuitem", { name: "Volume slices" }).click();
+  const volume = plot("Volume slices of perceptual");
+  const slices = volume.getByRole("img", { name: "Slices of activation of perceptual over x, y, hue" });
+  await expect.poll(() => shades(slices)).toBeGreaterThan(20);
+  const walls = await drawn(slices);
+  await volume.getByRole("slider", { name: "Position on hue" }).press("ArrowRight");
+  await expect.poll(() => drawn(slices)).not.toBe(walls);
+  await shot(page, "plot-volume");
+});
+
+test("a browser without WebGL says so where a surface would be", async () => {
+  const { page } = studio;
+  await reopen(page, observer, "saliency.json");
+  await step(3);
+  await page.evaluate(() => {
+    const asked = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string) {
+      return kind === "webgl2" ? null : asked.call(this, kind);
+    } as typeof asked;
+  });
+  await choose(page, "Menu of this plot", "Surface");
+  await plot("Surface of spatial").getByText("This browser has no WebGL").waitFor();
+  await choose(page, "Menu of this plot", "Heat map");
+  await expect
+    .poll(() => colours(plot("Heat map of spatial").locator("canvas.plot-heat")))
+    .toBeGreaterThan(5);
+  await page.reload();
 });
 
 test("the arrangement of panels is kept in a reload and in the file", async () => {

@@ -1,7 +1,7 @@
 // A panel with a plot: finds its element and the component for the kind of plot.
 
 import type { IDockviewPanelProps } from "dockview-react";
-import { type ComponentType, useEffect, useState } from "react";
+import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
 import { FieldCurve } from "../plots/FieldCurve";
 import { HeatMap } from "../plots/HeatMap";
 import { isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
@@ -17,6 +17,10 @@ import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 
+// Loaded when they are first shown, as three.js is.
+const Surface = lazy(async () => ({ default: (await import("../plots/Surface")).Surface }));
+const Volume = lazy(async () => ({ default: (await import("../plots/Volume")).Volume }));
+
 const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   course: TimeCourse,
   curve: FieldCurve,
@@ -24,6 +28,8 @@ const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   picture: Picture,
   space_time: SpaceTime,
   phase: Phase,
+  surface: Surface,
+  volume: Volume,
   kernel: Kernel,
 };
 
@@ -77,7 +83,9 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
   const Plot = isOwn(kind) ? PLOTS[kind] : null;
   const drawing =
     Plot !== null ? (
-      <Plot key={kind} {...props} />
+      <Suspense key={kind} fallback={null}>
+        <Plot {...props} />
+      </Suspense>
     ) : packaged === undefined ? null : (
       <PackagedPlot key={kind} plot={packaged} {...props} />
     );

@@ -12,7 +12,11 @@ const GAP = 12;
 const WIDTH = 12;
 const TICK = 4;
 
-export function drawColorBar(chart: uPlot, look: Look, { table, range, middle: mark }: MapColors): void {
+export function drawColorBar(
+  chart: Pick<uPlot, "ctx" | "bbox">,
+  look: Look,
+  { table, range, middle: mark }: MapColors,
+): void {
   const { ctx, bbox } = chart;
   const unit = look.unit * devicePixelRatio;
   const left = bbox.left + bbox.width + GAP * unit;

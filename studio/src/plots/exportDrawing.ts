@@ -3,6 +3,8 @@
 
 import uPlot from "uplot";
 import { font, type Look, paperLook } from "./look";
+import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
+import type { Viewpoint } from "./sceneView";
 import { saveFile } from "./save";
 import { recordingPaths, SvgContext } from "./svgContext";
 import type { ChartOptions } from "./useChart";
@@ -61,6 +63,27 @@ export function exportPicture(title: string, image: HTMLCanvasElement, format: D
   const { ctx, factor } = sheet;
   ctx.imageSmoothingEnabled = false;
   ctx.drawImage(image, 8 * factor, HEAD * factor, width * factor, height * factor);
+  sheet.save();
+}
+
+export type DrawnScene = {
+  width: number;
+  height: number;
+  frame: SceneFrame;
+  view: Viewpoint;
+  image: HTMLCanvasElement;
+};
+
+// Save a scene in three dimensions: its frame, and above it the image.
+export function exportScene(title: string, scene: DrawnScene, format: DrawingFormat): void {
+  const { width, height, frame, view, image } = scene;
+  const sheet = new Sheet(format, title, width, height + HEAD);
+  const { ctx, factor } = sheet;
+  ctx.save();
+  ctx.translate(0, HEAD * factor);
+  drawSceneFrame(ctx, frame, view, paperLook(factor), width, height);
+  ctx.drawImage(image, 0, 0, width * factor, height * factor);
+  ctx.restore();
   sheet.save();
 }
 

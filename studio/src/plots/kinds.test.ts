@@ -68,8 +68,16 @@ describe("kinds of plots", () => {
     expect(plotKinds(null)).toEqual(["course", "phase"]);
     expect(plotKinds([])).toEqual(["course", "phase"]);
     expect(plotKinds([x])).toEqual(["curve", "course", "space_time", "phase"]);
-    expect(plotKinds([x, y])).toEqual(["heat", "course", "curve", "space_time", "phase"]);
-    expect(plotKinds([x, y, hue])).toEqual(["heat", "course", "curve", "space_time", "phase"]);
+    expect(plotKinds([x, y])).toEqual(["heat", "course", "curve", "space_time", "phase", "surface"]);
+    expect(plotKinds([x, y, hue])).toEqual([
+      "heat",
+      "course",
+      "curve",
+      "space_time",
+      "phase",
+      "surface",
+      "volume",
+    ]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
     expect(plotKinds([x], [], true)).toEqual(["curve", "course", "space_time", "phase", "kernel"]);
@@ -80,7 +88,7 @@ describe("kinds of plots", () => {
     const plot = (axes: number, periodic = false) =>
       ({ name: "odd", title: "Odd", axes, periodic }) as PlotView;
     expect(plotKinds([hue], [plot(1)])).toEqual(["curve", "course", "space_time", "phase", "odd"]);
-    expect(plotKinds([x, y], [plot(1)])).toEqual(["heat", "course", "curve", "space_time", "phase"]);
+    expect(plotKinds([x, y], [plot(1)])).not.toContain("odd");
     expect([[], [x], [x, y], [x, y, hue], [x, y, channel]].map((axes) => fits(plot(2), axes))).toEqual([
       false,
       false,

@@ -2,7 +2,8 @@
 
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 
-export type OwnPlot = "course" | "curve" | "heat" | "picture" | "space_time" | "phase" | "kernel";
+export type OwnPlot =
+  "course" | "curve" | "heat" | "picture" | "space_time" | "phase" | "surface" | "volume" | "kernel";
 
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;
@@ -14,6 +15,8 @@ export const PLOT_TITLES: Record<OwnPlot, string> = {
   picture: "Picture",
   space_time: "Space-time plot",
   phase: "Phase plot",
+  surface: "Surface",
+  volume: "Volume slices",
   kernel: "Interaction kernel",
 };
 
@@ -36,9 +39,10 @@ export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = [], ke
     ? ["picture", "course"]
     : axes.length === 1
       ? ["curve", "course", "space_time", "phase"]
-      : ["heat", "course", "curve", "space_time", "phase"];
+      : ["heat", "course", "curve", "space_time", "phase", "surface"];
   return [
     ...own,
+    ...(axes.length > 2 && !isPicture(axes) ? ["volume"] : []),
     ...(kernel ? ["kernel"] : []),
     ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
   ];

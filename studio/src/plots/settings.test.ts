@@ -29,6 +29,7 @@ it("invalid settings are replaced by the defaults", () => {
     down: false,
     drawn: [],
     at: {},
+    view: null,
     amplitude: null,
     width: 0.05,
   });
@@ -42,6 +43,7 @@ it("invalid settings are replaced by the defaults", () => {
     up: "rate",
     drawn: "x",
     at: { x: "left", y: null },
+    view: { azimuth: 30 },
     amplitude: "5",
     width: "wide",
   };
@@ -60,6 +62,7 @@ it("valid settings are kept", () => {
     down: true,
     drawn: ["z", "x"],
     at: { y: -1.5 },
+    view: { azimuth: 30, elevation: -10, zoom: 2 },
     traces: [trace],
     window: null,
     amplitude: -3,

@@ -4,6 +4,7 @@
 import { SCALES, type ScaleName } from "./colors";
 import type { PlotKind } from "./kinds";
 import type { Range } from "./paint";
+import type { Viewpoint } from "./sceneView";
 
 export type TraceSetting = { element: string; port: string; reduce: "at" | "max" | "mean"; at: number[] };
 
@@ -26,6 +27,8 @@ export type PlotSettings = {
   // The names of the axes that are drawn (none: the first ones), and positions on others.
   drawn: string[];
   at: Record<string, number>;
+  // The view of a scene in three dimensions; null: the first one.
+  view: Viewpoint | null;
   // What a right-click injects: null is a first guess; the width (sigma) is a share of the axis.
   amplitude: number | null;
   width: number;
@@ -67,6 +70,7 @@ export function readSettings(given: Record<string, unknown>): PlotSettings {
           Object.entries(given["at"]).filter((pair): pair is [string, number] => finite(pair[1]) !== null),
         )
       : {},
+    view: readView(given["view"]),
     amplitude: finite(given["amplitude"]),
     width: Math.min(1, Math.max(0.001, finite(given["width"]) ?? 0.05)),
   };
@@ -78,6 +82,12 @@ function readRange(given: unknown): Range | null {
   }
   const [lower, upper] = given.map(finite);
   return lower != null && upper != null && lower < upper ? [lower, upper] : null;
+}
+
+function readView(given: unknown): Viewpoint | null {
+  const { azimuth, elevation, zoom } = isRecord(given) ? given : {};
+  const numbers = [azimuth, elevation, zoom].map(finite);
+  return numbers.includes(null) ? null : ({ azimuth, elevation, zoom } as Viewpoint);
 }
 
 function isTrace(given: unknown): given is TraceSetting {

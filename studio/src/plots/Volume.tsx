@@ -1,0 +1,174 @@
+// Slices of an array over three axes, one at right angles to each axis: at the position of its slider, or at
+// the back of the box the maximum over the axis. With more axes a section at positions on the others.
+
+import { useMemo, useRef } from "react";
+import type { AxisView } from "../protocol";
+import { useStudio } from "../store";
+import type { Live, Wish } from "../streams";
+import { AxisControl } from "./AxisControl";
+import { ColorControl } from "./ColorControl";
+import { plane, type Table } from "./exportCsv";
+import { axisLabel, commonScale, edges, isPicture, points, portAxes } from "./kinds";
+import { FollowingColors, middleOf, scaleOf } from "./mapColors";
+import { extent, paintHeat } from "./paint";
+import { PlotFrame, type PlotProps } from "./PlotFrame";
+import { RangeControl } from "./RangeControl";
+import type { SceneFrame } from "./sceneFrame";
+import { cameraAt, type Viewpoint } from "./sceneView";
+import { SectionStrip } from "./SectionStrip";
+import type { SceneStage } from "./sceneStage";
+import { useLevels } from "./useLevels";
+import { usePorts } from "./usePorts";
+import { useScene } from "./useScene";
+import { useStreams } from "./useStreams";
+
+const MOST = 128;
+const CUTS = [0, 1, 2] as const;
+
+export function Volume(props: PlotProps) {
+  const { element, port, settings, visible, set } = props;
+  const { at } = settings;
+  const kind = useStudio((state) => state.kinds.get(element.kind));
+  const ports = usePorts(element, port, (axes) => axes.length > 2 && !isPicture(axes));
+  const { name, twoSided } = scaleOf(settings.scale, kind, port);
+  const stored = useStudio(({ document }) =>
+    JSON.stringify((document && portAxes(document, element, port)) || []),
+  );
+  const axes = useMemo(
+    () => inOrder(JSON.parse(stored) as AxisView[], settings.drawn),
+    [stored, settings.drawn],
+  );
+  const drawn = axes.slice(0, 3);
+  const canvases = useMemo(() => CUTS.map(() => document.createElement("canvas")), []);
+  const newest = useRef<Live[]>([]);
+  const colors = useRef(new FollowingColors(name));
+  const levels = useLevels(element.id, port, () => redraw());
+  // Each slice has the other two axes.
+  const wishes = useMemo<Wish[]>(
+    () =>
+      CUTS.map((cut) => {
+        const shown = axes.slice(0, 3).flatMap((axis, d) => (d === cut ? [] : [axis.name]));
+        const others = Object.fromEntries(Object.entries(at).filter(([axis]) => !shown.includes(axis)));
+        return { type: "watch", element: element.id, port, most: MOST, drawn: shown, at: others };
+      }),
+    [element.id, port, axes, at],
+  );
+
+  const place = (axis: AxisView) => {
+    const position = at[axis.name];
+    const [lower, upper] = edges(axis);
+    return position === undefined ? null : Math.min(1, Math.max(0, (position - lower) / (upper - lower)));
+  };
+  const show = (stage: SceneStage, view: Viewpoint): SceneFrame | null => {
+    const [x, y, z] = drawn;
+    const frames = newest.current.map(({ frame }) => frame?.values);
+    if (
+      x === undefined ||
+      y === undefined ||
+      z === undefined ||
+      frames.length < 3 ||
+      frames.includes(undefined)
+    ) {
+      return null;
+    }
+    const ends = frames.flatMap((values) => [...(extent(values ?? []) ?? [])]);
+    colors.current.follow(ends, name, middleOf(twoSided, levels.current), settings.range);
+    const { range, table } = colors.current.now;
+    const camera = cameraAt(view);
+    const size = sizes(x, y, z);
+    const slices = CUTS.map((axis) => {
+      const canvas = canvases[axis] as HTMLCanvasElement;
+      const [nx = 0, ny = 0] = newest.current[axis]?.form?.shape ?? [];
+      paintHeat(canvas, frames[axis] as Float32Array, nx, ny, range, table);
+      const behind = camera[axis] < 0 ? 1 : 0;
+      return { axis, canvas, place: place(drawn[axis] as AxisView) ?? behind };
+    });
+    stage.showSlices(slices, size);
+    const named = (axis: AxisView) => ({ label: axisLabel(axis), range: edges(axis) });
+    return { size, axes: [named(x), named(y), named(z)], bar: colors.current.now };
+  };
+  const streaming = useStreams(wishes, visible, (lives) => {
+    newest.current = lives;
+    redraw();
+  });
+  const { host, redraw, problem, exportAs } = useScene({
+    label: `Slices of ${port} of ${element.path} over ${drawn.map((axis) => axis.name).join(", ")}`,
+    view: settings.view,
+    keep: (view) => set({ view }),
+    show,
+  });
+
+  return (
+    <PlotFrame
+      {...props}
+      kind="volume"
+      ports={ports}
+      streaming={{ ...streaming, seen: streaming.seen && problem === null, lost: problem ?? streaming.lost }}
+      strip={<SectionStrip rest={axes} at={at} set={set} />}
+      controls={
+        <>
+          <AxisControl axes={axes} labels={["First axis", "Second axis", "Upwards"]} set={set} />
+          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
+          <RangeControl
+            range={settings.range}
+            shown={() => colors.current.now.range}
+            set={(range) => set({ range })}
+          />
+        </>
+      }
+      table={() => tableOf(drawn, newest.current, at, port)}
+      exportAs={(format) => exportAs(`${element.path} ${port}`, format)}
+    >
+      <div
+        ref={host}
+        className="plot-host plot-turning"
+        tabIndex={0}
+        role="group"
+        aria-label={`Slices of ${element.path}; the arrow keys turn them`}
+      />
+    </PlotFrame>
+  );
+}
+
+// The axes with names that differ, as the server sends them; those that are chosen come first.
+function inOrder(axes: AxisView[], chosen: string[]): AxisView[] {
+  const names = axes.map(({ name }) => name);
+  const numbered = axes.map((axis, d) => {
+    const count = names.slice(0, d + 1).filter((name) => name === axis.name).length;
+    return count === 1 ? axis : { ...axis, name: `${axis.name} ${count}` };
+  });
+  const first = chosen.flatMap((name) => numbered.filter((axis) => axis.name === name));
+  return [...first, ...numbered.filter((axis) => !first.includes(axis))];
+}
+
+// Lengths of the box: in one scale where all axes share it.
+function sizes(x: AxisView, y: AxisView, z: AxisView): [number, number, number] {
+  const [one, other] = [commonScale(x, y), commonScale(x, z)];
+  const lengths = one === null || other === null ? [1, 1, 1] : [one[0], one[1], other[1]];
+  const longest = Math.max(...lengths);
+  return lengths.map((length) => (0.8 * length) / longest) as [number, number, number];
+}
+
+// One row for each value of each slice; a maximum has no position on its axis.
+function tableOf(axes: AxisView[], lives: Live[], at: Record<string, number>, port: string): Table | null {
+  const columns: (number | null)[][] = axes.map(() => []);
+  const values: number[] = [];
+  for (const cut of CUTS) {
+    const { form, frame } = lives[cut] ?? {};
+    const [one, other] = form?.axes ?? [];
+    if (form == null || frame == null || one === undefined || other === undefined) {
+      return null;
+    }
+    const [across, up] = plane(points(one, form.shape[0]), points(other, form.shape[1]), []);
+    const position = at[axes[cut]?.name ?? ""] ?? null;
+    const rest = [across, up];
+    axes.forEach((_, d) => {
+      const column = d === cut ? null : rest.shift();
+      for (let i = 0; i < frame.values.length; i++) {
+        columns[d]?.push(column == null ? position : (column[i] ?? null));
+      }
+    });
+    values.push(...frame.values);
+  }
+  return { header: [...axes.map(axisLabel), port], columns: [...columns, values] };
+}
