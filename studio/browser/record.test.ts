@@ -132,6 +132,7 @@ test("the trial and the point of a sweep are chosen", async () => {
   await record.getByLabel("trial").selectOption("2");
   await expect.poll(() => drawn(plot())).not.toBe(before);
   const after = await drawn(plot());
+  expect(await button(page, "Run from here").isDisabled()).toBe(true);
   await record.getByLabel("left.amplitude").selectOption("6");
   await expect.poll(() => drawn(plot())).not.toBe(after);
   await shot(page, "record-trials");
@@ -169,6 +170,21 @@ test("the model of a record runs as a copy of its document", async () => {
   await button(page, "Run its model").click();
   await button(page, "Play").click();
   await button(page, "Pause").click();
+  await choose(page, "File menu", "Close");
+});
+
+test("a run continues from a moment of its record", async () => {
+  const { page } = studio;
+  await open("single");
+  await page.keyboard.press("End");
+  await said(/^600 ms/);
+  await button(page, "Run from here").click();
+  await page.getByRole("toolbar", { name: "Record" }).waitFor({ state: "detached" });
+  await button(page, "Pause").click();
+  await button(page, "Play").waitFor();
+  const time = page.getByRole("timer", { name: "Simulated time" });
+  expect(await time.innerText()).toMatch(/^(6\d\d ms|[1-9]\d*\.\d+ s)/);
+  await shot(page, "record-continued");
   await choose(page, "File menu", "Close");
 });
 

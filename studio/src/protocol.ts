@@ -1156,6 +1156,16 @@ export type RunFrom = {
   time: number;
 };
 
+// Open a copy of the open record's document, which runs on from the last sample up to a document time.
+//
+// The run of the record is repeated up to there, with later requests of the page meanwhile; opening another
+// document ends the repetition. The answer follows when the copy runs.
+export type RunRecordFrom = {
+  type: "run_record_from";
+  request?: number;
+  time: number;
+};
+
 // The run of an experiment: how many rows of how many trials there are, and the remaining time in s.
 //
 // `number` changes with each run; `folder` is below the root.
@@ -1388,6 +1398,7 @@ export type ToServer =
   | Lengthen
   | Seek
   | RunFrom
+  | RunRecordFrom
   | ListKept
   | KeepSnapshot
   | ReturnTo

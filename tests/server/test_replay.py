@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import shutil
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +16,7 @@ import deodar as dd
 from deodar.live import branch_states
 from deodar.recording import folder, writer_lock
 from deodar.recording.growing import GrowingRecord
-from deodar.server import hub
+from deodar.server import hub, project
 from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio
 
@@ -286,6 +288,70 @@ def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Pat
             assert p.document is None
 
     with studio(root) as address:
+        play(address, scene)
+
+
+def test_a_record_runs_on_from_any_of_its_moments_to_the_bits_of_its_run(root: Path) -> None:
+    whole = recorded(root, duration=2000, every=1, record=["u.activation"])["u.activation"]
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        await p.do("speed", factor=0.01)
+        await p.do("run_record_from", time=20.4)
+        await p.until(lambda: p.document and p.document["record"] is None and p.clock["running"])
+        await p.do("pause")
+        await p.do("watch", stream=1, element=p.element("u"), port="activation")
+        await p.until(lambda: not p.clock["running"] and shown(p) == p.clock["time"])
+        first = shown(p)
+        assert first >= 20
+        np.testing.assert_array_equal(p.frames[1][1], whole.sel(time=first).values)
+        await p.do("step", n=3)
+        await p.until(lambda: shown(p) == first + 3)
+        np.testing.assert_array_equal(p.frames[1][1], whole.sel(time=first + 3).values)
+        assert not p.document["unsaved"] and p.document["file"] == ""
+
+    with studio(root, root / "selection-001") as address:
+        play(address, scene)
+
+
+def test_a_record_of_trials_does_not_run_on(root: Path) -> None:
+    recorded(root, trials=2)
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        answer = await p.ask("run_record_from", time=20)
+        assert "several trials" in answer["problems"][0]["what"]
+        await p.until(lambda: p.clock["busy"] == "")
+        assert record_view(p)["complete"]
+
+    with studio(root, root / "selection-001") as address:
+        play(address, scene)
+
+
+def test_another_document_ends_the_repetition_of_a_record(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recorded(root)
+    begun, go = threading.Event(), threading.Event()
+
+    def session_at(path: Path, time: float, trust: bool, progress: Any) -> None:
+        begun.set()
+        go.wait(20)
+        progress(1, 2)
+
+    monkeypatch.setattr(project, "session_at", session_at)
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        waiting = asyncio.create_task(p.ask("run_record_from", time=20))
+        await asyncio.to_thread(begun.wait, 20)
+        await p.do("open_file", path="selection.json")
+        await p.until(lambda: p.document and not record_view(p))
+        go.set()
+        answer = await waiting
+        assert "another request" in answer["problems"][0]["what"]
+
+    with studio(root, root / "selection-001") as address:
         play(address, scene)
 
 

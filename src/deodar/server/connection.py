@@ -42,7 +42,7 @@ from deodar.server.to_page import (
     TimelineView,
     WorldScene,
 )
-from deodar.server.to_server import MESSAGES, Drawn
+from deodar.server.to_server import MESSAGES, Drawn, RunRecordFrom
 from deodar.session.port_reader import PortKey
 
 MOST_ANSWERS = 64
@@ -109,6 +109,9 @@ class PageConnection:
                     self._ready = True
                     self._hub.engine.want()
                     self.page.wake()
+                continue
+            if isinstance(message, RunRecordFrom):  # it may take as long as the recorded run
+                self._hub.project.queue.start_task(self._do(message))
                 continue
             await self._do(message)
             while len(self._answers) >= MOST_ANSWERS:

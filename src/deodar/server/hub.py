@@ -243,6 +243,7 @@ class Hub:
         """Store unsaved edits and stop the engine."""
         self._keeping.cancel()
         self._following.cancel()
+        self.project.end()
         await self.project.keep()
         await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.engine.close)

@@ -25,6 +25,7 @@ from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
+from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
 from deodar.server import content, converted, kept_files, record_frames, view
 from deodar.server.change_queue import ChangeQueue
@@ -39,6 +40,7 @@ from deodar.server.state_store import StateStore
 from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem, Opened
 from deodar.server.workspace import Workspace
 from deodar.session.session import Session
+from deodar.session.session_at import session_at
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene
 
@@ -464,6 +466,59 @@ class OpenProject:
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.branch(time)))
         await self._follow_run()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.play(True)))
+
+    async def run_record_from(self, time: float) -> None:
+        """Open a copy of the document of the open record, and let it run from a moment of the record.
+
+        Raises:
+            DocumentError: no record is open, or another document was opened during the repetition.
+            RecordError: the record cannot be repeated up to this moment, or its repetition differs.
+        """
+        record = self.record
+        if record is None:
+            raise DocumentError("no record is open")
+        self._attempt += 1
+        attempt = self._attempt
+
+        def progress(done: int, steps: int) -> None:
+            if attempt != self._attempt:
+                raise DocumentError("another request ended the repetition of the record")
+            self.busy = f"repeating the record, {100 * done // max(steps, 1)} %"
+
+        def repeat() -> Session:
+            progress(0, 1)
+            moment = float(record.times[record.index(time)])
+            session = session_at(record.path, moment, trust=self.trust, progress=progress)
+            progress(1, 1)
+            return session
+
+        try:
+            session = await asyncio.to_thread(repeat)
+        finally:
+            if attempt == self._attempt:
+                self.busy = ""
+                self._changed()
+        await self.queue.run(lambda: self._take_over(attempt, session))
+
+    async def _take_over(self, attempt: int, session: Session) -> None:
+        """Open the document of a session that continues a record, and let it run."""
+        if attempt != self._attempt:
+            raise DocumentError("another request ended the repetition of the record")
+        doc, world = session.document, session.world
+        await self._leave()
+        self.model = Model(document=doc, trusted=self.trust)
+        self._saved, self._digest = view.plain(doc), ""
+        self._name, self._kept = self.store.new_name(), doc
+        if world is not None:
+            kind = type(world).__name__
+            self.embodiment.choose(world, kind, str((described(world) or {}).get("file", "")), doc)
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(session)))
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.play(True)))
+        self._moved()
+
+    def end(self) -> None:
+        """End the repetition of a record, if one is computed."""
+        self._attempt += 1
 
     async def list_kept(self) -> None:
         """Read the list of snapshots and presets of the open document again."""

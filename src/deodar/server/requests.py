@@ -278,6 +278,12 @@ async def _run_from(hub: Hub, page: Page, m: to_server.RunFrom) -> None:
     page.seek(None)
 
 
+@handles(to_server.RunRecordFrom)
+async def _run_record_from(hub: Hub, page: Page, m: to_server.RunRecordFrom) -> None:
+    await hub.project.run_record_from(m.time)
+    page.seek(None)
+
+
 @handles(to_server.ListKept)
 async def _list_kept(hub: Hub, page: Page, m: to_server.ListKept) -> None:
     await hub.project.list_kept()

@@ -500,6 +500,17 @@ class RunFrom(DocumentRequest, frozen=True, kw_only=True, tag="run_from"):
 
 
 @MESSAGES.register
+class RunRecordFrom(Request, frozen=True, kw_only=True, tag="run_record_from"):
+    """Open a copy of the open record's document, which runs on from the last sample up to a document time.
+
+    The run of the record is repeated up to there, with later requests of the page meanwhile; opening another
+    document ends the repetition. The answer follows when the copy runs.
+    """
+
+    time: float
+
+
+@MESSAGES.register
 class ListKept(Request, frozen=True, kw_only=True, tag="list_kept"):
     """List snapshots and presets again; a `kept_files` message follows if the list changed."""
 

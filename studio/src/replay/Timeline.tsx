@@ -150,7 +150,7 @@ export function Timeline() {
         </span>
       </div>
       {!record && <KeptMenu />}
-      {!record && <RunFromButton />}
+      <RunFromButton />
       {!record && (
         <Tooltip label="Back to the present">
           <Button

@@ -54,7 +54,7 @@ export async function runFrom(): Promise<void> {
   const time = timeline()?.time;
   if (time != null) {
     stop();
-    await request({ type: "run_from", time });
+    await request({ type: isRecord() ? "run_record_from" : "run_from", time });
   }
 }
 
