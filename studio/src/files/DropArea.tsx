@@ -1,10 +1,10 @@
-// A file dropped anywhere: a document is opened, a picture is shown to the sensors.
+// A file dropped anywhere: a document or a record is opened, a picture is shown to the sensors.
 
 import { useEffect, useState } from "react";
 
 import { useStudio } from "../store";
 import { useDialogs } from "../dialogs/dialogs";
-import { takeFile } from "./flows";
+import { takeDropped } from "./flows";
 import classes from "./DropArea.module.css";
 
 export function DropArea() {
@@ -28,7 +28,9 @@ export function DropArea() {
         const file = event.dataTransfer?.files[0];
         if (file !== undefined) {
           useDialogs.getState().cancel();
-          void takeFile(file);
+          // Only now, during the event, the browser says whether it is a folder.
+          const folder = event.dataTransfer?.items[0]?.webkitGetAsEntry()?.isDirectory === true;
+          void takeDropped({ file, folder });
         }
       }
     };
@@ -50,7 +52,7 @@ export function DropArea() {
   return (
     <div className={classes.area} aria-hidden="true">
       <div className={classes.text}>
-        Drop a document to open it{senses && ", or a picture to show it to the sensors"}
+        Drop a document or a record to open it{senses && ", or a picture to show it to the sensors"}
       </div>
     </div>
   );

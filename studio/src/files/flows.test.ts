@@ -1,8 +1,8 @@
 import { beforeEach, describe, expect, it } from "vitest";
 
-import type { DocumentView, Kind } from "../protocol";
+import type { DocumentView, Folder, Kind, Welcome } from "../protocol";
 import { useStudio } from "../store";
-import { leave, open, save, saveAs, takeFile } from "./flows";
+import { leave, open, save, saveAs, takeDropped, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
 
 const document: DocumentView = {
@@ -180,6 +180,48 @@ describe("saving", () => {
     server({ problems: [{ what: "The disk is full" }] });
     expect(await save()).toBe(false);
     expect(notices()).toEqual(["error: The disk is full"]);
+  });
+});
+
+describe("a dropped record", () => {
+  const empty = { folders: [], files: [], pictures: [], others: [] };
+  const root: Folder = { type: "folder", request: 1, path: "", ...empty, records: ["night"] };
+
+  it("opens where it lies, in the folder of the studio", async () => {
+    server({ folder: root });
+    expect(await takeDropped({ file: new File([], "night"), folder: true })).toBe(true);
+    expect(sent).toEqual([
+      { type: "list_folder", path: "" },
+      { type: "open_file", path: "night" },
+    ]);
+  });
+
+  it("is refused elsewhere, with the command that opens it", async () => {
+    useStudio.setState({ welcome: { root: "/data/models" } as Welcome });
+    server({ folder: root });
+    expect(await takeDropped({ file: new File([], "other.nc"), folder: false })).toBe(false);
+    expect(notices()).toEqual([
+      "error: The folder of the studio, /data/models, contains no record other.nc.",
+    ]);
+    expect(useStudio.getState().notices[0]?.problem.fix).toMatch(/deodar studio PATH\/other\.nc$/);
+    expect(sent).toEqual([{ type: "list_folder", path: "" }]);
+  });
+
+  it("is read by the sensors of a document that has some", async () => {
+    useStudio.setState({
+      clock: { type: "clock", senses: true } as never,
+      kinds: new Map([["Recording", { ...picture, name: "Recording", opens: [".nc"] }]]),
+    });
+    server({});
+    expect(await takeDropped({ file: new File(["x"], "night.nc"), folder: false })).toBe(true);
+    expect(sent.map(({ type }) => type)).toEqual(["use_world_content"]);
+  });
+
+  it("is refused as a zip file", async () => {
+    server();
+    expect(await takeDropped({ file: new File([], "night.zarr.zip"), folder: false })).toBe(false);
+    expect(useStudio.getState().notices[0]?.problem.fix).toMatch(/^Unpack it/);
+    expect(sent).toEqual([]);
   });
 });
 

@@ -147,6 +147,32 @@ export async function takeFile(file: File): Promise<boolean> {
   }
 }
 
+// Opens what was dropped: a record where it lies, since a page cannot read a folder as one file.
+export function takeDropped(dropped: { file: File; folder: boolean }): Promise<boolean> {
+  const { file, folder } = dropped;
+  const sensed = useStudio.getState().clock?.senses === true; // then the world shows a recording
+  const record = folder || /\.zip$/i.test(file.name) || (/\.nc$/i.test(file.name) && !sensed);
+  return record ? openRecord(file) : takeFile(file);
+}
+
+async function openRecord({ name }: File): Promise<boolean> {
+  if (/\.zip$/i.test(name)) {
+    return refuse({
+      what: `${name} is a zip file, which the studio does not open.`,
+      fix: "Unpack it below the studio's folder, and open it with Ctrl+O.",
+    });
+  }
+  const { folder } = await socket.ask({ type: "list_folder", path: "" });
+  if (folder?.records.includes(name)) {
+    return leave({ type: "open_file", path: name });
+  }
+  const root = useStudio.getState().welcome?.root ?? "";
+  return refuse({
+    what: `The folder of the studio, ${root}, contains no record ${name}.`,
+    fix: `If it lies in a folder below, open it with Ctrl+O, otherwise type: deodar studio PATH/${name}`,
+  });
+}
+
 // Whether a file is too large for one message; then a notice states it.
 export function isTooLarge(file: File): boolean {
   if (file.size > MOST_BYTES) {

@@ -1,7 +1,7 @@
 // A server and a user with the answers of a test, and a record of the questions.
 
 import { vi } from "vitest";
-import type { Answer, ToServer } from "../protocol";
+import type { Answer, Folder, ToServer } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
 import { type Asked, useDialogs } from "../dialogs/dialogs";
@@ -11,10 +11,11 @@ export const sent: ToServer[] = [];
 let leaves = () => {};
 
 // A server that gives these answers in turn, and then reports success.
-export function server(...answers: Partial<Answer>[]): void {
+export function server(...answers: (Partial<Answer> & { folder?: Folder })[]): void {
   vi.spyOn(socket, "ask").mockImplementation(async (message) => {
     sent.push(message);
-    return { answer: { type: "answer", request: 1, ...answers.shift() }, folder: null, fits: null };
+    const { folder = null, ...answer } = answers.shift() ?? {};
+    return { answer: { type: "answer", request: 1, ...answer }, folder, fits: null };
   });
 }
 
