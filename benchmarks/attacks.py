@@ -1,7 +1,7 @@
 """Attacks the studio and prints what became of it: `python benchmarks/attacks.py
 [edits|undo|documents|messages|kills|records|soak ...] [--size N] [--seed N]`.
 
-`edits`: 8 pages edit one document at once, 10,000 edits. `undo`: 34 kinds of edits are made, undone and
+`edits`: 8 pages edit one document at once, 10,000 edits. `undo`: 36 kinds of edits are made, undone and
 redone in 36,000 steps. `documents`: 2,090 mutated documents. `messages`: 3,614 hostile messages. `kills`: 50
 kills while a page saves. `records`: 50 runs are killed while they record. `soak`: pages come and go for 600
 seconds, and the studio must hold no more afterwards than before: memory, files and sockets, Python objects,

@@ -132,6 +132,71 @@ test("a click selects a wire, Delete removes it; an element is inserted into a w
   await observer.until(() => wires().length === 0);
 });
 
+/** The place of an end of a wire, beside the port. */
+async function wireEnd(name: string, end: "source" | "target"): Promise<{ x: number; y: number }> {
+  const { page } = studio;
+  const wire = page.getByRole("img", { name, exact: true });
+  const at = await wire.locator(".graph-wire").evaluate((path: SVGPathElement, last) => {
+    const point = path.getPointAtLength(last ? path.getTotalLength() - 12 : 12);
+    const matrix = path.getScreenCTM() as DOMMatrix;
+    return new DOMPoint(point.x, point.y).matrixTransform(matrix).toJSON() as { x: number; y: number };
+  }, end === "target");
+  await page.mouse.move(at.x, at.y);
+  await wire.locator(`.react-flow__edgeupdater-${end}`).waitFor({ state: "attached" });
+  return at;
+}
+
+/** Drag an end of a wire to a place of the screen. */
+async function moveEnd(name: string, end: "source" | "target", to: { x: number; y: number }): Promise<void> {
+  const { page } = studio;
+  const at = await wireEnd(name, end);
+  await page.mouse.down();
+  await page.mouse.move((at.x + to.x) / 2, (at.y + to.y) / 2, { steps: 3 });
+  await page.mouse.move(to.x, to.y, { steps: 3 });
+  await page.mouse.up();
+}
+
+test("the end of a wire is dragged to another port, or to the ground, where a palette opens", async () => {
+  const { page } = studio;
+  await pull(port("left", "output"), await middle(box(page, "u")));
+  await page.mouse.up();
+  await observer.until(() => wires().join() === "left.output u.input");
+  await page.getByRole("img", { name: "left to u", exact: true }).waitFor();
+  await moveEnd("left to u", "target", await middle(port("node", "input")));
+  await observer.until(() => wires().join() === "left.output node.input");
+  await page.getByRole("img", { name: "left to node", exact: true }).waitFor();
+  await moveEnd("left to node", "source", await middle(port("u", "output")));
+  await observer.until(() => wires().join() === "u.output node.input");
+  await page.getByRole("img", { name: "u to node", exact: true }).waitFor();
+  const free = await middle(port("node", "input"));
+  await moveEnd("u to node", "target", { x: free.x - 20, y: free.y + 160 });
+  await chooser("Add a connected element").getByRole("option", { name: "Field", exact: true }).click();
+  await observer.until(() => wires().join() === "u.output field.input");
+  await page.keyboard.press("Control+z");
+  await observer.until(
+    () => wires().join() === "u.output node.input" && observer.document?.elements.length === 3,
+  );
+});
+
+test("a box without connections that is dropped on a wire is inserted into it, as one step", async () => {
+  const { page } = studio;
+  await pull(port("left", "output"), await middle(port("node", "input")));
+  await page.mouse.up();
+  await observer.until(() => wires().join() === "left.output node.input");
+  const wire = page.getByRole("img", { name: "left to node", exact: true }).locator(".graph-wire");
+  const to = await middle(wire);
+  const from = await middle(box(page, "u"));
+  await page.mouse.move(from.x, from.y - 20);
+  await page.mouse.down();
+  await page.mouse.move(to.x, to.y - 60, { steps: 4 });
+  await page.mouse.move(to.x, to.y, { steps: 4 });
+  await page.locator(".graph-wire[data-picked]").waitFor();
+  await page.mouse.up();
+  await observer.until(() => wires().sort().join() === "left.output u.input,u.output node.input");
+  await page.keyboard.press("Control+z");
+  await observer.until(() => wires().join() === "left.output node.input");
+});
+
 test("the keyboard connects the selected element with what is typed, and removes a connection", async () => {
   const { page } = studio;
   await select(page, "left");

@@ -14,8 +14,9 @@ export type AddDocumentParameter = {
 //
 // `values` has the format of documents. Parameters without a value get one that works at once: axes are those
 // of the ports that the element is connected with, else those of the first field, else a new axis x.
-// `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into. An
-// empty name means a free one after its kind; a taken one gets a number. `at` is the position of its box.
+// `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into;
+// `replaces`: a connection that is removed. An empty name means a free one after its kind; a taken one gets a
+// number. `at` is the position of its box.
 export type AddElement = {
   type: "add_element";
   request?: number;
@@ -28,6 +29,7 @@ export type AddElement = {
   source?: PortEnd | null;
   target?: PortEnd | null;
   wire?: Ends | null;
+  replaces?: Ends | null;
 };
 
 // Add a template of `welcome` as a new group; the answer has its ids in `made` and its names in `group`.
@@ -596,6 +598,16 @@ export type GeneralView = {
   time_unit: string;
   dt: number | null;
   notes: string;
+};
+
+// Insert an existing element into a connection, by its default ports; `positions` are those of boxes.
+export type InsertElement = {
+  type: "insert";
+  request?: number;
+  session?: number;
+  element: string;
+  wire: Ends;
+  positions?: Record<string, unknown[]>;
 };
 
 // Save the present values of the parameters as a preset under a new name.
@@ -1369,6 +1381,7 @@ export type ToServer =
   | Arrange
   | NewDocument
   | AddElement
+  | InsertElement
   | Connect
   | Disconnect
   | Reconnect

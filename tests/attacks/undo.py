@@ -16,7 +16,7 @@ import msgspec
 
 import deodar as dd
 from deodar.errors import DeodarError
-from deodar.model import building, clipboard, edit, files
+from deodar.model import building, clipboard, edit, files, script
 from deodar.model.building import Around
 from deodar.model.document import Document, Entry
 from deodar.server import converted, view
@@ -25,6 +25,9 @@ from tests.server.page import patched
 
 MOST_ELEMENTS = 30
 """Number of elements from which the walk adds no more."""
+
+SCRIPTED = 20
+"""Number of steps after which a document is also made again by its script."""
 
 Draw = random.Random
 X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 1, samples=5)
@@ -68,6 +71,10 @@ def _added(draw: Draw, doc: Document, kind: str, **more: Any) -> Document:
     return building.add(doc, kind, {}, draw.choice(("", "u", "v")), at=(draw.randint(0, 99), 5.0), **more)[0]
 
 
+def _at_an_end(wire: tuple[str, str, str, str]) -> Around:
+    return Around(source=wire[:2], replaces=wire)
+
+
 EDITS: dict[str, Callable[[Draw, Document], Document]] = {
     "add a field": lambda r, d: _added(r, d, "Field"),
     "add a stimulus": lambda r, d: _added(r, d, "GaussianStimulus"),
@@ -76,6 +83,8 @@ EDITS: dict[str, Callable[[Draw, Document], Document]] = {
     "add before": lambda r, d: _added(r, d, "Noise", around=Around(target=(_entry(r, d).id, ""))),
     "add on a wire": lambda r, d: _added(r, d, "Sigmoid", around=Around(wire=_wire(r, d))),
     "add with an array": lambda r, d: _added(r, d, "Weights"),
+    "add at an end": lambda r, d: _added(r, d, "Field", around=_at_an_end(_wire(r, d))),
+    "insert": lambda r, d: building.insert_element(d, _entry(r, d).id, _wire(r, d)),
     "connect": lambda r, d: building.connect(d, (_entry(r, d).id, "", _entry(r, d).id, "")),
     "connect delayed": lambda r, d: building.connect(
         d, (_entry(r, d).id, "", _entry(r, d).id, ""), "delayed"
@@ -133,6 +142,13 @@ def whole(doc: Document) -> Any:
     return {key: value for key, value in shown.items() if key != "problems"}
 
 
+def _scripted(doc: Document) -> Document:
+    """Return the document that the script of a document makes."""
+    space: dict[str, Any] = {"__name__": "script"}
+    exec(script.script(doc), space)
+    return space["make"]().document
+
+
 def attack(steps: int, seed: int) -> Outcome:
     """Make, undo and redo edits at random."""
     draw, outcome = random.Random(seed), Outcome()
@@ -160,6 +176,8 @@ def attack(steps: int, seed: int) -> Outcome:
         doc = history.document
         if written(doc) != texts[history.depth]:
             outcome.errors.append(f"step {outcome.steps}: the document after undo or redo has other bytes")
+        if outcome.steps % SCRIPTED == 0 and written(_scripted(doc)) != written(doc):
+            outcome.errors.append(f"step {outcome.steps}: the script makes another document")
         after = converted.convert(doc, shown)
         found = converted.patch(shown, after, Status(1, False, 0, 0, "live"), lambda: [])
         page = whole(doc) if found is None else patched(page, json.loads(msgspec.json.encode(found)))

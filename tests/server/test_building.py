@@ -85,6 +85,34 @@ def test_each_edit_is_one_step_of_undo(root: Path) -> None:
         play(address, scene)
 
 
+def test_an_existing_element_and_a_moved_end_are_one_step_each(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u, left, right = p.element("u"), p.element("left"), p.element("right")
+        wire = {"source": left, "target": u}
+        (gain,) = await made(p, "add_element", kind="Gain", name="gain")
+        await p.do("insert", element=gain, wire=wire, positions={gain: [5, 6]})
+        assert wires(p) == {("left", "gain"), ("gain", "u"), ("right", "u")} and p.document["undo"] == 2
+        assert p.document["layout"]["boxes"][gain] == {"x": 5, "y": 6}
+        refused = await p.ask("insert", element=gain, wire={"source": gain, "target": u})
+        assert "is an end of this connection" in refused["problems"][0]["what"]
+        (v,) = await made(
+            p,
+            "add_element",
+            kind="Field",
+            name="v",
+            source={"element": right},
+            replaces={"source": right, "target": u},
+        )
+        assert wires(p) == {("left", "gain"), ("gain", "u"), ("right", "v")} and p.document["undo"] == 3
+        assert next(e for e in p.document["elements"] if e["id"] == v)["name"] == "v"
+        await p.do("undo")
+        assert ("right", "u") in wires(p)
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
 def test_a_refused_edit_states_the_reason_and_changes_nothing(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()

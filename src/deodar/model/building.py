@@ -45,11 +45,13 @@ class Around:
         source: output port that it reads.
         target: input port that reads it.
         wire: connection that it is inserted into.
+        replaces: connection that is removed.
     """
 
     source: ElementPort | None = None
     target: ElementPort | None = None
     wire: EndPorts | None = None
+    replaces: EndPorts | None = None
 
 
 def add(
@@ -66,6 +68,7 @@ def add(
     Parameters that `values` does not give have starting values (`starting.element`), axes those of the ports
     that it is connected with.
     """
+    doc = disconnect(doc, [] if around.replaces is None else [around.replaces])
     wire = None if around.wire is None else connection(doc, around.wire)
     source = around.source if wire is None else (wire.source, wire.source_port)
     target = around.target if wire is None else (wire.target, wire.target_port)
@@ -82,6 +85,19 @@ def add(
     if target is not None:
         doc = edit.connect(doc, entry, "", find.entry(doc, target[0]), target[1])
     return placed(doc, {} if at is None else {entry.id: at}), [entry.id]
+
+
+def insert_element(doc: Document, ident: str, ends: EndPorts) -> Document:
+    """Return a document in which an element is inserted into a connection, by its default ports.
+
+    The connection into it keeps what the former connection read.
+    """
+    wire, entry = connection(doc, ends), find.entry(doc, ident)
+    if ident in (wire.source, wire.target):
+        raise ModelError(f"{entry.path} is an end of this connection", fix="Choose another connection")
+    doc = edit.disconnect(doc, *wire.ends)
+    doc = edit.connect(doc, find.entry(doc, wire.source), wire.source_port, entry, "", wire.reads)
+    return edit.connect(doc, entry, "", find.entry(doc, wire.target), wire.target_port)
 
 
 def connect(doc: Document, ends: EndPorts, reads: str = "") -> Document:

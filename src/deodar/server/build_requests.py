@@ -53,11 +53,19 @@ async def _new(hub: Hub, page: Page, m: to_server.NewDocument) -> None:
 
 @handles(to_server.AddElement)
 async def _add_element(hub: Hub, page: Page, m: to_server.AddElement) -> Answer:
-    around = Around(_port(m.source), _port(m.target), None if m.wire is None else _ends(m.wire))
+    wire, replaces = (None if ends is None else _ends(ends) for ends in (m.wire, m.replaces))
+    around = Around(_port(m.source), _port(m.target), wire, replaces)
     made = await _changed(
         hub, lambda doc: building.add(doc, m.kind, m.values, m.name, tuple(m.group), m.at, around)
     )
     return Answer(request=m.request, made=made)
+
+
+@handles(to_server.InsertElement)
+async def _insert(hub: Hub, page: Page, m: to_server.InsertElement) -> None:
+    await hub.project.change(
+        lambda doc: building.placed(building.insert_element(doc, m.element, _ends(m.wire)), m.positions)
+    )
 
 
 @handles(to_server.Connect)

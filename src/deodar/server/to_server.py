@@ -232,8 +232,9 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
 
     `values` has the format of documents. Parameters without a value get one that works at once: axes are
     those of the ports that the element is connected with, else those of the first field, else a new axis x.
-    `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into. An
-    empty name means a free one after its kind; a taken one gets a number. `at` is the position of its box.
+    `source`, `target`: ports that it is connected with; `wire`: a connection that it is inserted into;
+    `replaces`: a connection that is removed. An empty name means a free one after its kind; a taken one gets
+    a number. `at` is the position of its box.
     """
 
     kind: Text
@@ -244,6 +245,16 @@ class AddElement(DocumentRequest, frozen=True, kw_only=True, tag="add_element"):
     source: PortEnd | None = None
     target: PortEnd | None = None
     wire: Ends | None = None
+    replaces: Ends | None = None
+
+
+@MESSAGES.register
+class InsertElement(DocumentRequest, frozen=True, kw_only=True, tag="insert"):
+    """Insert an existing element into a connection, by its default ports; `positions` are those of boxes."""
+
+    element: Id
+    wire: Ends
+    positions: dict[Id, Position] = {}
 
 
 @MESSAGES.register

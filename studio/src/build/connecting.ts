@@ -5,8 +5,8 @@ import type { Point } from "../graph/layout";
 import type { FitView, Kind, OfferView } from "../protocol";
 import { useStudio } from "../store";
 import { useChooser } from "./chooser";
-import { addElement, connect } from "./edits";
-import { between, type End, type Side } from "./ends";
+import { addElement, connect, reconnect } from "./edits";
+import { between, type End, type Side, type WireEnds } from "./ends";
 import type { ListEntry } from "./entries";
 import { isEditable } from "./editable";
 import { elementEntry, kindEntries } from "./palette";
@@ -27,13 +27,18 @@ export async function finish(at: Point, to: WireTarget | null): Promise<void> {
   ) {
     return;
   }
+  const { moved } = known;
   if (to === null) {
     offerKinds(
       at,
       known.from,
       known.side,
       known.fits.kinds.map(({ kind }) => kind),
+      moved,
     );
+    return;
+  }
+  if (moved !== undefined && isEndOf(moved, known.side, to)) {
     return;
   }
   const fit = fitOf(known.fits, to.element, to.port);
@@ -41,7 +46,8 @@ export async function finish(at: Point, to: WireTarget | null): Promise<void> {
     const side = known.side === "source" ? "input" : "output";
     useStudio.getState().notify({ what: fit?.reason ?? `This element has no ${side}.` }, "info");
   } else if (fit.fits) {
-    await connect(between(known.from, known.side, fit));
+    const ends = between(known.from, known.side, fit);
+    await (moved === undefined ? connect(ends) : reconnect(moved, ends));
   } else {
     useChooser.getState().open({
       label: "Choose a coupling",
@@ -49,15 +55,22 @@ export async function finish(at: Point, to: WireTarget | null): Promise<void> {
       hint: fit.reason,
       at,
       entries: fit.offers.map((offer) =>
-        offerEntry("Couplings that fit", known.from, known.side, fit, offer),
+        offerEntry("Couplings that fit", known.from, known.side, fit, offer, moved),
       ),
       empty: "No coupling matches",
     });
   }
 }
 
-// A connection on the empty ground: what fits its end.
-function offerKinds(at: Point, from: End, side: Side, kinds: string[]): void {
+// Whether a connection that begins at `side` ends at this port or element already.
+function isEndOf(wire: WireEnds, side: Side, { element, port }: WireTarget): boolean {
+  const [own, ownPort] =
+    side === "source" ? [wire.target, wire.target_port] : [wire.source, wire.source_port];
+  return element === own && (port === null || port === ownPort);
+}
+
+// A connection on the empty ground: what fits its end. `moved` is the connection that it was before.
+function offerKinds(at: Point, from: End, side: Side, kinds: string[], moved?: WireEnds): void {
   const stage = getStage();
   if (stage === null) {
     return;
@@ -68,22 +81,35 @@ function offerKinds(at: Point, from: End, side: Side, kinds: string[]): void {
     placeholder: "Name, family or parameter",
     hint: `Connected with ${called(from)}`,
     at,
-    entries: fitting(kinds, from, side, () => spot),
+    entries: fitting(kinds, from, side, () => spot, moved),
     empty: "No kind that fits matches",
   });
 }
 
 // Kinds whose new element is connected.
-function fitting(kinds: string[], from: End, side: Side, spot: (kind: Kind) => Placing): ListEntry[] {
+function fitting(
+  kinds: string[],
+  from: End,
+  side: Side,
+  spot: (kind: Kind) => Placing,
+  replaces?: WireEnds,
+): ListEntry[] {
   const known = useStudio.getState().kinds;
-  const add = (kind: Kind) =>
-    addElement(kind.name, spot(kind), side === "source" ? { source: from } : { target: from });
+  const ends = side === "source" ? { source: from, replaces } : { target: from, replaces };
+  const add = (kind: Kind) => addElement(kind.name, spot(kind), ends);
   return kindEntries(known, null, add).filter(
     ({ kind, why }) => why === undefined && kind !== undefined && kinds.includes(kind.name),
   );
 }
 
-function offerEntry(family: string, from: End, side: Side, to: End, offer: OfferView): ListEntry {
+function offerEntry(
+  family: string,
+  from: End,
+  side: Side,
+  to: End,
+  offer: OfferView,
+  replaces?: WireEnds,
+): ListEntry {
   const { elements, kinds } = useStudio.getState();
   const kind = kinds.get(offer.kind);
   const { source, source_port, target, target_port } = between(from, side, to);
@@ -92,6 +118,7 @@ function offerEntry(family: string, from: End, side: Side, to: End, offer: Offer
       values: offer.values,
       source: { element: source, port: source_port },
       target: { element: target, port: target_port },
+      replaces,
     });
   const title = kind?.title ?? offer.kind;
   const base = kind === undefined ? { id: "", title, family } : elementEntry(kind, run);

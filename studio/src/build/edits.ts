@@ -15,11 +15,13 @@ export type Adding = {
   target?: End;
   // The connection into which it is inserted.
   wire?: WireEnds;
+  // The connection that is removed.
+  replaces?: WireEnds;
 };
 
 export async function addElement(kind: string, spot: Placing, adding: Adding = {}): Promise<void> {
   const document = useStudio.getState().document;
-  const { values = {}, source = null, target = null, wire = null } = adding;
+  const { values = {}, source = null, target = null, wire = null, replaces = null } = adding;
   const answer = await request({
     type: "add_element",
     kind,
@@ -29,6 +31,7 @@ export async function addElement(kind: string, spot: Placing, adding: Adding = {
     source,
     target,
     wire,
+    replaces,
   });
   showMade(answer.made ?? []);
 }
@@ -58,3 +61,7 @@ export function addPart(element: string, parameter: string, several: boolean, pa
 }
 
 export const connect = (ends: WireEnds): Promise<Answer> => request({ type: "connect", ...ends });
+
+// Move the ends of a connection.
+export const reconnect = (before: WireEnds, after: WireEnds): Promise<Answer> =>
+  request({ type: "reconnect", old: before, new: after });

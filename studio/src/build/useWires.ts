@@ -1,15 +1,16 @@
 // What the pointer does with ports and connections, as properties of the canvas.
 
 import { type Edge, type ReactFlowProps, useStoreApi } from "@xyflow/react";
-import { useEffect, useMemo } from "react";
+import { useEffect, useMemo, useState } from "react";
 
 import { useHover } from "../graph/hover";
-import type { SceneNode } from "../graph/scene";
+import type { SceneNode, Wire } from "../graph/scene";
 import { useStudio } from "../store";
 import { finish } from "./connecting";
 import { openPalette } from "./palette";
-import { pickWire } from "./picked";
-import { firstOf } from "./wires";
+import { pickWire, usePicked } from "./picked";
+import type { WireEnds } from "./ends";
+import { endOf, firstOf } from "./wires";
 import { begin, end, fitOf, stateOf, useWiring } from "./wiring";
 
 type Props = ReactFlowProps<SceneNode, Edge>;
@@ -17,8 +18,23 @@ type Props = ReactFlowProps<SceneNode, Edge>;
 // Within this many pixels of a port a connection ends at it.
 const RADIUS = 24;
 
-export function useWires(): Props {
+// The ends of connections that are selected or below the pointer can be moved.
+function useMovable(wires: Wire[], editable: boolean, near: string | null): Edge[] {
+  const picked = usePicked((state) => state.wires);
+  return useMemo(
+    () =>
+      wires.map((wire) =>
+        editable && (wire.id === near || picked.includes(wire.id)) && wire.data?.chains.length === 1
+          ? { ...wire, reconnectable: true }
+          : wire,
+      ) as Edge[],
+    [wires, editable, near, picked],
+  );
+}
+
+export function useWires(wires: Wire[]): Props {
   const flow = useStoreApi();
+  const [near, setNear] = useState<string | null>(null);
   const editable = useStudio((state) => state.document?.record == null && state.connection === "open");
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
@@ -30,9 +46,20 @@ export function useWires(): Props {
     addEventListener("keydown", onKey);
     return () => removeEventListener("keydown", onKey);
   }, [flow]);
-  return useMemo((): Props => {
+  const edges = useMovable(wires, editable, near);
+  const props = useMemo((): Props => {
+    // xyflow calls onReconnectStart just before onConnectStart
+    let moved: WireEnds | null = null;
     const start: Props["onConnectStart"] = (_, { nodeId, handleId, handleType }) => {
-      if (nodeId !== null && handleId !== null && handleType !== null) {
+      if (moved !== null && handleType !== null) {
+        const fixed = handleType === "source";
+        const from = fixed
+          ? { element: moved.source, port: moved.source_port }
+          : { element: moved.target, port: moved.target_port };
+        useHover.getState().close();
+        void begin(from, handleType, moved);
+        moved = null;
+      } else if (nodeId !== null && handleId !== null && handleType !== null) {
         useHover.getState().close();
         void begin({ element: nodeId, port: handleId }, handleType);
       }
@@ -53,6 +80,13 @@ export function useWires(): Props {
       connectionRadius: RADIUS,
       onConnectStart: start,
       onConnectEnd: stop,
+      onReconnectStart: (_, { id }, fixed) => {
+        moved = endOf(id, fixed === "source" ? "target" : "source");
+      },
+      // onConnectEnd moves the end
+      onReconnect: () => {},
+      onEdgeMouseEnter: (_, { id }) => useWiring.getState().wiring === null && setNear(id),
+      onEdgeMouseLeave: () => useWiring.getState().wiring === null && setNear(null),
       onClickConnectStart: start,
       onClickConnectEnd: stop,
       isValidConnection: ({ source, sourceHandle, target, targetHandle }) => {
@@ -82,6 +116,7 @@ export function useWires(): Props {
       },
     };
   }, [flow, editable]);
+  return { ...props, edges };
 }
 
 function insertInto(wire: string, x: number, y: number): void {

@@ -5,7 +5,7 @@ import { create } from "zustand";
 import type { Fits, FitView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
-import type { End, Side } from "./ends";
+import type { End, Side, WireEnds } from "./ends";
 
 export type Wiring = {
   from: End;
@@ -13,6 +13,8 @@ export type Wiring = {
   side: Side;
   // Null until the server has answered.
   fits: Fits | null;
+  // The connection whose end is moved.
+  moved?: WireEnds;
 };
 
 type State = {
@@ -45,9 +47,10 @@ export function askFits({ element, port }: End): Promise<Fits | null> {
   return asked.answer;
 }
 
-// Begin a connection at a port; the ports that fit light up when the server has answered.
-export function begin(from: End, side: Side): Promise<Fits | null> {
-  const wiring: Wiring = { from, side, fits: null };
+// Begin a connection at a port, or move the other end of one; the ports that fit light up when the server has
+// answered.
+export function begin(from: End, side: Side, moved?: WireEnds): Promise<Fits | null> {
+  const wiring: Wiring = { from, side, fits: null, moved };
   useWiring.setState({ wiring, target: null });
   coming = askFits(from).then((fits) => {
     if (useWiring.getState().wiring === wiring) {

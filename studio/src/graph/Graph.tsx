@@ -15,6 +15,7 @@ import {
 import "@xyflow/react/dist/base.css";
 import { useCallback, useEffect, useRef, useState } from "react";
 import { copyDragged } from "../build/dragging";
+import { insertDropped, markWire } from "../build/inserting";
 import { RenameBox } from "../build/RenameBox";
 import { openSelectionCommands } from "../build/commands";
 import { pickGroup } from "../build/picked";
@@ -40,6 +41,7 @@ import { tidied } from "./folding";
 import { glide } from "./glide";
 import "./graph.css";
 import { useHover } from "./hover";
+import { moved } from "./moved";
 import { newPainting, PainterContext } from "./PainterContext";
 import { foldedAround, groupKey, type GraphScene, type SceneNode, type Structure } from "./scene";
 import { Search } from "./Search";
@@ -82,7 +84,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const center = useCenter(now);
   const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
   useEffect(() => layer.change(), [layer, nodes]);
-  const flow = useReactFlow();
+  const flow = useReactFlow<SceneNode>();
   const views = useStoreApi();
   // Every change of the view, also one that the page makes itself.
   useEffect(
@@ -93,7 +95,7 @@ function Canvas({ structure }: { structure: Structure }) {
     useStudio.getState().select([element]);
     center(element);
   });
-  const wiring = useWires();
+  const wiring = useWires(now.wires);
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
   useZoomLook(around);
@@ -141,17 +143,21 @@ function Canvas({ structure }: { structure: Structure }) {
       >
         <ReactFlow<SceneNode, Edge>
           nodes={nodes}
-          edges={now.wires as Edge[]}
           nodeTypes={NODES}
           edgeTypes={EDGES}
           onNodesChange={onNodesChange}
           onNodeDragStart={() => useHover.getState().close()}
-          onNodeDragStop={(event) => {
+          onNodeDragStop={(event, { id }) => {
             if (event.altKey) {
               copyDragged(nodes);
               reset();
-            } else {
+              return;
+            }
+            const inserted = insertDropped(id, moved(flow.getNodes(), now.tree, now.places));
+            if (inserted === null) {
               settle();
+            } else {
+              void inserted.then((done) => !done && reset());
             }
           }}
           onNodeContextMenu={(event, { id, type }) => {
@@ -181,7 +187,10 @@ function Canvas({ structure }: { structure: Structure }) {
           {...wiring}
           onMoveStart={() => move(true)}
           onMove={(_, view) => layer.move(view)}
-          onNodeDrag={() => layer.change()}
+          onNodeDrag={(event, _, dragged) => {
+            layer.change();
+            markWire(event, dragged);
+          }}
           onMoveEnd={() => move(false)}
           onlyRenderVisibleElements
           edgesFocusable={false}

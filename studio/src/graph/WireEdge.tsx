@@ -79,7 +79,7 @@ function rect({ internals, measured }: InternalNode): Rect {
   return { ...internals.positionAbsolute, width: measured.width ?? 0, height: measured.height ?? 0 };
 }
 
-// Frames are no obstacle: edges lead into them.
+// Frames are no obstacle: edges lead into them. Nor is a box that is dragged: it may be dropped on the edge.
 function boxes(nodes: Map<string, InternalNode>): Rect[] {
-  return [...nodes.values()].filter((node) => node.type !== "frame").map(rect);
+  return [...nodes.values()].filter((node) => node.type !== "frame" && node.dragging !== true).map(rect);
 }
