@@ -4,10 +4,34 @@ import { join } from "node:path";
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { ident, panels, plot as plotOf, selection } from "./bench/documents";
+import { ident, panels, plot as plotOf, selection, ten } from "./bench/documents";
 import { beside, button, choose, colours, drawn, panel, reopen, settled } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
+
+/** Twenty small plots, in five columns. */
+const KINDS = [
+  ["map", "heat"],
+  ["u", "curve"],
+  ["u", "space_time"],
+  ["n", "course"],
+  ["map", "curve"],
+  ["u", "phase"],
+  ["r", "kernel"],
+] as const;
+const twenty = {
+  ...ten,
+  layout: {
+    panels: panels(
+      [0, 5, 10, 15].map((first) =>
+        [0, 1, 2, 3, 4].map((column) => {
+          const [element, kind] = KINDS[(first + column) % KINDS.length] ?? KINDS[0];
+          return plotOf(element, kind, "activation");
+        }),
+      ),
+    ),
+  },
+};
 
 /** Three plots side by side: over position, over both, and over time. */
 const linked = {
@@ -36,7 +60,11 @@ let observer: Observer;
 beforeAll(async () => {
   studio = await startStudio({
     copies: ["examples/selection.json", "examples/node.json", "examples/saliency.json"],
-    files: { "linked.json": JSON.stringify(linked), "edited.json": JSON.stringify(edited) },
+    files: {
+      "linked.json": JSON.stringify(linked),
+      "edited.json": JSON.stringify(edited),
+      "twenty.json": JSON.stringify(twenty),
+    },
     file: "selection.json",
   });
   observer = await studio.observe();
@@ -50,6 +78,44 @@ const plot = (name: string): Locator => studio.page.getByRole("region", { name, 
 const chart = (name: string, label: string): Locator =>
   plot(name).getByRole("img", { name: label, exact: true });
 const arranged = () => JSON.stringify(observer.document?.layout["panels"] ?? {});
+
+type Written = { text: string; size: number; left: number; right: number; top: number; bottom: number };
+type Listening = typeof globalThis & { written: Map<HTMLCanvasElement, Written[]> };
+
+/** In the page: note where charts write which texts, in pixels of the page. */
+function listenToTexts(): void {
+  const written = new Map<HTMLCanvasElement, Written[]>();
+  (globalThis as Listening).written = written;
+  const { clearRect, fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+    written.set(this.canvas, []);
+    clearRect.apply(this, box);
+  };
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, most) {
+    const size = parseFloat(/([\d.]+)px/.exec(this.font)?.[1] ?? "0");
+    const measured = this.measureText(text);
+    const at = this.getTransform();
+    const corners = [
+      [x - measured.actualBoundingBoxLeft, y - measured.actualBoundingBoxAscent],
+      [x + measured.actualBoundingBoxRight, y + measured.actualBoundingBoxDescent],
+    ].map(([a, b]) => at.transformPoint({ x: a ?? 0, y: b ?? 0 }));
+    const [xs, ys] = [corners.map((corner) => corner.x), corners.map((corner) => corner.y)];
+    const box = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    const [left = 0, right = 0, top = 0, bottom = 0] = box.map((value) => value / devicePixelRatio);
+    written.get(this.canvas)?.push({ text, size: size / devicePixelRatio, left, right, top, bottom });
+    fillText.call(this, text, x, y, most ?? Number.MAX_VALUE);
+  };
+}
+
+/** In the page: the texts of every chart. */
+function readTexts(): { name: string; texts: Written[]; width: number; height: number }[] {
+  return [...document.querySelectorAll<HTMLCanvasElement>(".plot canvas[role=img]")].map((canvas) => ({
+    name: canvas.getAttribute("aria-label") ?? "",
+    texts: (globalThis as Listening).written.get(canvas) ?? [],
+    width: canvas.clientWidth,
+    height: canvas.clientHeight,
+  }));
+}
 
 /** The number of different colours of a scene that is drawn by WebGL. */
 async function shades(scene: Locator): Promise<number> {
@@ -187,6 +253,52 @@ test("the cursor of one plot shows its position and its time in all others, with
   expect(await readout(course).textContent()).toBe("");
   await page.getByRole("toolbar", { name: "Run" }).hover();
   await expect.poll(() => readout(map).textContent()).toBe("");
+});
+
+test("twenty plots of 160 x 100 pixels are readable: no text is tiny, cut or covered", async () => {
+  const { page } = studio;
+  await page.evaluate(listenToTexts);
+  // what surrounds the plots: the header, the tabs and the gaps
+  await page.setViewportSize({ width: 5 * 160 + 4, height: 4 * (100 + 30) + 80 });
+  await reopen(page, observer, "twenty.json");
+  await step(40);
+  await expect.poll(() => page.getByRole("region").getByText("Press play").count()).toBe(0);
+  const boxes = await settled(page, () =>
+    page.locator(".plot").evaluateAll((plots) => plots.map((one) => one.getBoundingClientRect().toJSON())),
+  );
+  expect(boxes).toHaveLength(20);
+  for (const { width, height } of boxes) {
+    expect(Math.abs(width - 160)).toBeLessThan(4);
+    expect(Math.abs(height - 100)).toBeLessThan(14);
+  }
+  const charts = await page.evaluate(readTexts);
+  await shot(page, "plot-twenty");
+  expect(charts).toHaveLength(20);
+  for (const { name, texts, width, height } of charts) {
+    expect(texts.length, `${name} has numbers on both axes`).toBeGreaterThanOrEqual(4);
+    for (const [i, text] of texts.entries()) {
+      expect(text.size, `${name}: ${text.text}`).toBeGreaterThanOrEqual(10);
+      const inside =
+        text.left >= -1 && text.top >= -1 && text.right <= width + 1 && text.bottom <= height + 1;
+      expect(inside, `${name}: ${JSON.stringify(text)} in ${width} x ${height}`).toBe(true);
+      for (const other of texts.slice(i + 1)) {
+        const apart =
+          text.right < other.left ||
+          other.right < text.left ||
+          text.bottom < other.top ||
+          other.bottom < text.top;
+        expect(apart, `${name}: ${text.text} and ${other.text}`).toBe(true);
+      }
+    }
+  }
+  const titles = await page.locator(".plot-path").evaluateAll((all) =>
+    all.map((one) => ({
+      size: parseFloat(getComputedStyle(one).fontSize),
+      cut: one.scrollWidth > one.clientWidth,
+    })),
+  );
+  expect(titles.every(({ size, cut }) => size >= 11 && !cut)).toBe(true);
+  await page.setViewportSize({ width: 1280, height: 800 });
 });
 
 test("a plot shows the interaction kernel while a slider moves", async () => {

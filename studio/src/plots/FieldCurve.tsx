@@ -98,7 +98,7 @@ export function FieldCurve(props: PlotProps) {
     axes: [
       axis(look, { scale: "x", side: 2, ...(x === null ? {} : { label: axisLabel(x) }) }),
       axis(look, { scale: "left", side: 3 }),
-      ...(curves.some(onRight)
+      ...(curves.some(onRight) && !look.small
         ? [axis(look, { scale: "right", side: 1, label: "output", grid: false })]
         : []),
     ],

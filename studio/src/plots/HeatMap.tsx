@@ -6,7 +6,7 @@ import type uPlot from "uplot";
 import type { AxisView } from "../protocol";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
-import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
 import { plane } from "./exportCsv";
@@ -14,7 +14,7 @@ import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
 import { axisLabel, commonScale, edges, points, runsDown } from "./kinds";
 import { pushAmplitude } from "./levels";
-import { axis, frame, type Look } from "./look";
+import { axis, type Look, mapFrame } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
@@ -71,17 +71,13 @@ export function HeatMap(props: PlotProps) {
     }
   };
   const options = (look: Look): ChartOptions => {
-    const base = frame(look);
     return {
-      ...base,
-      cursor: { ...base.cursor, y: true, points: { show: false } },
-      padding: [10 * look.unit, BAR_ROOM * look.unit, 0, 4 * look.unit],
+      ...mapFrame(look),
       scales: { x: { time: false, range: () => edges(x) }, y: { range: () => edges(y), dir: down ? -1 : 1 } },
       axes: [
         axis(look, { scale: "x", side: 2, label: axisLabel(x), grid: false }),
         axis(look, { scale: "y", side: 3, label: axisLabel(y), grid: false }),
       ],
-      series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
       hooks: {
         draw: [(self) => drawColorBar(self, look, colors.current.now)],
       },

@@ -5,12 +5,12 @@ import { useMemo, useRef } from "react";
 import type uPlot from "uplot";
 import type { Live, Wish } from "../streams";
 import type { CursorAt } from "./chartCursor";
-import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { drawColorBar } from "./colorBar";
 import { portColor } from "./colors";
 import { plane as planeRows } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, commonScale, edges, points } from "./kinds";
-import { axis, frame, type Look } from "./look";
+import { axis, frame, type Look, mapFrame } from "./look";
 import { FollowingColors } from "./mapColors";
 import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
@@ -72,10 +72,9 @@ export function Kernel(props: PlotProps) {
     return [...(settings.range ?? calm.current.next(extent, [0], performance.now()))];
   };
   const options = (look: Look): ChartOptions => {
-    const base = frame(look);
     if (x === null || y === null) {
       return {
-        ...base,
+        ...frame(look),
         scales: {
           x: { time: false, range: () => (x === null ? [0, 1] : [x.lower, x.upper]) },
           left: { range: (_, low, high) => range(low, high) },
@@ -96,15 +95,12 @@ export function Kernel(props: PlotProps) {
       };
     }
     return {
-      ...base,
-      cursor: { ...base.cursor, y: true, points: { show: false } },
-      padding: [10 * look.unit, BAR_ROOM * look.unit, 0, 4 * look.unit],
+      ...mapFrame(look),
       scales: { x: { time: false, range: () => edges(x) }, y: { range: () => edges(y) } },
       axes: [
         axis(look, { scale: "x", side: 2, label: axisLabel(x), grid: false }),
         axis(look, { scale: "y", side: 3, label: axisLabel(y), grid: false }),
       ],
-      series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
       hooks: { draw: [(self) => drawColorBar(self, look, colors.current.now)] },
     };
   };

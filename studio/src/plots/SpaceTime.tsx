@@ -9,13 +9,13 @@ import { isRecord } from "../replay/replay";
 import { Rows } from "../rows";
 import { useStudio } from "../store";
 import type { Wish } from "../streams";
-import { BAR_ROOM, drawColorBar } from "./colorBar";
+import { drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
 import { plane } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, edges, isPicture, points } from "./kinds";
-import { axis, frame, type Look } from "./look";
+import { axis, type Look, mapFrame } from "./look";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { drawMoment } from "./momentLine";
 import { extent, paintHeat } from "./paint";
@@ -95,13 +95,10 @@ export function SpaceTime(props: PlotProps) {
 
   const data = (): uPlot.AlignedData => (down ? [edges(x), span.current] : [span.current, edges(x)]);
   const options = (look: Look): ChartOptions => {
-    const base = frame(look);
     const time = timeUnit === "" ? "time" : `time (${timeUnit})`;
     const [across, up] = down ? [axisLabel(x), time] : [time, axisLabel(x)];
     return {
-      ...base,
-      cursor: { ...base.cursor, y: true, points: { show: false } },
-      padding: [10 * look.unit, BAR_ROOM * look.unit, 0, 4 * look.unit],
+      ...mapFrame(look),
       scales: {
         x: { time: false, range: () => (down ? edges(x) : span.current) },
         y: { range: () => (down ? span.current : edges(x)), dir: down ? -1 : 1 },
@@ -110,7 +107,6 @@ export function SpaceTime(props: PlotProps) {
         axis(look, { scale: "x", side: 2, label: across, grid: false }),
         axis(look, { scale: "y", side: 3, label: up, grid: false }),
       ],
-      series: [{}, { scale: "y", paths: () => null, points: { show: false } }],
       hooks: {
         draw: [
           (self) => {

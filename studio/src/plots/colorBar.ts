@@ -5,9 +5,6 @@ import { font, type Look } from "./look";
 import type { MapColors } from "./mapColors";
 import { tick, ticks } from "./range";
 
-// The room it needs, as a padding of the chart.
-export const BAR_ROOM = 66;
-
 const GAP = 12;
 const WIDTH = 12;
 const TICK = 4;
@@ -17,6 +14,9 @@ export function drawColorBar(
   look: Look,
   { table, range, middle: mark }: MapColors,
 ): void {
+  if (look.small) {
+    return;
+  }
   const { ctx, bbox } = chart;
   const unit = look.unit * devicePixelRatio;
   const left = bbox.left + bbox.width + GAP * unit;

@@ -2,7 +2,7 @@
 // or as SVG.
 
 import uPlot from "uplot";
-import { font, type Look, paperLook } from "./look";
+import { font, isSmall, type Look, paperLook } from "./look";
 import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
 import type { Viewpoint } from "./sceneView";
 import { saveFile } from "./save";
@@ -126,7 +126,7 @@ type DrawnChart = { chart: uPlot; content: SvgContext | null };
 
 async function drawnAgain(drawing: PlotDrawing, format: DrawingFormat, factor: number): Promise<DrawnChart> {
   // uPlot multiplies by the device's pixels itself.
-  const look = paperLook(factor / devicePixelRatio);
+  const look = paperLook(factor / devicePixelRatio, isSmall(drawing.width, drawing.height));
   const size = {
     width: Math.round(drawing.width * look.unit),
     height: Math.round(drawing.height * look.unit),

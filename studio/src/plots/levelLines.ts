@@ -30,6 +30,9 @@ export function drawLevels(chart: uPlot, levels: Level[], look: Look): void {
     ctx.moveTo(bbox.left, y);
     ctx.lineTo(bbox.left + bbox.width, y);
     ctx.stroke();
+    if (look.small) {
+      continue;
+    }
     const above = y - (LABEL / 2) * scale;
     const below = y + (LABEL / 2) * scale;
     const free = (place: number) =>

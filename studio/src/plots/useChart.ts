@@ -2,12 +2,12 @@
 // cursor, its own or that of another chart.
 
 import { useComputedColorScheme } from "@mantine/core";
-import { type RefObject, useEffect, useRef } from "react";
+import { type RefObject, useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { ChartCursor, type CursorAt, type Orbit } from "./chartCursor";
 import type { Along } from "./linked";
-import { type Look, pageLook } from "./look";
+import { isSmall, type Look, pageLook } from "./look";
 import { useLatest } from "./useLatest";
 
 export type ChartOptions = Omit<uPlot.Options, "width" | "height"> & {
@@ -52,6 +52,8 @@ export function useChart(made: Chart, key: string): ChartRefs {
   const cursor = useRef<ChartCursor | null>(null);
   const latest = useLatest(made);
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
+  // A chart that gets small, or large again, is made again.
+  const [remade, setRemade] = useState(0);
 
   const read = (self: uPlot) => {
     if (readout.current !== null) {
@@ -65,7 +67,7 @@ export function useChart(made: Chart, key: string): ChartRefs {
     if (place === null) {
       return;
     }
-    const look = pageLook();
+    const look = pageLook(isSmallIn(place));
     const current = latest.current;
     const options = current.options(look);
     let tries = 0;
@@ -103,6 +105,9 @@ export function useChart(made: Chart, key: string): ChartRefs {
         room = size;
         tries = 0;
         created.setSize(size);
+        if (isSmallIn(place) !== look.small) {
+          setRemade((count) => count + 1);
+        }
       }
     });
     observer.observe(place);
@@ -115,13 +120,18 @@ export function useChart(made: Chart, key: string): ChartRefs {
       created.destroy();
       chart.current = null;
     };
-  }, [key, scheme, latest]);
+  }, [key, scheme, remade, latest]);
 
   return { host, chart, reread: () => chart.current !== null && read(chart.current) };
 }
 
 function sizeOf(place: HTMLElement): { width: number; height: number } {
   return { width: Math.max(LEAST, place.clientWidth), height: Math.max(LEAST, place.clientHeight) };
+}
+
+// A hidden place has no size.
+function isSmallIn({ clientWidth, clientHeight }: HTMLElement): boolean {
+  return clientWidth > 0 && isSmall(clientWidth, clientHeight);
 }
 
 // The size in which both axes have the same scale; null: the chart has it.
