@@ -6,6 +6,7 @@ import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { ident, many } from "./bench/documents";
+import { median } from "./bench/figures";
 import { mainThread } from "./bench/frames";
 import { panned, zoomed } from "./bench/measures";
 import { box, button, panel } from "./hands";
@@ -14,6 +15,7 @@ import { shot, startStudio, type Studio } from "./studio";
 
 const SMALLEST = 9;
 const RATE = 20;
+const ROUNDS = 3;
 const WIDE = 1280;
 const NARROW = 640;
 const ELEMENTS = 500;
@@ -176,13 +178,19 @@ test("five hundred elements without groups are dots until the canvas is zoomed i
 test("five hundred elements whose model runs are moved and zoomed at 20 frames a second", async () => {
   const { page } = studio;
   await button(page, "Show everything").click();
-  await button(page, "Play").click();
+  await observer.ask({ type: "play" });
   await observer.until(() => observer.time > 20);
   for (const [name, gesture] of Object.entries({ moving: panned, zooming: zoomed })) {
-    await gesture(page, 0.5); // graphics in software compile at the first use
-    await settled(page);
-    const { rate, cpu } = await mainThread(page, () => gesture(page, 1.5));
-    console.log(`${ELEMENTS} elements, ${name}: ${rate.toFixed(1)} frames/s, ${cpu.toFixed(1)} ms CPU each`);
-    expect(cpu, `processor time of a frame while ${name}`).toBeLessThan(1000 / RATE);
+    const found: number[] = [];
+    for (let i = 0; i < ROUNDS; i++) {
+      const { rate, cpu } = await mainThread(page, () => gesture(page, 0.5));
+      console.log(
+        `${ELEMENTS} elements, ${name}: ${rate.toFixed(0)} frames/s, ${cpu.toFixed(1)} ms CPU each`,
+      );
+      found.push(cpu);
+    }
+    expect(median(found), `processor time of a frame while ${name}`).toBeLessThan(1000 / RATE);
   }
+  await button(page, "Show everything").click();
+  await expect.poll(() => wires(page)).toBe(observer.document?.connections.length);
 });

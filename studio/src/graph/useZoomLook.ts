@@ -6,11 +6,14 @@ import { type RefObject, useLayoutEffect } from "react";
 import { lookAt, useLook, useMoving } from "./zoom";
 
 const REST_MS = 160;
+// On a slow machine the steps of one movement are at most this far apart.
+const STEP_MS = 300;
 
 export function useZoomLook(around: RefObject<HTMLElement | null>): void {
   const flow = useStoreApi();
   useLayoutEffect(() => {
     let timer = 0;
+    let last = 0;
     const apply = () => {
       const { level, text, numbers } = lookAt(flow.getState().transform[2]);
       const before = useLook.getState();
@@ -28,8 +31,10 @@ export function useZoomLook(around: RefObject<HTMLElement | null>): void {
     };
     const leave = flow.subscribe((state, before) => {
       if (state.transform !== before.transform) {
+        const step = performance.now() - last;
+        last += step;
         window.clearTimeout(timer);
-        timer = window.setTimeout(rest, REST_MS);
+        timer = window.setTimeout(rest, step < STEP_MS ? Math.max(REST_MS, 2 * step) : REST_MS);
         useMoving.setState({ moving: true });
       }
     });
