@@ -11,6 +11,7 @@ function edited(change: Partial<Edited>): Edited {
     version: 2,
     elements: [],
     added: {},
+    moved: {},
     removed: [],
     disconnected: [],
     connected: [],
@@ -103,4 +104,12 @@ test("the store takes a patch: a removed element is no longer selected", () => {
   expect(state.version).toBe(7);
   expect(state.selected).toEqual(["v"]);
   expect([...state.elements.keys()]).toEqual(["v"]);
+});
+
+test("an element that only gets another path keeps its values", () => {
+  const moved = { path: "g.v", name: "v", group: ["g"] };
+  const after = patched(document, edited({ moved: { u: moved } }));
+  expect(after.elements[0]).toEqual({ ...u, ...moved });
+  expect(after.elements[0]?.values).toBe(u.values);
+  expect(after.elements[1]).toBe(v);
 });

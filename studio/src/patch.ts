@@ -20,8 +20,8 @@ export function patched(document: DocumentView, patch: Edited): DocumentView {
   };
 }
 
-function patchedElements(before: ElementView[], { elements, added, removed }: Edited): ElementView[] {
-  if (elements.length === 0 && removed.length === 0) {
+function patchedElements(before: ElementView[], { elements, moved, added, removed }: Edited): ElementView[] {
+  if (elements.length === 0 && removed.length === 0 && Object.keys(moved).length === 0) {
     return before;
   }
   const next = new Map(elements.map((e) => [e.id, e]));
@@ -30,6 +30,10 @@ function patchedElements(before: ElementView[], { elements, added, removed }: Ed
     .filter((e) => !gone.has(e.id))
     .map((e) => {
       const other = next.get(e.id);
+      const path = moved[e.id];
+      if (path !== undefined) {
+        return { ...e, ...path };
+      }
       return other === undefined ? e : sharing(other, e);
     });
   for (const [id, index] of Object.entries(added).sort(([, a], [, b]) => a - b)) {

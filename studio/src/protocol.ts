@@ -409,15 +409,17 @@ export type EditExperiment = {
 // The difference to the previous version of the document.
 //
 // The page removes the elements in `removed` with their connections, and the connections in `disconnected`.
-// It replaces `elements` that it knows, then inserts the others at the index that `added` has for their ids,
-// and `connected` at theirs, in this order. What is None did not change. `layout` has the keys of the layout
-// that changed, None for removed ones, and `layout_entries` the entries that changed inside keys whose values
-// are objects. `problems`: None as long as the structure had none and has none; `checked` messages with
-// warnings follow. `cost` is the cost of the edit.
+// Elements in `moved` have another path and are otherwise as before. It replaces `elements` that it knows,
+// then inserts the others at the index that `added` has for their ids, and `connected` at theirs, in this
+// order. What is None did not change. `layout` has the keys of the layout that changed, None for removed
+// ones, and `layout_entries` the entries that changed inside keys whose values are objects. `problems`: None
+// as long as the structure had none and has none; `checked` messages with warnings follow. `cost` is the cost
+// of the edit.
 export type Edited = {
   type: "edited";
   version: number;
   elements: ElementView[];
+  moved: Record<string, PathView>;
   added: Record<string, number>;
   removed: string[];
   disconnected: EndsView[];
@@ -897,6 +899,13 @@ export type Paste = {
   text: string;
   group?: string[];
   at?: unknown[] | null;
+};
+
+// Another path of an element: as text, its last name, and its groups.
+export type PathView = {
+  path: string;
+  name: string;
+  group: string[];
 };
 
 // Pause the run.

@@ -182,6 +182,28 @@ def test_moving_into_a_group_moves_each_thing_once_and_frees_names() -> None:
         building.move_into(doc, [], [("a",)], ("a", "b"))
 
 
+def test_groups_are_moved_and_dissolved_with_their_content_uses_and_free_names() -> None:
+    unit = Model("unit")
+    unit.add(dd.Field("u", [X]), group="inner")
+    model = Model("m")
+    model.insert(unit, "a.b", link=True)
+    model.insert(unit, "c.b", link=True)
+    doc = building.move_into(model.document, [], [("c", "b")], ("a",))
+    assert [e.path for e in doc.entries] == ["a.b.inner.u", "a.b2.inner.u"]
+    assert doc.groups == (("a",), ("a", "b"), ("a", "b", "inner"), ("c",), ("a", "b2"), ("a", "b2", "inner"))
+    assert [u.group for u in doc.uses] == [("a", "b"), ("a", "b2")]
+    doc = building.ungroup(doc, ("a",))
+    assert [e.path for e in doc.entries] == ["b.inner.u", "b2.inner.u"]
+    assert [u.group for u in doc.uses] == [("b",), ("b2",)]
+    doc = building.ungroup(doc, ("b",))
+    assert [e.path for e in doc.entries] == ["inner.u", "b2.inner.u"]
+    assert [u.group for u in doc.uses] == [("b2",)]
+    with pytest.raises(ModelError, match="cannot be moved into itself"):
+        edit.relocate(doc, {}, {("b2",): ("b2", "inner", "b2")})
+    with pytest.raises(ModelError, match="already"):
+        edit.relocate(doc, {}, {("b2", "inner"): ("inner",)})
+
+
 def test_a_copy_is_a_document_of_its_own_and_pastes_the_same_content() -> None:
     model = pair()
     model.parameter("gain", 3.0)

@@ -75,7 +75,8 @@ def tuned(document: dict[str, Any], m: dict[str, Any]) -> dict[str, Any]:
 def patched(document: dict[str, Any], m: dict[str, Any]) -> dict[str, Any]:
     """Return the document after the message `edited`."""
     new = {e["id"]: e for e in m["elements"]}
-    elements = [new.get(e["id"], e) for e in document["elements"] if e["id"] not in m["removed"]]
+    moved = {e["id"]: {**e, **m["moved"].get(e["id"], {})} for e in document["elements"]}
+    elements = [new.get(i, e) for i, e in moved.items() if i not in m["removed"]]
     for ident, index in sorted(m["added"].items(), key=lambda item: item[1]):
         elements.insert(index, new[ident])
     connections = [

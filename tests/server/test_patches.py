@@ -101,6 +101,21 @@ def test_an_edit_of_one_element_sends_less_than_a_kilobyte_of_500() -> None:
         assert back is not None and len(back) < 1500, "undo"
 
 
+def test_another_path_of_many_elements_is_a_small_patch() -> None:
+    doc = many(250)
+    group = [e.id for e in doc.entries if e.group == ("g0",)]
+    assert len(group) == 40
+    edits = [
+        building.rename_group(doc, ("g0",), "renamed"),
+        building.move_into(doc, group, [], ("g1",)),
+        building.ungroup(doc, ("g0",)),
+    ]
+    for new in edits:
+        for content in (sent(doc, new), sent(new, doc)):
+            assert content is not None and len(content) < 6000
+        assert same(doc, new) and same(new, doc)
+
+
 def test_an_array_that_gets_another_name_is_sent_again() -> None:
     """Keys of arrays follow from the order of the elements."""
     model = weighted()

@@ -147,14 +147,11 @@ def move_into(doc: Document, ids: Sequence[str], groups: Iterable[PathNames], gr
     if group:
         require_group(doc, group)
     outer = _outermost([require_group(doc, g) for g in groups])
-    alone = [e for e in map(lambda i: find.entry(doc, i), ids) if not _lies_in(e.names, outer)]
-    for g in outer:
-        if g[:-1] != group:
-            doc = edit.move_group(doc, g, (*group, free_name(doc, group, g[-1])))
-    for entry in alone:
-        if entry.group != group:
-            doc = edit.move(doc, entry.id, (*group, free_name(doc, group, entry.names[-1])))
-    return doc
+    free = _FreeNames(doc, group)
+    moved = {g: (*group, free.take(g[-1])) for g in outer if g[:-1] != group}
+    alone = [e for e in (find.entry(doc, i) for i in dict.fromkeys(ids)) if not _lies_in(e.names, outer)]
+    elements = {e.id: (*group, free.take(e.names[-1])) for e in alone if e.group != group}
+    return edit.relocate(doc, elements, moved)
 
 
 def group(
@@ -179,11 +176,10 @@ def group(
 def ungroup(doc: Document, group: PathNames) -> Document:
     """Return a document in which the content of a group has moved to the parent of the group."""
     parent = require_group(doc, group)[:-1]
-    aside = (*parent, free_name(doc, parent, f"{group[-1]}_"))  # an element of the group may have its name
-    doc = edit.move_group(doc, group, aside)
-    inside = [e.id for e in doc.entries if e.group == aside]
-    doc = move_into(doc, inside, [g for g in doc.groups if g[:-1] == aside], parent)
-    return edit.remove_group(doc, aside)
+    free = _FreeNames(doc, parent, without=group[-1])
+    elements = {e.id: (*parent, free.take(e.names[-1])) for e in doc.entries if e.group == group}
+    inner = {g: (*parent, free.take(g[-1])) for g in doc.groups if g[:-1] == group}
+    return edit.relocate(doc, elements, {**inner, group: parent})
 
 
 def excerpt(doc: Document, ids: Iterable[str], groups: Iterable[PathNames] = ()) -> Document:
@@ -300,6 +296,33 @@ def free_name(doc: Document, group: PathNames, base: str, besides: Collection[st
     while is_taken(f"{stem}{n}"):
         n += 1
     return f"{stem}{n}"
+
+
+class _FreeNames:
+    """Names that nothing in a group has, for several elements and groups that move there.
+
+    Args:
+        doc: the document.
+        group: the group.
+        without: name of something in the group that is going to be removed.
+    """
+
+    def __init__(self, doc: Document, group: PathNames, without: str = "") -> None:
+        depth = len(group)
+        paths = [*(e.names for e in doc.entries), *doc.groups]
+        self._taken = {p[depth] for p in paths if len(p) > depth and p[:depth] == group} - {without}
+        self._group = group
+        self._parameters = {k.name for k in doc.parameters}
+        self._last: dict[str, int] = {}
+
+    def take(self, base: str) -> str:
+        """Return a free name, which then is taken: the given one, or one with another number at its end."""
+        name, stem = base, re.sub(r"\d+$", "", base) or base
+        while name in self._taken or (self._parameters and display((*self._group, name)) in self._parameters):
+            self._last[stem] = self._last.get(stem, 1) + 1
+            name = f"{stem}{self._last[stem]}"
+        self._taken.add(name)
+        return name
 
 
 def connection(doc: Document, ends: EndPorts) -> Connection:

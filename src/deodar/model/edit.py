@@ -142,11 +142,51 @@ def move_group(doc: Document, group: PathNames, to: PathNames) -> Document:
 
 def ungroup(doc: Document, group: PathNames) -> Document:
     """Return a document in which the content of a group has moved to the parent of the group."""
-    for e in [e for e in doc.entries if e.names[: len(group)] == group]:
-        doc = move(doc, e.id, group[:-1] + e.names[len(group) :])
-    groups = [group[:-1] + g[len(group) :] if g[: len(group)] == group else g for g in doc.groups]
-    uses = tuple(u for u in _uses_at(doc, group, group[:-1]) if u.group != group[:-1])
-    return dc.replace(doc, groups=_with_groups((), [g for g in groups if g]), uses=uses)
+    return relocate(doc, {}, {group: group[:-1]})
+
+
+def relocate(
+    doc: Document, elements: Mapping[str, PathNames], groups: Mapping[PathNames, PathNames]
+) -> Document:
+    """Return a document in which elements and groups with their content have other paths, all at once.
+
+    Args:
+        doc: the document.
+        elements: new paths by id.
+        groups: new paths by path; a group whose new path is that of its parent is removed, and its content
+            moves to the parent.
+    """
+    for group, to in groups.items():
+        if to[: len(group)] == group and to != group:
+            raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
+    dissolved = {g for g, to in groups.items() if to == g[:-1]}
+
+    def new_path(names: PathNames) -> PathNames:
+        inner = next((names[:k] for k in range(len(names), 0, -1) if names[:k] in groups), None)
+        return names if inner is None else groups[inner] + names[len(inner) :]
+
+    paths = {e.id: elements.get(e.id) or new_path(e.names) for e in doc.entries}
+    moved = [e for e in doc.entries if paths[e.id] != e.names]
+    taken = dict(doc.by_names())
+    for e in moved:
+        del taken[e.names]
+    kept = {g: new_path(g) for g in doc.groups if g not in dissolved}
+    occupied = {g for g, to in kept.items() if g == to}
+    for to in [to for g, to in kept.items() if g != to]:
+        _vacant(doc, to, taken, occupied)
+        occupied.add(to)
+    for e in moved:
+        _vacant(doc, paths[e.id], taken, occupied)
+        _unambiguous(doc, paths[e.id], e.element)
+        taken[paths[e.id]] = e
+    entries = tuple(e if paths[e.id] == e.names else _renamed(e, paths[e.id]) for e in doc.entries)
+    inside = _with_groups(kept.values(), dict.fromkeys(paths[e.id][:-1] for e in moved))
+    uses = tuple(dc.replace(u, group=new_path(u.group)) for u in doc.uses if u.group not in dissolved)
+    return dc.replace(doc, entries=entries, groups=inside, uses=uses)
+
+
+def _renamed(entry: Entry, names: PathNames) -> Entry:
+    return dc.replace(entry, names=names, element=dc.replace(entry.element, name=names[-1]))
 
 
 def group(doc: Document, names: PathNames) -> Document:

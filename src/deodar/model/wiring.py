@@ -61,6 +61,11 @@ class Wiring:
             ahead += new
         return found
 
+    @functools.cached_property
+    def position(self) -> dict[str, int]:
+        """The position of each declared element in the document, by id."""
+        return {n.id: k for k, n in enumerate(self.declared)}
+
     def arriving(self, node: Node, port: str = "input") -> Interval:
         """Return bounds of the sum that arrives at an input port."""
         return total(*(self.bounds[i].get(p, ANY) for i, p, _ in node.reads.get(port, ())))

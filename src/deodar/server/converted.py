@@ -9,6 +9,8 @@ import dataclasses as dc
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import Any, TypeVar
 
+import msgspec
+
 from deodar.declarations import Cost
 from deodar.element import Element
 from deodar.errors import Problem
@@ -29,6 +31,7 @@ from deodar.server.to_page import (
     EndsView,
     GeneralView,
     LinkView,
+    PathView,
     PlacedConnection,
 )
 
@@ -154,11 +157,13 @@ def patch(
     disconnected, connected = _wires(old, new, set(removed))
     if added is None or disconnected is None:
         return None
-    changed = [e for i, e in after.elements.items() if before.elements.get(i) is not e]
+    changed = [e for i, e in after.elements.items() if before.elements.get(i) != e]
+    moved = {e.id: _path(e) for e in changed if _has_moved(before.elements.get(e.id), e)}
     layout, boxes = _layout(old.layout, new.layout)
     return Edited(
         version=status.version,
-        elements=[e for e in changed if before.elements.get(e.id) != e],
+        elements=[e for e in changed if e.id not in moved],
+        moved=moved,
         added=added,
         removed=removed,
         disconnected=disconnected,
@@ -175,6 +180,18 @@ def patch(
         redo=status.redo,
         cost=status.cost,
     )
+
+
+def _path(e: ElementView) -> PathView:
+    return PathView(path=e.path, name=e.name, group=e.group)
+
+
+def _has_moved(before: ElementView | None, after: ElementView) -> bool:
+    """Return whether only the path of an element is another one."""
+    if before is None or before.path == after.path:
+        return False
+    path = _path(after)
+    return msgspec.structs.replace(before, path=path.path, name=path.name, group=path.group) == after
 
 
 def _ends(c: Connection) -> EndsView:

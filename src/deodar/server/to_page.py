@@ -384,12 +384,21 @@ class GeneralView(Data, frozen=True):
     notes: str
 
 
+class PathView(Data, frozen=True):
+    """Another path of an element: as text, its last name, and its groups."""
+
+    path: str
+    name: str
+    group: list[str]
+
+
 @MESSAGES.register
 class Edited(Message, frozen=True, tag="edited"):
     """The difference to the previous version of the document.
 
     The page removes the elements in `removed` with their connections, and the connections in `disconnected`.
-    It replaces `elements` that it knows, then inserts the others at the index that `added` has for their ids,
+    Elements in `moved` have another path and are otherwise as before. It replaces `elements` that it knows,
+    then inserts the others at the index that `added` has for their ids,
     and `connected` at theirs, in this order. What is None did not change. `layout` has the keys of the layout
     that changed, None for removed ones, and `layout_entries` the entries that changed inside keys whose
     values are objects. `problems`: None as long as the structure had none and has none; `checked` messages
@@ -398,6 +407,7 @@ class Edited(Message, frozen=True, tag="edited"):
 
     version: int
     elements: list[ElementView]
+    moved: dict[Id, PathView]
     added: dict[Id, int]
     removed: list[Id]
     disconnected: list[EndsView]

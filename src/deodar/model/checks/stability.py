@@ -111,9 +111,10 @@ def _tie(wiring: Wiring, n: Node, e: Field) -> Iterator[Problem]:
     """Report a selection between equal inputs without noise, which rounding of the last digit would
     decide.
     """
-    found = sorted(wiring.sources(n), key=wiring.declared.index)
-    if e.noise > 0 or e.global_inhibition <= 0 or len(found) < 2:
+    sources = wiring.sources(n)
+    if e.noise > 0 or e.global_inhibition <= 0 or len(sources) < 2:
         return
+    found = sorted(sources, key=lambda m: wiring.position[m.id])
     same = {
         dc.replace(m.element, name="", center=0.0)
         for m in found
