@@ -155,6 +155,41 @@ def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) 
 
 
 @pytest.mark.usefixtures("sent_here")
+def test_a_run_killed_before_a_worker_reports_its_end_is_resumed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
+    here = dd.simulate(model(), 40, batch=2, **given | {"workers": None})
+    receive = sent.receive
+
+    def killed(out: RunOutput, number: int, message: sent.PieceMessage) -> None:
+        if isinstance(message, sent.PieceEnded):
+            raise InterruptedError
+        receive(out, number, message)
+
+    with monkeypatch.context() as changed:
+        changed.setattr(sent, "receive", killed)
+        with pytest.raises(InterruptedError):
+            dd.simulate(model(), 40, out=tmp_path / "run", snapshots=20, **given)
+    assert checkpoint.read(tmp_path / "run/record.zarr/state-0.npz")[0]["steps"] == 40
+    resumed = dd.resume(tmp_path / "run").load()
+    assert resumed["u.activation"].values.tobytes() == here["u.activation"].values.tobytes()
+
+
+@pytest.mark.usefixtures("sent_here")
+def test_the_cores_of_this_process_do_not_matter_to_a_run_in_workers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setattr("deodar.recording.provenance.cores", lambda: 1)
+        with pytest.raises(Interrupted):
+            dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(20), **given)
+    monkeypatch.setattr("deodar.recording.provenance.cores", lambda: 7)
+    assert about(dd.resume(tmp_path / "run"))["complete"] is True
+
+
+@pytest.mark.usefixtures("sent_here")
 def test_samples_of_workers_after_their_states_are_dropped_where_differences_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

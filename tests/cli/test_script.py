@@ -29,7 +29,9 @@ def test_the_script_writes_the_same_file(
     assert json.loads(capsys.readouterr().out) == {"out": None, "script": script}
     assert main(["script", "nodes.json", "-o", "nodes.py"]) == 1
     assert "exists already" in capsys.readouterr().err
-    before = Path("nodes.json").read_bytes()
-    Path("nodes.json").unlink()
     subprocess.run([sys.executable, "nodes.py"], check=True)
+    assert Path("nodes-2.json").read_bytes() == Path("nodes.json").read_bytes()
+    before = Path("nodes.json").read_bytes()
+    assert main(["script", "nodes.json", "-o", "nodes.json", "--force"]) == 1
+    assert "is the document itself" in capsys.readouterr().err
     assert Path("nodes.json").read_bytes() == before

@@ -90,6 +90,20 @@ def test_a_preset_is_saved_listed_applied_and_deleted(root: Path) -> None:
         play(address, scene)
 
 
+def test_a_deleted_preset_takes_no_arrays_of_another_one(root: Path) -> None:
+    x = dd.Axis("x", 0, 1, samples=3)
+    model = dd.Model("pattern")
+    model.add(dd.Pattern("p", [x], values=np.array([1.0, 2.0, 4.0])))
+    folder = KeptFolder(Workspace(root), "pattern")
+    for name in ("gain 0", "gain 0.5"):
+        folder.save_preset(name, model.document)
+    folder.remove("preset", "gain 0")
+    assert [path.name for path in root.glob("presets/pattern/gain 0.*")] != []
+    assert dd.load(root / "presets/pattern/gain 0.5.json").document == model.document
+    folder.remove("preset", "gain 0.5")
+    assert list((root / "presets/pattern").iterdir()) == []
+
+
 def test_a_snapshot_of_another_model_is_refused_and_the_run_goes_on(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()

@@ -106,3 +106,31 @@ def test_a_record_with_other_values_is_refused(tmp_path: Path) -> None:
         dd.session_at(tmp_path / "run.nc", 3.5)
     with pytest.raises(TimeError):
         dd.session_at(tmp_path / "run.nc", -1)
+
+
+def test_a_time_between_samples_is_compared_with_the_sample_before_it(tmp_path: Path) -> None:
+    data = dd.simulate(mixed(), 40, record=["u"], every=5, progress=False)
+    data["u.activation"][4] += 1
+    dd.save_record(data, tmp_path / "run.nc")
+    assert dd.session_at(tmp_path / "run.nc", 19).tick == 19
+    with pytest.raises(RecordError, match=r"other values of u\.activation at 20 than the record"):
+        dd.session_at(tmp_path / "run.nc", 23)
+
+
+def test_a_time_after_the_end_of_the_record_is_refused(tmp_path: Path) -> None:
+    dd.simulate(mixed(), 12, record=["u"], every=5, out=tmp_path / "run", progress=False)
+    assert dd.session_at(tmp_path / "run", 12).tick == 12
+    with pytest.raises(TimeError, match="the record ends at 12, before 13"):
+        dd.session_at(tmp_path / "run", 13)
+
+
+def test_a_session_that_is_still_recorded_is_continued_up_to_its_last_stored_sample(tmp_path: Path) -> None:
+    script = dd.Session(mixed(), seed=4)
+    with script.record(tmp_path / "live", ["u"]) as recorder:
+        script.step(200)
+        script.set("u.tau", 44.0)
+        stored = dd.open_record(tmp_path / "live").time.values
+        end = stored[-1] if len(stored) else 0.0
+        with pytest.raises(TimeError, match="the record ends at"):
+            dd.session_at(tmp_path / "live", end + 1)
+        assert recorder.open

@@ -208,15 +208,18 @@ class RunOutput:
         from deodar.recording import folder
         from deodar.recording.growing import GrowingRecord
 
+        if self.writer is None and not self.resumes:
+            folder.begin(self.doc, self.path, self.force)
+            piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
+            made = empty()
+            times = [d for d in map(str, made.dims) if probe.is_time(d) and not made.sizes[d]]
+            self.writer = GrowingRecord(self.record, made, times, piece)
+        return self.continued()
+
+    def continued(self) -> GrowingRecord:
+        """Return the writer of a record that has begun; the first call of a resumed run opens it."""
         if self.writer is None:
-            if self.resumes:
-                self.writer = self._opened()
-            else:
-                folder.begin(self.doc, self.path, self.force)
-                piece = {self.cut.dimension: self.cut.length} if self.cut.dimension else {}
-                made = empty()
-                times = [d for d in map(str, made.dims) if probe.is_time(d) and not made.sizes[d]]
-                self.writer = GrowingRecord(self.record, made, times, piece)
+            self.writer = self._opened()
         return self.writer
 
     def _opened(self) -> GrowingRecord:
@@ -260,7 +263,7 @@ class RunOutput:
         # start-up time: these import xarray
         from deodar.recording import diverged, files
 
-        writer = self._opened() if self.writer is None else self.writer  # a resumed run may add no sample
+        writer = self.continued()  # a resumed run may add no sample
         lost = None
         if self.reasons:
             writer.commit()

@@ -102,10 +102,10 @@ def receive(out: RunOutput, number: int, message: PieceMessage) -> None:
     if isinstance(message, PieceBegun):
         out.begin(lambda: message.empty)
         return
-    assert out.writer is not None
+    writer = out.continued()
     if isinstance(message, SentSamples):
         m = message
-        out.writer.put(m.dimension, m.times, m.arrays, m.first, m.region)
+        writer.put(m.dimension, m.times, m.arrays, m.first, m.region)
     elif isinstance(message, SentState):
         out.write_state(message.state, PIECE_CHECKPOINT.format(number))
     else:

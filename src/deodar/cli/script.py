@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 from pathlib import Path
 
 from deodar import codec
 from deodar.cli import _options
+from deodar.errors import OutputError
 from deodar.model import output
 
 HELP = "write a Python script that makes the same document"
@@ -27,7 +29,9 @@ def run(args: argparse.Namespace) -> int:
     # start-up time: this brings JAX
     from deodar.importers.opening import load
 
-    made = load(args.file).to_script(f"{args.file.stem}.json")
+    if args.out is not None and args.out.exists() and args.out.samefile(args.file):
+        raise OutputError("is the document itself", where=str(args.out), fix="Choose another name: --out")
+    made = load(args.file).to_script(_free(args.file.stem, args.out or Path("script.py")))
     if args.out is not None:
         output.write(output.claim(args.out, args.force), made.encode())
     if args.json:
@@ -37,3 +41,9 @@ def run(args: argparse.Namespace) -> int:
     else:
         print(f"Wrote {_options.shown(args.out)}. Type: python {_options.shown(args.out)}")
     return 0
+
+
+def _free(stem: str, script: Path) -> str:
+    """Return the name of a document that does not exist where the script will run: beside it."""
+    names = itertools.chain([f"{stem}.json"], (f"{stem}-{n}.json" for n in itertools.count(2)))
+    return next(name for name in names if not script.with_name(name).exists())

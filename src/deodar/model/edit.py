@@ -213,8 +213,7 @@ def insert(
 ) -> Document:
     """Return a document with copies of a template's elements, connections and document parameters.
 
-    The copies have new ids.
-    parameters.
+    The copies have new ids. `ids` are those of the elements to copy; None: all, with the groups.
 
     With `linked`, the document stores which element is a copy of which (`uses.refresh`). Groups of the
     template that are linked to another template stay linked to it.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+import types
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -23,8 +24,16 @@ def is_push(change: Change) -> bool:
     return change.what.startswith("push ")
 
 
-def repeat_changes(session: Session, changes: list[Change], tick: int, progress: StepProgress) -> None:
+def repeat_changes(
+    session: Session,
+    changes: list[Change],
+    tick: int,
+    progress: StepProgress,
+    stops: Mapping[int, Callable[[], None]] = types.MappingProxyType({}),
+) -> None:
     """Advance a session to a tick, as fast as possible, with changes at their ticks.
+
+    `stops` has functions that are called at a tick, before its changes.
 
     Raises:
         RecordError: a change cannot be repeated.
@@ -32,11 +41,13 @@ def repeat_changes(session: Session, changes: list[Change], tick: int, progress:
     first, left = session.tick, list(changes)
     together = 1
     while True:
+        if session.tick in stops:
+            stops[session.tick]()
         while left and left[0].tick <= session.tick:
             repeat_change(session, left.pop(0), tick)
         if session.tick >= tick:
             return
-        end = left[0].tick if left else tick
+        end = min([tick, *(t for t in stops if t > session.tick), *(c.tick for c in left[:1])])
         began, n = time.perf_counter(), min(end - session.tick, together)
         session.step(n)
         seconds = time.perf_counter() - began

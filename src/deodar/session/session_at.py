@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from deodar import codec
-from deodar.errors import RecordError
+from deodar.errors import RecordError, TimeError
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.session.repeat_changes import repeat_changes
@@ -33,8 +34,8 @@ def session_at(
 ) -> Session:
     """Return a session in the state that a recorded run had at a time.
 
-    The run is repeated from its start, with the changes of a recorded session, and compared with the record
-    at the last sample before that time. The session continues with the same noise.
+    The run is repeated from its start, with the changes of a recorded session, and compared with the last
+    sample of each port up to that time. The session continues with the same noise.
 
     Args:
         path: the record of a single run, or of a session from its start.
@@ -46,7 +47,8 @@ def session_at(
     Raises:
         RecordError: the record has several trials or points of a sweep, or began during a session, or a
             change in it cannot be repeated; or the repeated run has other values than the record.
-        TimeError: the time is before the start, or not a whole number of steps after it.
+        TimeError: the time is before the start or after the end of the record, or not a whole number of
+            steps after the start.
         Untrusted: its document names a function, and `trust` is not given.
     """
     # start-up time: these import xarray
@@ -74,10 +76,14 @@ def session_at(
     }
     session = Session(model, world=world or world_of(data), **options)
     tick = whole(time - session.time, session.dt, "the time from the start")
+    _require_recorded(data, time, made, session.time + settings.get("duration", 0.0), str(path))
     repeat_changes(
-        session, [c for c in changes if c.tick <= tick], tick, progress or (lambda done, steps: None)
+        session,
+        [c for c in changes if c.tick <= tick],
+        tick,
+        progress or (lambda done, steps: None),
+        _comparisons(session, data, time, str(path)),
     )
-    _require_same(session, data, str(path))
     return session
 
 
@@ -104,22 +110,51 @@ def _changes(data: xarray.Dataset) -> list[Change]:
     return changes
 
 
-def _require_same(session: Session, data: xarray.Dataset, where: str) -> None:
-    """Raise RecordError if the record has other values at the present time of the session."""
+def _require_recorded(data: xarray.Dataset, time: float, made: Any, end: float, where: str) -> None:
+    """Raise TimeError for a time of which the record does not describe the run.
+
+    A complete run is described up to its `end`; a session, and a run that is still written, up to its last
+    sample, because later changes may be missing.
+    """
+    if "session" in made or not made.get("complete", True):
+        end = max((times[-1] for _, _, times in _samples(data) if len(times)), default=0.0)
+    if time > end:
+        raise TimeError(f"the record ends at {end:g}, before {time:g}", where=where)
+
+
+def _samples(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:
+    """Yield name, time dimension and times of each recorded port."""
     from deodar.recording.record import time_dimension  # start-up time: this imports xarray
 
     for name, variable in data.data_vars.items():
         dimension = time_dimension(variable)
-        times = np.asarray([]) if dimension is None else data[dimension].values
-        k = np.flatnonzero(times == session.time)
-        if not len(k):
-            continue
-        entry, port = find.port(session.document, str(name))
-        if variable.isel({dimension: int(k[0])}).values.tobytes() != (
-            session.read(f"{entry.path}.{port}").tobytes()
-        ):
-            raise RecordError(
-                f"the repeated run has other values of {name} at {session.time:g} than the record",
-                where=where,
-                fix="Use the versions and the machine of the record: deodar run RECORD lists what differs",
-            )
+        if dimension is not None:
+            yield str(name), dimension, np.asarray(data[dimension].values)
+
+
+def _comparisons(
+    session: Session, data: xarray.Dataset, time: float, where: str
+) -> dict[int, Callable[[], None]]:
+    """Return for ticks a function that raises RecordError if the record has other values than the session.
+
+    Each port is compared with its last sample up to `time`.
+    """
+    ports: dict[int, list[tuple[str, str, int]]] = {}
+    for name, dimension, times in _samples(data):
+        k = int(np.searchsorted(times, time + 0.5 * session.dt)) - 1
+        if k >= 0:
+            tick = session.tick + round((float(times[k]) - session.time) / session.dt)
+            ports.setdefault(tick, []).append((name, dimension, k))
+
+    def compare(tick: int) -> None:
+        for name, dimension, k in ports[tick]:
+            entry, port = find.port(session.document, name)
+            recorded = data[name].isel({dimension: k}).values
+            if recorded.tobytes() != session.read(f"{entry.path}.{port}").tobytes():
+                raise RecordError(
+                    f"the repeated run has other values of {name} at {session.time:g} than the record",
+                    where=where,
+                    fix="Use the versions and the machine of the record; deodar run RECORD lists them",
+                )
+
+    return {tick: functools.partial(compare, tick) for tick in ports}
