@@ -1,10 +1,10 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-import type { Locator } from "playwright-core";
+import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { ident, panels, plot as plotOf, selection, ten } from "./bench/documents";
+import { ident, many, panels, plot as plotOf, selection, ten } from "./bench/documents";
 import { beside, button, choose, colours, drawn, panel, reopen, settled } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -64,6 +64,10 @@ beforeAll(async () => {
       "linked.json": JSON.stringify(linked),
       "edited.json": JSON.stringify(edited),
       "twenty.json": JSON.stringify(twenty),
+      "many.json": JSON.stringify({
+        ...many(20),
+        layout: { panels: panels([[plotOf("u0", "multiples", "activation")]]) },
+      }),
     },
     file: "selection.json",
   });
@@ -115,6 +119,26 @@ function readTexts(): { name: string; texts: Written[]; width: number; height: n
     width: canvas.clientWidth,
     height: canvas.clientHeight,
   }));
+}
+
+/** No text of the charts is tiny, outside its chart or on another text. */
+async function expectReadable(page: Page, count: number): Promise<void> {
+  const charts = await page.evaluate(readTexts);
+  expect(charts).toHaveLength(count);
+  for (const { name, texts, width, height } of charts) {
+    expect(texts.length, `${name} has numbers on both axes`).toBeGreaterThanOrEqual(4);
+    for (const [i, text] of texts.entries()) {
+      expect(text.size, `${name}: ${text.text}`).toBeGreaterThanOrEqual(10);
+      const across = text.left >= -1 && text.right <= width + 1;
+      const inside = across && text.top >= -1 && text.bottom <= height + 1;
+      expect(inside, `${name}: ${JSON.stringify(text)} in ${width} x ${height}`).toBe(true);
+      for (const other of texts.slice(i + 1)) {
+        const beside = text.right < other.left || other.right < text.left;
+        const apart = beside || text.bottom < other.top || other.bottom < text.top;
+        expect(apart, `${name}: ${text.text} and ${other.text}`).toBe(true);
+      }
+    }
+  }
 }
 
 /** The number of different colours of a scene that is drawn by WebGL. */
@@ -271,26 +295,8 @@ test("twenty plots of 160 x 100 pixels are readable: no text is tiny, cut or cov
     expect(Math.abs(width - 160)).toBeLessThan(4);
     expect(Math.abs(height - 100)).toBeLessThan(14);
   }
-  const charts = await page.evaluate(readTexts);
   await shot(page, "plot-twenty");
-  expect(charts).toHaveLength(20);
-  for (const { name, texts, width, height } of charts) {
-    expect(texts.length, `${name} has numbers on both axes`).toBeGreaterThanOrEqual(4);
-    for (const [i, text] of texts.entries()) {
-      expect(text.size, `${name}: ${text.text}`).toBeGreaterThanOrEqual(10);
-      const inside =
-        text.left >= -1 && text.top >= -1 && text.right <= width + 1 && text.bottom <= height + 1;
-      expect(inside, `${name}: ${JSON.stringify(text)} in ${width} x ${height}`).toBe(true);
-      for (const other of texts.slice(i + 1)) {
-        const apart =
-          text.right < other.left ||
-          other.right < text.left ||
-          text.bottom < other.top ||
-          other.bottom < text.top;
-        expect(apart, `${name}: ${text.text} and ${other.text}`).toBe(true);
-      }
-    }
-  }
+  await expectReadable(page, 20);
   const titles = await page.locator(".plot-path").evaluateAll((all) =>
     all.map((one) => ({
       size: parseFloat(getComputedStyle(one).fontSize),
@@ -298,6 +304,32 @@ test("twenty plots of 160 x 100 pixels are readable: no text is tiny, cut or cov
     })),
   );
   expect(titles.every(({ size, cut }) => size >= 11 && !cut)).toBe(true);
+  await page.setViewportSize({ width: 1280, height: 800 });
+});
+
+test("small multiples show the fields over the same axes side by side, on the same scale", async () => {
+  const { page } = studio;
+  await page.evaluate(listenToTexts);
+  await page.setViewportSize({ width: 5 * 160 + 18, height: 4 * 102 + 170 });
+  await reopen(page, observer, "many.json");
+  await step(40);
+  const multiples = plot("Small multiples of u0");
+  await expect.poll(() => multiples.locator(".plot-cell canvas[role=img]").count()).toBe(20);
+  await multiples.getByText("Press play").waitFor({ state: "detached" });
+  await expect.poll(() => colours(multiples.locator("canvas[role=img]").last())).toBeGreaterThan(5);
+  await expectReadable(page, 20);
+  const cells = await multiples
+    .locator(".plot-cell")
+    .evaluateAll((all) => all.map((one) => [one.clientWidth, one.clientHeight] as const));
+  for (const [width, height] of cells) expect([width >= 155, height >= 98]).toEqual([true, true]);
+  const texts = (await page.evaluate(readTexts)).map((one) => one.texts.map(({ text }) => text).join(" "));
+  expect(new Set(texts).size, "the same numbers at all axes").toBe(1);
+  await shot(page, "plot-multiples");
+  const coming = page.waitForEvent("download");
+  await choose(page, "Menu of this plot", "Export SVG");
+  const svg = readFileSync(await (await coming).path(), "utf8");
+  keep("plot-multiples.svg", svg);
+  for (const name of ["u0", "u19"]) expect(svg).toContain(`>${name}</text>`);
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 

@@ -24,7 +24,18 @@ from deodar.extensions import Extensions
 from deodar.plugins import Plugin
 from deodar.server.to_page import PlotView
 
-OWN = ("course", "curve", "heat", "picture", "space_time", "phase", "surface", "volume", "kernel")
+OWN = (
+    "course",
+    "curve",
+    "heat",
+    "picture",
+    "space_time",
+    "phase",
+    "surface",
+    "volume",
+    "kernel",
+    "multiples",
+)
 """The names of the plots of deodar, which the page draws (`studio/src/plots/kinds.ts`)."""
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")

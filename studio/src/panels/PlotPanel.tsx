@@ -4,8 +4,9 @@ import type { IDockviewPanelProps } from "dockview-react";
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
 import { FieldCurve } from "../plots/FieldCurve";
 import { HeatMap } from "../plots/HeatMap";
-import { isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import { elementsAlike, isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
 import { Kernel } from "../plots/Kernel";
+import { Multiples } from "../plots/Multiples";
 import { PackagedPlot } from "../plots/PackagedPlot";
 import { Phase } from "../plots/Phase";
 import { Picture } from "../plots/Picture";
@@ -31,6 +32,7 @@ const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   surface: Surface,
   volume: Volume,
   kernel: Kernel,
+  multiples: Multiples,
 };
 
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
@@ -41,10 +43,15 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
       ? plot.port
       : mainPort(element, useStudio.getState().kinds.get(element.kind)),
   );
-  const offered = useStudio((state) =>
-    element === undefined || state.document === null
+  const offered = useStudio(({ document, welcome }) =>
+    element === undefined || document === null
       ? "course"
-      : plotKinds(portAxes(state.document, element, port), state.welcome?.plots, element.kernel).join(),
+      : plotKinds(
+          portAxes(document, element, port),
+          welcome?.plots,
+          element.kernel,
+          elementsAlike(document, element, port).length > 1,
+        ).join(),
   );
   const visible = useVisible(api);
   const compared = useStudio((state) => state.comparison !== null);

@@ -33,26 +33,62 @@ const SWATCH = 14;
 
 // Save a chart.
 export async function exportDrawing(drawing: PlotDrawing, format: DrawingFormat): Promise<void> {
-  const { title, width, image } = drawing;
+  const { title, width } = drawing;
   const legend = placed(drawing.legend?.(paperLook(1)) ?? [], width);
   const lines = legend.reduce((most, { line }) => Math.max(most, line + 1), 0);
   const sheet = new Sheet(format, title, width, drawing.height + HEAD + LINE * lines);
+  await addChart(sheet, drawing, format, 0, HEAD + LINE * lines);
+  drawLegend(sheet, legend);
+  sheet.save();
+}
+
+// Save several charts as they are on the page, each below its title.
+export async function exportMultiples(
+  title: string,
+  cells: { drawing: () => PlotDrawing | null; host: HTMLElement | null }[],
+  format: DrawingFormat,
+): Promise<void> {
+  const boxes = cells.map(({ host }) => host?.getBoundingClientRect() ?? new DOMRect());
+  const [left, top] = [Math.min(...boxes.map((box) => box.left)), Math.min(...boxes.map((box) => box.top))];
+  const right = Math.max(...boxes.map((box) => box.right));
+  const bottom = Math.max(...boxes.map((box) => box.bottom));
+  const sheet = new Sheet(format, title, right - left, bottom - top + HEAD + LINE);
   const { ctx, factor } = sheet;
+  for (const [i, { drawing }] of cells.entries()) {
+    const [box, made] = [boxes[i], drawing()];
+    if (box !== undefined && made !== null) {
+      const [x, y] = [box.left - left, box.top - top + HEAD + LINE];
+      ctx.font = `600 ${font(paperLook(factor))}`;
+      ctx.fillStyle = paperLook(factor).text;
+      ctx.textBaseline = "middle";
+      ctx.fillText(made.title, (x + 6) * factor, (y - LINE / 2) * factor, box.width * factor);
+      await addChart(sheet, made, format, x, y);
+    }
+  }
+  sheet.save();
+}
+
+let added = 0;
+
+async function addChart(
+  { ctx, factor }: Sheet,
+  drawing: PlotDrawing,
+  format: DrawingFormat,
+  x: number,
+  y: number,
+): Promise<void> {
   const { chart, content } = await drawnAgain(drawing, format, factor);
-  const top = (HEAD + LINE * lines) * factor;
-  if (image !== undefined) {
-    const { left, top: inner, width: across, height: down } = chart.bbox;
+  if (drawing.image !== undefined) {
+    const { left, top, width, height } = chart.bbox;
     ctx.imageSmoothingEnabled = false;
-    ctx.drawImage(image, left, top + inner, across, down);
+    ctx.drawImage(drawing.image, x * factor + left, y * factor + top, width, height);
   }
   if (content instanceof SvgContext) {
-    (ctx as unknown as SvgContext).include(content, 0, top);
+    (ctx as unknown as SvgContext).include(content, x * factor, y * factor);
   } else {
-    ctx.drawImage(chart.ctx.canvas, 0, top);
+    ctx.drawImage(chart.ctx.canvas, x * factor, y * factor);
   }
-  drawLegend(sheet, legend);
   chart.destroy();
-  sheet.save();
 }
 
 // Save a picture without axes: its samples become squares.
@@ -139,7 +175,7 @@ async function drawnAgain(drawing: PlotDrawing, format: DrawingFormat, factor: n
     await drawn();
     return { chart, content: null };
   }
-  const content = new SvgContext("chart");
+  const content = new SvgContext(`chart-${++added}`);
   const chart = await recordingPaths(async () => {
     const made = withContext(asCanvasContext(content), make);
     await drawn();

@@ -5,6 +5,7 @@ import {
   cell,
   commonScale,
   edges,
+  elementsAlike,
   firstToPlot,
   fits,
   isOwn,
@@ -81,6 +82,21 @@ describe("kinds of plots", () => {
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
     expect(plotKinds([x], [], true)).toEqual(["curve", "course", "space_time", "phase", "kernel"]);
+  });
+
+  it("show several elements with the same port over the same axes side by side", () => {
+    const [x] = AXES as [AxisView];
+    const [one, other] = [element("a", "k", { output: ["x"] }), element("b", "k", { output: ["x"] })];
+    const document = documentOf(
+      one,
+      other,
+      element("c", "k", { output: ["y"] }),
+      element("d", "k", { sum: ["x"] }),
+    );
+    expect(elementsAlike(document, one, "output").map(({ id }) => id)).toEqual(["a", "b"]);
+    expect(plotKinds([x], [], false, true)).toContain("multiples");
+    expect(plotKinds([], [], false, true)).toContain("multiples");
+    expect(plotKinds([x])).not.toContain("multiples");
   });
 
   it("of packages come last, where the axes fit", () => {

@@ -3,7 +3,16 @@
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 
 export type OwnPlot =
-  "course" | "curve" | "heat" | "picture" | "space_time" | "phase" | "surface" | "volume" | "kernel";
+  | "course"
+  | "curve"
+  | "heat"
+  | "picture"
+  | "space_time"
+  | "phase"
+  | "surface"
+  | "volume"
+  | "kernel"
+  | "multiples";
 
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;
@@ -18,6 +27,7 @@ export const PLOT_TITLES: Record<OwnPlot, string> = {
   surface: "Surface",
   volume: "Volume slices",
   kernel: "Interaction kernel",
+  multiples: "Small multiples",
 };
 
 const CHANNELS = 3;
@@ -31,9 +41,15 @@ export function portAxes(document: DocumentView, element: ElementView, port: str
 
 // The kinds of plot for an array over these axes, of an element with or without an interaction kernel; the
 // best one first, those of packages last.
-export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = [], kernel = false): PlotKind[] {
+export function plotKinds(
+  axes: AxisView[] | null,
+  packaged: PlotView[] = [],
+  kernel = false,
+  several = false,
+): PlotKind[] {
+  const multiples = several && !(axes !== null && isPicture(axes)) ? ["multiples"] : [];
   if (axes === null || axes.length === 0) {
-    return ["course", "phase"];
+    return ["course", "phase", ...multiples];
   }
   const own = isPicture(axes)
     ? ["picture", "course"]
@@ -44,6 +60,7 @@ export function plotKinds(axes: AxisView[] | null, packaged: PlotView[] = [], ke
     ...own,
     ...(axes.length > 2 && !isPicture(axes) ? ["volume"] : []),
     ...(kernel ? ["kernel"] : []),
+    ...multiples,
     ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
   ];
 }
@@ -77,6 +94,14 @@ export function portsAlike(element: ElementView, port: string): string[] {
   const keys = JSON.stringify(element.axes[port]);
   return portsOf(element).filter(
     (other) => other === port || (keys !== undefined && JSON.stringify(element.axes[other]) === keys),
+  );
+}
+
+// The elements that have this port over the same axes, itself among them.
+export function elementsAlike(document: DocumentView, element: ElementView, port: string): ElementView[] {
+  const keys = JSON.stringify(element.axes[port]);
+  return document.elements.filter(
+    (other) => other.id === element.id || (keys !== undefined && JSON.stringify(other.axes[port]) === keys),
   );
 }
 
