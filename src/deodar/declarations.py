@@ -12,6 +12,8 @@ Cost = Literal["live", "rebuild", "recompile"]
 Role = Literal["", "time constant", "time scale", "rate", "speed", "moment", "duration"]
 Names = Literal["", "port", "element", "parameter", "event"]
 """What in a model or an experiment a text names."""
+FormSection = Literal["", "time course", "interaction", "noise", "axes"]
+"""The part of a form in which a parameter is listed; "" for its head."""
 
 TIME_ROLES: tuple[Role, ...] = ("time constant", "time scale", "rate", "speed", "moment", "duration")
 """The roles of parameters whose unit contains time: see `Declaration`."""
@@ -52,6 +54,8 @@ class Declaration:
         exact: whether it keeps the digits of float64 in a program of single precision.
         names: what a text names, for forms that list the valid names: the path of a port, an element or a
             parameter, or the name of an event of the experiment; empty: anything.
+        section: the section of a form that lists it; None: the one that follows from its type and role
+            (`deodar.kinds`).
     """
 
     unit: str = ""
@@ -64,6 +68,7 @@ class Declaration:
     role: Role = dc.field(default="", kw_only=True)
     exact: bool = dc.field(default=False, kw_only=True)
     names: Names = dc.field(default="", kw_only=True)
+    section: FormSection | None = dc.field(default=None, kw_only=True)
     cost: ClassVar[Cost] = "recompile"
 
 

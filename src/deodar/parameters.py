@@ -26,7 +26,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from deodar import renamed
-from deodar.declarations import TIME_ROLES, Cost, Declaration, Names, Needed, Recompile, Role
+from deodar.declarations import TIME_ROLES, Cost, Declaration, FormSection, Names, Needed, Recompile, Role
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
@@ -125,6 +125,7 @@ class Parameter:
     role: Role = ""
     exact: bool = False
     names: Names = ""
+    section: FormSection | None = None
 
     @property
     def traced(self) -> bool:
@@ -279,6 +280,7 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
         d.role,
         exact,
         d.names,
+        d.section,
     )
 
 

@@ -857,7 +857,8 @@ export type Opened = {
 // Description of a parameter for its input form.
 //
 // `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX;
-// `names` is what a text names, so that the form can list the names.
+// `names` is what a text names, so that the form can list the names. `section` is the section of the form
+// that lists it; empty: its head.
 export type ParameterForm = {
   name: string;
   form:
@@ -887,6 +888,7 @@ export type ParameterForm = {
   choices: string[];
   of: string[];
   names?: "" | "element" | "event" | "parameter" | "port";
+  section?: "" | "axes" | "interaction" | "noise" | "time course";
 };
 
 // Add the content of a document, given as text, to a group; the answer has the new ids in `made`.

@@ -127,6 +127,24 @@ def test_parameters_are_in_the_order_of_declaration() -> None:
     assert [p.name for p in KINDS["Gaussian"].parameters] == ["amplitude", "sigma", "normalized", "boundary"]
 
 
+def test_sections_follow_from_types_and_roles_or_are_declared() -> None:
+    sections = {p.name: p.section for p in KINDS["Field"].parameters}
+    assert sections == {
+        "axes": "axes",
+        "tau": "time course",
+        "resting_level": "time course",
+        "sigmoid": "interaction",
+        "kernel": "interaction",
+        "global_inhibition": "interaction",
+        "noise": "noise",
+        "noise_length": "noise",
+        "quadrature": "axes",
+    }
+    stimulus = {p.name: p.section for p in KINDS["GaussianStimulus"].parameters}
+    assert (stimulus["center"], stimulus["windows"], stimulus["axes"]) == ("", "time course", "axes")
+    assert {p.section for p in KINDS["Gain"].parameters} == {""}
+
+
 def test_symbols_are_those_of_the_equation() -> None:
     assert form(KINDS["Step"], "threshold").symbol == r"\theta"
     assert form(KINDS["MexicanHat"], "sigma_excitation").symbol == r"\sigma_{\mathrm{excitation}}"

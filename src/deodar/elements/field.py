@@ -72,18 +72,28 @@ class Field(Element):
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     axes: Annotated[Sequence[Axis], Recompile(meaning="metric dimensions")] = ()
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 20.0
-    resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
+    resting_level: Annotated[
+        float, Live("activation", section="time course", meaning="attractor without input")
+    ] = -5.0
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="interaction kernels, summed")] = ()
     global_inhibition: Annotated[
-        float, Live("activation", meaning="inhibition by the integral of the output")
+        float, Live("activation", section="interaction", meaning="inhibition by the integral of the output")
     ] = 0.0
-    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
+    noise: Annotated[
+        float, Live("activation", lower=0, neutral=0.0, section="noise", meaning="strength of the noise")
+    ] = 0.0
     noise_length: Annotated[
-        PerAxis, Rebuild("axis", lower=0, neutral=0.0, off=True, meaning="correlation length of the noise")
+        PerAxis,
+        Rebuild(
+            "axis", lower=0, neutral=0.0, off=True, section="noise", meaning="correlation length of the noise"
+        ),
     ] = 0.0
     quadrature: Annotated[
-        str, Recompile(choices=QUADRATURES, meaning="output as its mean over a cell, or at the sample")
+        str,
+        Recompile(
+            choices=QUADRATURES, section="axes", meaning="output as its mean over a cell, or at the sample"
+        ),
     ] = "point"
 
     stateful: ClassVar[bool] = True

@@ -51,10 +51,16 @@ class RateNode(Element):
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = ""
     tau: Annotated[float, Live("time", role="time constant", lower=1e-6, meaning="time constant")] = 10.0
-    resting_level: Annotated[float, Live("activation", meaning="attractor without input")] = -5.0
+    resting_level: Annotated[
+        float, Live("activation", section="time course", meaning="attractor without input")
+    ] = -5.0
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="output function")] = Logistic()
-    self_excitation: Annotated[float, Live("activation", meaning="coupling of the node to itself")] = 0.0
-    noise: Annotated[float, Live("activation", lower=0, neutral=0.0, meaning="strength of the noise")] = 0.0
+    self_excitation: Annotated[
+        float, Live("activation", section="interaction", meaning="coupling of the node to itself")
+    ] = 0.0
+    noise: Annotated[
+        float, Live("activation", lower=0, neutral=0.0, section="noise", meaning="strength of the noise")
+    ] = 0.0
 
     stateful: ClassVar[bool] = True
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {

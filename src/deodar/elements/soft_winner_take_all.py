@@ -78,12 +78,22 @@ class SoftWinnerTakeAll(Element):
     tau_inhibition: Annotated[
         float, Live("time", role="time constant", lower=1e-6, meaning="time constant of the inhibitory unit")
     ] = 5.0
-    self_excitation: Annotated[float, Live("activation", meaning="of each unit by itself")] = 1.2
+    self_excitation: Annotated[
+        float, Live("activation", section="interaction", meaning="of each unit by itself")
+    ] = 1.2
     kernel: Annotated[Sequence[Kernel], Recompile(meaning="excitation among neighbours, summed")] = ()
-    inhibition: Annotated[float, Live("activation", meaning="of all units by the inhibitory one")] = 3.0
-    drive: Annotated[float, Live(meaning="of the inhibitory unit by the integral over all units")] = 0.25
-    threshold: Annotated[float, Live("activation", meaning="of the excitatory units")] = 0.0
-    threshold_inhibition: Annotated[float, Live("activation", meaning="of the inhibitory unit")] = 0.0
+    inhibition: Annotated[
+        float, Live("activation", section="interaction", meaning="of all units by the inhibitory one")
+    ] = 3.0
+    drive: Annotated[
+        float, Live(section="interaction", meaning="of the inhibitory unit by the integral over all units")
+    ] = 0.25
+    threshold: Annotated[
+        float, Live("activation", section="interaction", meaning="of the excitatory units")
+    ] = 0.0
+    threshold_inhibition: Annotated[
+        float, Live("activation", section="interaction", meaning="of the inhibitory unit")
+    ] = 0.0
     sigmoid: Annotated[SigmoidFunction, Recompile(meaning="rate of the excitatory units")] = SemiLinear()
     sigmoid_inhibition: Annotated[SigmoidFunction, Recompile(meaning="rate of the inhibitory unit")] = (
         SemiLinear()
@@ -91,7 +101,13 @@ class SoftWinnerTakeAll(Element):
 
     noise: Annotated[
         float,
-        Live("activation", lower=0, neutral=0.0, meaning="strength of the noise of the excitatory units"),
+        Live(
+            "activation",
+            lower=0,
+            neutral=0.0,
+            section="noise",
+            meaning="strength of the noise of the excitatory units",
+        ),
     ] = 0.0
 
     stateful: ClassVar[bool] = True

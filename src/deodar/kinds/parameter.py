@@ -7,11 +7,14 @@ import re
 from collections.abc import Mapping, Sequence
 
 from deodar.codec import Json
-from deodar.declarations import Cost, Names, Needed, range_text
+from deodar.declarations import Cost, FormSection, Names, Needed, range_text
 from deodar.kinds.symbols import NAME, is_letter, symbol
 from deodar.kinds.typed import typed
 from deodar.model.parts import to_json
 from deodar.numerics.axes import Axis
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.windows import Window
 from deodar.parameters import FrozenArray, Parameter, Part, ValueForm
 
 QUANTITIES = ("number", "integer", "per_axis", "part", "array", "numbers")
@@ -41,6 +44,7 @@ class ParameterDescription:
         choices: the allowed texts; empty: any.
         of: names of the kinds that its value may have, where it is a part or a list of parts.
         names: what a text names: a port, an element, a parameter, an event; "" anything.
+        section: the section of a form that lists it; "" its head.
     """
 
     name: str
@@ -58,6 +62,7 @@ class ParameterDescription:
     choices: tuple[str, ...]
     of: tuple[str, ...]
     names: Names
+    section: FormSection
 
     @property
     def range(self) -> str:
@@ -92,7 +97,19 @@ def describe_parameter(
         choices=p.choices,
         of=tuple(name for name, cls in known.items() if p.of is not None and _holds(p, p.of, cls)),
         names=p.names,
+        section=_section(p) if p.section is None else p.section,
     )
+
+
+def _section(p: Parameter) -> FormSection:
+    """Return the section of a parameter whose declaration states none."""
+    if p.form in ("axis", "axes"):
+        return "axes"
+    if p.role or (p.of is not None and issubclass(p.of, Window)):
+        return "time course"
+    if p.of is not None and issubclass(p.of, (Kernel, SigmoidFunction)):
+        return "interaction"
+    return ""
 
 
 def plain(part: Part) -> Json:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from deodar.declarations import Cost, Names
+from deodar.declarations import Cost, FormSection, Names
 from deodar.family import Family
 from deodar.numerics.signs import Sign
 from deodar.parameters import ValueForm
@@ -31,7 +31,8 @@ class ParameterForm(Data, frozen=True):
     """Description of a parameter for its input form.
 
     `form` is the type of the value; `of` lists the kinds allowed for a `part` or `parts`; `symbol` is TeX;
-    `names` is what a text names, so that the form can list the names.
+    `names` is what a text names, so that the form can list the names. `section` is the section of the form
+    that lists it; empty: its head.
     """
 
     name: str
@@ -48,6 +49,7 @@ class ParameterForm(Data, frozen=True):
     choices: list[str]
     of: list[str]
     names: Names = ""
+    section: FormSection = ""
 
 
 class WorldSettingView(Data, frozen=True):

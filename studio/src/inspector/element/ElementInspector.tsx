@@ -5,7 +5,7 @@ import { useStudio } from "../../store";
 import { ElementHeader } from "./ElementHeader";
 import { ElementPlace } from "./ElementPlace";
 import { Equation } from "./Equation";
-import { PartFields } from "../forms/PartFields";
+import { ParameterSections } from "./ParameterSections";
 import { PortTable } from "./PortTable";
 import { ProblemBanner } from "./ProblemBanner";
 
@@ -27,10 +27,8 @@ export function ElementInspector({ id }: { id: string }) {
       ) : (
         <>
           <Equation lines={kind.equation} reference={kind.reference} />
-          <section className="parameters" aria-label="Parameters">
-            <PartFields kind={kind.name} values={element.values} />
-            {kind.parameters.length === 0 && <p className="dim">This element has no parameters.</p>}
-          </section>
+          <ParameterSections kind={kind} values={element.values} />
+          {kind.parameters.length === 0 && <p className="dim">This element has no parameters.</p>}
           <PortTable element={element} kind={kind} axes={axes} />
         </>
       )}

@@ -33,6 +33,7 @@ export function NumberRow({ form, path, value, label, extra }: NumberRowProps) {
       value={setting.value}
       label={label}
       leaf={value !== null}
+      inline
       driver={driver}
       extra={extra}
       unit={unit.length > MOST_UNIT ? unit : ""}
