@@ -114,6 +114,24 @@ test("an invalid document is refused with a reason", async () => {
   await message.waitFor({ state: "detached" });
 });
 
+test("a dropped file of 200 MB is refused by the page, and so is a long text in the clipboard", async () => {
+  const { page } = studio;
+  await observer.ask({ type: "open_example", name: "selection", discard: true });
+  await button(page, "Play").waitFor();
+  await page.evaluate(() => {
+    const carried = new DataTransfer();
+    carried.items.add(new File([new Uint8Array(200 * 2 ** 20)], "large.json"));
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: carried, bubbles: true }));
+    const text = new DataTransfer();
+    text.setData("text/plain", " {".repeat(21 * 2 ** 20));
+    document.dispatchEvent(new ClipboardEvent("paste", { clipboardData: text, bubbles: true }));
+  });
+  const messages = page.getByRole("region", { name: "Messages" });
+  await messages.getByText("large.json is larger than 40 MB.").waitFor();
+  await messages.getByText("The text in the clipboard is larger than 40 MB.").waitFor();
+  expect((await observer.ask({ type: "export_script" })).text).toContain("dd.Model");
+});
+
 test("a file with errors opens as a page that lists every problem with its path", async () => {
   const { page, folder } = studio;
   const data = JSON.parse(readFileSync(SELECTION, "utf8")) as {

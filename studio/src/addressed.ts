@@ -16,6 +16,7 @@ const MEANT = new Set<ToServer["type"]>([
   "describe",
   "disconnect",
   "group",
+  "insert",
   "keep_preset",
   "keep_snapshot",
   "link",

@@ -249,9 +249,15 @@ def test_a_clipboard_text_contains_its_arrays() -> None:
         '{"deodar": 3, "elements": {}, "arrays": {"file": "a.npz", "sha256": "", "content": "%%"}}',
         '{"deodar": 3, "elements": {}, "arrays": {"file": "a.npz", "sha256": "0", "content": "AAAA"}}',
         '{"deodar": 3, "elements": {}, "arrays": {"file": "../a.npz", "sha256": "0", "content": ""}}',
+        '{"name": "page", "version": "1.0.0", "dependencies": {}}',
+        '{"simulator": {"deltaT": 1, "nElements": 0, "elements": []}}',
+        '{"deodar": 3, "elements": {"__proto__": {"kind": "__import__"}}}',
+        '{"deodar": 3, "elements": {"u": {"kind": "Field", "axes": ["x"]}}, "axes": {"x": {"samples": 9e9}}}',
         "\ud800",
         "[" * 100_000,
+        " " * (files.MOST_BYTES + 1),
     ],
+    ids=lambda text: text[:60],
 )
 def test_text_that_is_no_document_is_refused(text: str) -> None:
     with pytest.raises(DocumentError):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses as dc
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
 from deodar.model import building, clipboard, edit, files, find, fits, script, starting
-from deodar.model.building import Around, EndPorts
+from deodar.model.building import Around, BoxPosition, EndPorts
 from deodar.model.document import Document
 from deodar.model.paths import PathNames
 from deodar.server import templates, to_server, view
@@ -63,9 +63,10 @@ async def _add_element(hub: Hub, page: Page, m: to_server.AddElement) -> Answer:
 
 @handles(to_server.InsertElement)
 async def _insert(hub: Hub, page: Page, m: to_server.InsertElement) -> None:
-    await hub.project.change(
-        lambda doc: building.placed(building.insert_element(doc, m.element, _ends(m.wire)), m.positions)
-    )
+    def change(doc: Document) -> Document:
+        return building.placed(building.insert_element(doc, m.element, _ends(m.wire)), _of(doc, m.positions))
+
+    await hub.project.change(change)
 
 
 @handles(to_server.Connect)
@@ -209,4 +210,9 @@ async def _find_fits(hub: Hub, page: Page, m: to_server.FindFits) -> Fits:
 
 @handles(to_server.PlaceBoxes)
 async def _place(hub: Hub, page: Page, m: to_server.PlaceBoxes) -> None:
-    await hub.project.lay_out(lambda doc: building.placed(doc, m.positions))
+    await hub.project.lay_out(lambda doc: building.placed(doc, _of(doc, m.positions)))
+
+
+def _of(doc: Document, positions: Mapping[str, BoxPosition]) -> dict[str, BoxPosition]:
+    """Return the positions of elements that exist: another page may have removed the others."""
+    return {i: at for i, at in positions.items() if i in doc.by_id()}

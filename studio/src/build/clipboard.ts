@@ -2,6 +2,7 @@
 // events of the browser carry the text; where a page may not write to the clipboard by itself, the old
 // command does.
 
+import { isTooLarge } from "../files/flows";
 import type { Point } from "../graph/layout";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -51,6 +52,9 @@ export async function paste(text?: string): Promise<void> {
   const content = text ?? (await read());
   if (content.trim() === "") {
     useStudio.getState().notify({ what: "The clipboard holds no elements." }, "info");
+    return;
+  }
+  if (isTooLarge({ name: "The text in the clipboard", size: content.length })) {
     return;
   }
   const pointer = getPointer();

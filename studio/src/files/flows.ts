@@ -174,7 +174,7 @@ async function openRecord({ name }: File): Promise<boolean> {
 }
 
 // Whether a file is too large for one message; then a notice states it.
-export function isTooLarge(file: File): boolean {
+export function isTooLarge(file: Pick<File, "name" | "size">): boolean {
   if (file.size > MOST_BYTES) {
     refuse({
       what: `${file.name} is larger than ${MOST_BYTES / 2 ** 20} MB.`,

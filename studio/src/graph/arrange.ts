@@ -3,6 +3,7 @@
 import type { Answer } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { readBoxes } from "./boxes";
 import { foldedNow, useOpening } from "./folding";
 import type { Point } from "./layout";
 
@@ -27,8 +28,15 @@ function keep(folded: string[]): void {
   void request({ type: "arrange", layout: { folded }, undoable: false });
 }
 
-// Sets the positions of boxes, as one step of undo.
+// Sets the positions of boxes, as one step of undo. Those that the document has already are not sent: another
+// page may move them meanwhile.
 export function place(boxes: Map<string, Point>): Promise<Answer> {
-  const rounded = [...boxes].map(([id, { x, y }]) => [id, { x: Math.round(x), y: Math.round(y) }]);
-  return request({ type: "arrange", layout: { boxes: Object.fromEntries(rounded) }, undoable: true });
+  const stored = readBoxes(useStudio.getState().document?.layout ?? {});
+  const moved = [...boxes]
+    .map(([id, { x, y }]): [string, Point] => [id, { x: Math.round(x), y: Math.round(y) }])
+    .filter(([id, { x, y }]) => stored.get(id)?.x !== x || stored.get(id)?.y !== y);
+  return request({
+    type: "place",
+    positions: Object.fromEntries(moved.map(([id, { x, y }]) => [id, [x, y]])),
+  });
 }
