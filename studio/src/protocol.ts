@@ -216,6 +216,7 @@ export type Close = {
 export type CloseExperiment = {
   type: "close_experiment";
   request?: number;
+  session?: number;
 };
 
 // Add, change or remove a comment on the graph; the answer has the id of a new one in `made`.
@@ -402,6 +403,7 @@ export type Drawn = {
 export type EditExperiment = {
   type: "edit_experiment";
   request?: number;
+  session?: number;
   data: Record<string, unknown>;
   version: number;
 };
@@ -778,6 +780,7 @@ export type NewDocument = {
 export type NewExperiment = {
   type: "new_experiment";
   request?: number;
+  session?: number;
 };
 
 // A coupling that can stand between two ports whose axes differ: `add_element` with these values.
@@ -1167,6 +1170,7 @@ export type RunClock = {
 export type RunExperiment = {
   type: "run_experiment";
   request?: number;
+  session?: number;
 };
 
 // Continue the run from the last frame up to a document time, with the parameters of that moment.
@@ -1219,6 +1223,7 @@ export type Save = {
 export type SaveExperiment = {
   type: "save_experiment";
   request?: number;
+  session?: number;
   path?: string;
   replace?: boolean;
 };

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import dataclasses as dc
 import json
+from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +14,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.errors import DeodarError
 from deodar.experiments.results import stored_rows
-from tests.server.page import Page, play, studio
+from deodar.server import hub, requests, to_server
+from deodar.server.experiment_run import ExperimentRun
+from deodar.server.open_experiment import OpenExperiment
+from tests.server.page import WAIT, Page, play, studio
 
 
 def two_targets() -> dd.Experiment:
@@ -242,3 +249,118 @@ def test_what_cannot_be_done_is_refused(folder: Path, tmp_path: Path) -> None:
 
     with studio(folder) as address:
         play(address, scene)
+
+
+class Desk:
+    """A studio without sockets: requests are handled in the loop of the test."""
+
+    def __init__(self, root: Path) -> None:
+        self.hub = hub.Hub(root, False, None)
+        self.page = self.hub.new_page()
+
+    async def do(self, message: to_server.Request) -> None:
+        await requests.do(self.hub, self.page, message)
+
+    async def edit(self, **changes: Any) -> None:
+        """Change the plain data of the open experiment."""
+        experiment = self.hub.experiment
+        data = {**(experiment.data or {}), **changes}
+        await self.do(to_server.EditExperiment(data=data, version=experiment.version))
+
+
+@contextlib.asynccontextmanager
+async def desk(root: Path) -> AsyncIterator[Desk]:
+    one = Desk(root)
+    try:
+        yield one
+    finally:
+        await one.hub.close()
+
+
+def test_one_run_starts_if_two_pages_ask_for_it_at_once(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    few().save(folder / "two-targets.json")
+    started: list[ExperimentRun] = []
+
+    def start(run: ExperimentRun) -> None:
+        run.state = "running"
+        started.append(run)
+
+    monkeypatch.setattr(ExperimentRun, "start", start)
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="two-targets.json"))
+            asked = [d.do(to_server.RunExperiment()) for _ in range(2)]
+            first, second = await asyncio.gather(*asked, return_exceptions=True)
+            assert first is None and "runs already" in str(second)
+            assert started == [d.hub.experiment.run]
+
+    asyncio.run(scene())
+
+
+def test_an_experiment_closes_while_one_of_its_trials_is_repeated(folder: Path) -> None:
+    few(1).run(folder / "results")
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            run = d.hub.experiment.run
+            assert run is not None
+            repeated = asyncio.create_task(d.do(to_server.RepeatTrial(trial=2)))
+            while run._pool is None:
+                await asyncio.sleep(0.01)
+            await d.do(to_server.CloseExperiment())
+            assert d.hub.experiment.data is None and run._pool is None
+            with pytest.raises(DeodarError, match="was closed"):
+                await repeated
+            assert d.hub.project.record is None
+
+    asyncio.run(scene())
+
+
+@pytest.mark.parametrize(
+    ("wrong", "found"),
+    [
+        ({"dt": 0}, "expected a number above 0"),
+        ({"world": "arena:" + "a" * 5000}, "cannot be read: File name too long"),
+    ],
+    ids=["step", "world"],
+)
+def test_an_experiment_that_cannot_be_opened_states_its_problem(
+    folder: Path, wrong: dict[str, Any], found: str
+) -> None:
+    few().save(folder / "two-targets.json")
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="two-targets.json"))
+            await d.edit(**wrong)
+            [problem] = d.hub.experiment.problems
+            assert found in problem.what
+
+    asyncio.run(scene())
+
+
+def test_the_studio_checks_an_experiment_after_a_check_that_failed(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(hub, "FOLLOW_SECONDS", 0.001)
+    checks: list[OpenExperiment] = []
+
+    async def check(experiment: OpenExperiment) -> None:
+        checks.append(experiment)
+        if len(checks) < 3:
+            raise ZeroDivisionError("of an experiment")
+
+    monkeypatch.setattr(OpenExperiment, "check", check)
+
+    async def scene() -> None:
+        async with desk(folder), asyncio.timeout(WAIT):
+            while len(checks) < 4:
+                await asyncio.sleep(0.001)
+
+    asyncio.run(scene())
+    reports = [record for record in caplog.records if "of an experiment" in (record.exc_text or "")]
+    assert len(reports) == 1

@@ -86,6 +86,8 @@ class Design(Part):
             yield "model", f"needs a model or the path of its document, not {show(self.model)}"
         if not isinstance(self.world, (World, str)):
             yield "world", f"needs a world, or text such as arena:blocks, not {show(self.world)}"
+        if self.dt is not None and self.dt <= 0:
+            yield "dt", f"is {show(self.dt)}; expected a number above 0"
         names = [p.name for p in (*self.conditions, *self.factors, *self.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:

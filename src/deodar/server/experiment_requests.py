@@ -11,7 +11,7 @@ from deodar.server.to_page import Answer
 
 @handles(to_server.NewExperiment)
 async def _new(hub: Hub, page: Page, m: to_server.NewExperiment) -> None:
-    hub.experiment.new()
+    await hub.experiment.new()
     await hub.experiment.check()
 
 
@@ -35,7 +35,7 @@ async def _save(hub: Hub, page: Page, m: to_server.SaveExperiment) -> Answer:
 
 @handles(to_server.CloseExperiment)
 async def _close(hub: Hub, page: Page, m: to_server.CloseExperiment) -> None:
-    hub.experiment.close()
+    await hub.experiment.close()
 
 
 @handles(to_server.RunExperiment)

@@ -55,6 +55,7 @@ class ExperimentRun:
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._repeating = threading.Lock()
+        self._closing = threading.Event()
         self._pool: Pool | None = None
 
     @property
@@ -93,12 +94,14 @@ class ExperimentRun:
         self._stop.set()
 
     def close(self) -> None:
-        """End all processes and wait until they have ended."""
+        """End all processes, also that of a repetition, and wait until they have ended."""
         self.stop()
+        self._closing.set()
         if self._thread is not None:
             self._thread.join()
         with self._repeating:
             self._end_pool()
+            self._closing.clear()
 
     # ---------------------------------------------------------------------------------------------- repeating
 
@@ -106,7 +109,8 @@ class ExperimentRun:
         """Run a trial again as it ran, and return its record, which is kept in the folder of the results.
 
         Raises:
-            RecordError: there is no row of this trial, or the repeated trial gives another row.
+            RecordError: there is no row of this trial, the repeated trial gives another row, or `close` was
+                called.
         """
         stored = next((row for row in self.rows if row["trial"] == trial), None)
         if stored is None:
@@ -133,9 +137,10 @@ class ExperimentRun:
             self._pool.give(
                 trial, packed.repeat, packed.PackedExperiment.of(self.setup), trial, self.recorded(), path
             )
-            while True:
+            while not self._closing.is_set():
                 for _, row in self._pool.wait(0.2):
                     return row
+            raise RecordError(f"trial {trial} was not repeated: its experiment was closed")
         except BaseException:
             self._end_pool()
             raise

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Callable
+import logging
+from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 from deodar import __version__
@@ -74,8 +75,8 @@ class Hub:
             templates=templates.listed(),
             plots=plots.views(),
         )
-        self._keeping = asyncio.create_task(self._keep())
-        self._following = asyncio.create_task(self._follow())
+        self._keeping = asyncio.create_task(_repeat(self._keep, KEEP_SECONDS))
+        self._following = asyncio.create_task(_repeat(self._follow, FOLLOW_SECONDS))
 
     # ---------------------------------------------------------------------------------------------- notifying
 
@@ -227,17 +228,14 @@ class Hub:
     # ------------------------------------------------------------------------------------------------- ending
 
     async def _keep(self) -> None:
-        while True:
-            await asyncio.sleep(KEEP_SECONDS)
-            await self.project.queue.run(self.project.keep)  # `forget` cannot run while edits are written
+        """Store unsaved edits."""
+        await self.project.queue.run(self.project.keep)  # `forget` cannot run while edits are written
 
     async def _follow(self) -> None:
-        """Show what is added to a record that grows."""
-        while True:
-            await asyncio.sleep(FOLLOW_SECONDS)
-            if await self.project.refresh():
-                self.notify()
-            await self.experiment.check()
+        """Show what is added to a record that grows, and check the open experiment."""
+        if await self.project.refresh():
+            self.notify()
+        await self.experiment.check()
 
     async def close(self) -> None:
         """Store unsaved edits and stop the engine."""
@@ -248,3 +246,16 @@ class Hub:
         await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.engine.close)
         self.embodiment.close()
+
+
+async def _repeat(work: Callable[[], Awaitable[None]], seconds: float) -> None:
+    """Call a function again and again; an error is written to the terminal once, until another one occurs."""
+    reported = ""
+    while True:
+        await asyncio.sleep(seconds)
+        try:
+            await work()
+        except Exception as error:
+            if repr(error) != reported:
+                logging.getLogger("deodar.studio").exception("%s failed", work.__name__)
+            reported = repr(error)

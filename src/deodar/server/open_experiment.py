@@ -45,6 +45,9 @@ APART = ("experiment", "model", "packages")
 class OpenExperiment:
     """The open experiment, if any; its model is the open document.
 
+    Methods that change it must be called through the queue of the project, except `repeat`, `stop` and
+    `check`.
+
     While the record of one of its trials is open, its model is the document that was open before.
 
     Attributes:
@@ -167,6 +170,10 @@ class OpenExperiment:
                 return (), self._setup().trials
             except DeodarError as error:
                 return error.problems, 0
+            except OSError as error:
+                return [Problem("world", f"cannot be read: {error.strerror}")], 0
+            except Exception as error:  # worlds and functions that the experiment and its model name
+                return [Problem("", f"{type(error).__name__}: {error}")], 0
 
         found = await asyncio.to_thread(find) if self.data is not None else ((), 0)
         if now == self._checked:
@@ -175,11 +182,11 @@ class OpenExperiment:
 
     # ------------------------------------------------------------------------------------ opening and closing
 
-    def new(self) -> None:
+    async def new(self) -> None:
         """Open a new experiment with the open document."""
         self._require_end()
         name = self._document().name
-        self._take({"name": name, "limit": LIMIT, "trials": TRIALS}, None, None)
+        await self._take({"name": name, "limit": LIMIT, "trials": TRIALS}, None, None)
 
     async def open(self, place: Path, discard: bool) -> None:
         """Open an experiment and its model; the rows beside its file are those of its run."""
@@ -201,7 +208,7 @@ class OpenExperiment:
         if self._project.model is None:
             return
         data: Any = codec.parse(codec.line(found.to_data()))
-        self._take({key: value for key, value in data.items() if key not in APART}, place, None)
+        await self._take({key: value for key, value in data.items() if key not in APART}, place, None)
         self._saved = self.data
         if place.name == EXPERIMENT and (place.parent / ROWS).is_file():
             rows = await in_file_thread(lambda: stored_rows(place.parent), str(place))
@@ -219,15 +226,17 @@ class OpenExperiment:
         beside = self._workspace.inside(str(place.parent / name))
         return lambda: content.load(self._workspace, beside), beside
 
-    def _take(self, data: JsonObject, file: Path | None, saved: JsonObject | None) -> None:
+    async def _take(self, data: JsonObject, file: Path | None, saved: JsonObject | None) -> None:
+        await self._end_run()
         self.data, self.file, self._saved = data, file, saved
         self.run, self.repeated, self._home = None, None, None
         self.version += 1
         self._changed()
 
-    def close(self) -> None:
+    async def close(self) -> None:
         """Close the experiment."""
         self._require_end()
+        await self._end_run()
         self.data, self.file, self.run, self.repeated = None, None, None, None
         self.problems, self.trials = (), 0
         self.version += 1
@@ -241,8 +250,11 @@ class OpenExperiment:
     def _require_end(self) -> None:
         if self.run is not None and self.run.state == "running":
             raise DocumentError("its experiment is running", fix="Stop the experiment first")
+
+    async def _end_run(self) -> None:
+        """End the processes of the run, which are those of a repetition, if there is one."""
         if self.run is not None:
-            self.run.close()
+            await asyncio.to_thread(self.run.close)
 
     # ------------------------------------------------------------------------------------- editing and saving
 
@@ -296,8 +308,7 @@ class OpenExperiment:
         setup = await asyncio.to_thread(self._setup)
         before = self.run
         if before is None or before.state == "complete" or not _same(before.setup, setup):
-            if before is not None:
-                await asyncio.to_thread(before.close)
+            await self._end_run()
             folder = places.free(self._workspace.root, setup.experiment.name)
             self.run = ExperimentRun(setup, folder, self._changed)
             self.number += 1

@@ -25,7 +25,7 @@ MESSAGES = Family(Request)
 
 
 class DocumentRequest(Request, frozen=True):
-    """A request that opens, closes or changes a document.
+    """A request that opens, closes or changes a document or an experiment.
 
     The server handles the requests of all pages one after the other. `session` is the number of the document
     that the request is meant for, as in `opened`; the request is refused if another document was opened
@@ -772,7 +772,7 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 
 @MESSAGES.register
-class NewExperiment(Request, frozen=True, kw_only=True, tag="new_experiment"):
+class NewExperiment(DocumentRequest, frozen=True, kw_only=True, tag="new_experiment"):
     """Open a new experiment whose model is the open document."""
 
 
@@ -785,7 +785,7 @@ class OpenExperimentFile(DocumentRequest, frozen=True, kw_only=True, tag="open_e
 
 
 @MESSAGES.register
-class EditExperiment(Request, frozen=True, kw_only=True, tag="edit_experiment"):
+class EditExperiment(DocumentRequest, frozen=True, kw_only=True, tag="edit_experiment"):
     """Replace the plain data of the experiment of that version."""
 
     data: dict[str, Any]
@@ -793,7 +793,7 @@ class EditExperiment(Request, frozen=True, kw_only=True, tag="edit_experiment"):
 
 
 @MESSAGES.register
-class SaveExperiment(Request, frozen=True, kw_only=True, tag="save_experiment"):
+class SaveExperiment(DocumentRequest, frozen=True, kw_only=True, tag="save_experiment"):
     """Write the experiment to `path`, or to its own file if `path` is empty.
 
     A model without a file is written beside it. `replace` allows another file to be overwritten.
@@ -804,12 +804,12 @@ class SaveExperiment(Request, frozen=True, kw_only=True, tag="save_experiment"):
 
 
 @MESSAGES.register
-class CloseExperiment(Request, frozen=True, kw_only=True, tag="close_experiment"):
+class CloseExperiment(DocumentRequest, frozen=True, kw_only=True, tag="close_experiment"):
     """Close the experiment."""
 
 
 @MESSAGES.register
-class RunExperiment(Request, frozen=True, kw_only=True, tag="run_experiment"):
+class RunExperiment(DocumentRequest, frozen=True, kw_only=True, tag="run_experiment"):
     """Run the experiment in worker processes; a run that was stopped continues."""
 
 
