@@ -54,7 +54,8 @@ export function MultipleCell({ element, port, timeLabel, axes, live, scales, han
     return [places, newest?.values.length === places.length ? newest.values : Array.from(places, () => null)];
   };
   const options = (look: Look): ChartOptions => {
-    const labels = [axis(look, { scale: "x", side: 2, label: x === undefined ? timeLabel : axisLabel(x) })];
+    const label = x === undefined ? timeLabel : axisLabel(x);
+    const labels = [axis(look, { scale: "x", side: 2, label, grid: y === undefined })];
     if (x !== undefined && y !== undefined) {
       return {
         ...mapFrame(look),
