@@ -1,6 +1,7 @@
 import type { Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { findings, obstacles } from "./axe";
 import { box, button, choose, openExample, panel, select } from "./hands";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -84,6 +85,7 @@ test("every control of the gallery has a name", async () => {
   const { page } = studio;
   await page.getByRole("heading", { name: "Examples" }).waitFor();
   expect(await nameless(page)).toEqual([]);
+  expect(await obstacles(page)).toEqual([]);
   await button(page, "Open a file").click();
   await page.getByRole("dialog", { name: "Open a file" }).waitFor();
   expect(await nameless(page)).toEqual([]);
@@ -104,6 +106,8 @@ test("every control of an open document, also in its menus, has a name", async (
   expect(await nameless(page)).toEqual([]);
   await select(page, "u");
   expect(await nameless(page)).toEqual([]);
+  await panel(page, "Inspector").locator(".katex").first().waitFor();
+  expect(await obstacles(page)).toEqual([]);
   await choose(page, "More for tau", "Pin to Sliders");
   await panel(page, "Sliders").getByRole("slider", { name: "u.tau" }).waitFor();
   for (const name of [
@@ -180,6 +184,7 @@ test("the colours follow the system until the user chooses, and text has contras
     await expect.poll(scheme).toBe(now);
     for (const text of texts)
       expect(await contrast(page, text), `${text}, ${now}`).toBeGreaterThanOrEqual(4.5);
+    expect(await findings(page, ["color-contrast"]), now).toEqual([]);
     await shot(page, `access-${now}`);
     await button(page, other).click();
   }

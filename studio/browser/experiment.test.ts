@@ -5,6 +5,7 @@ import { join } from "node:path";
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { button, choose, panel } from "./hands";
 import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
@@ -146,6 +147,7 @@ test("an experiment is built with the mouse, and its file is the one that Python
   await pick(field("place.reduce"), "place");
   await fill(field("place.threshold"), "-2.5");
   await status(/^100 trials$/);
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "experiment-built");
 
   await button(page, "Save the experiment").click();

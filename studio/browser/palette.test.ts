@@ -1,6 +1,7 @@
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { box, button, file, openEmpty, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -60,6 +61,7 @@ test("a double click on the ground adds the element that is clicked, at the poin
   await page.mouse.dblclick(at.x, at.y);
   await option("Gaussian stimulus").waitFor();
   await palette().locator(".katex").first().waitFor();
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "palette-open");
   await option("Field").click();
   await box(page, "field").waitFor();

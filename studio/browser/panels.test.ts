@@ -42,7 +42,8 @@ test("panels that are opened and closed again leave the others where they were, 
   await open("Costs");
   await open("World");
   await close("Costs");
-  await close("World");
+  await studio.page.getByRole("tab", { name: "World", exact: true }).press("Delete");
+  await panel(studio.page, "World").waitFor({ state: "detached" });
   await expect.poll(places).toEqual(before);
   await shot(studio.page, "panels-restored");
 });

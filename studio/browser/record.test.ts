@@ -4,6 +4,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { box, button, choose, colours, drag, drawn, panel, select } from "./hands";
 import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
@@ -66,6 +67,7 @@ test("a record opens from the list of files, and the slider moves every plot and
   expect(await page.getByRole("heading", { level: 1 }).innerText()).toBe("selection");
   await box(page, "u").waitFor();
   const first = await drawn(plot());
+  expect(await obstacles(page)).toEqual([]);
   await drag(page, bar().getByRole("slider", { name: "Moment" }), 0.75);
   await said(/^4[45]\d ms/);
   await expect.poll(() => drawn(plot())).not.toBe(first);

@@ -3,6 +3,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { button, drop, openExample, png } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -43,6 +44,7 @@ test("a picture below the folder can be chosen in the header, with a preview", a
   expect(await dialog.getByLabel("Kind of world").inputValue()).toBe("Picture");
   await dialog.getByRole("button", { name: "blue.png" }).click();
   await dialog.getByRole("img", { name: "Preview of the world" }).waitFor();
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "world-picture");
   await dialog.getByRole("button", { name: "Use this world" }).click();
   await observer.until(() => observer.clock?.world === "Picture: blue.png");

@@ -3,7 +3,7 @@
 
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
-import { useEffect, useRef, useState, useSyncExternalStore } from "react";
+import { type KeyboardEvent, useEffect, useRef, useState, useSyncExternalStore } from "react";
 import { PalettePanel } from "../build/PalettePanel";
 import { CostsPanel } from "../costs/CostsPanel";
 import { Experiment } from "../experiment/Experiment";
@@ -18,6 +18,7 @@ import { World } from "../world/World";
 import { restore, signature } from "./arrangement";
 import { Empty } from "./Empty";
 import { forgetArrangements, openFirstWorld, openTool, setDock } from "./openPlot";
+import { PanelTab } from "./PanelTab";
 import { PlotPanel } from "./PlotPanel";
 import "./dock.css";
 
@@ -119,9 +120,23 @@ export function Dock() {
     }
   }, [api, session, experiment]);
 
+  const closeByKey = (event: KeyboardEvent) => {
+    const tab = event.key === "Delete" ? (event.target as HTMLElement).closest("[role=tab]") : null;
+    const panel = api?.getPanel(tab?.getAttribute("data-tab-panel-id") ?? "");
+    if (panel !== undefined) {
+      event.stopPropagation();
+      panel.api.close();
+    }
+  };
   return (
-    <div className="dock">
-      <DockviewReact components={COMPONENTS} watermarkComponent={Empty} theme={THEME} onReady={ready} />
+    <div className="dock" onKeyDown={closeByKey}>
+      <DockviewReact
+        components={COMPONENTS}
+        defaultTabComponent={PanelTab}
+        watermarkComponent={Empty}
+        theme={THEME}
+        onReady={ready}
+      />
     </div>
   );
 }

@@ -22,7 +22,7 @@ export function DotsMenu({ label, children, opened, onOpened }: DotsMenuProps) {
       classNames={{ dropdown: "compact-menu" }}
     >
       <Menu.Target>
-        <ActionIcon className="row-menu" size={18} aria-label={label}>
+        <ActionIcon className="row-menu" size={24} aria-label={label}>
           <IconDots size={14} />
         </ActionIcon>
       </Menu.Target>

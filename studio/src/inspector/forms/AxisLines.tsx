@@ -13,7 +13,7 @@ export function AxisLines({ axes }: { axes: AxisView[] }) {
         <li key={axis.key}>
           <Popover position="left-start" width={230} shadow="md" trapFocus>
             <Popover.Target>
-              <UnstyledButton className="axis-line" aria-label={`Edit the axis ${axis.name}`}>
+              <UnstyledButton className="axis-line" title={`Edit the axis ${axis.name}`}>
                 <b className="one-line" title={axis.name}>
                   {axis.name}
                 </b>
