@@ -629,7 +629,7 @@ test("a plot is exported as a table", async () => {
   expect(lines[101]).toMatch(/^100,-?\d+\.\d+,\d/);
 });
 
-test("the right button and the key I make a peak while they are held", async () => {
+test("the right button, a finger and the key I make a peak while they are held", async () => {
   const { page } = studio;
   for (const path of ["left", "right"]) {
     await observer.ask({ type: "set", element: observer.element(path).id, parameter: "amplitude", value: 0 });
@@ -670,4 +670,14 @@ test("the right button and the key I make a peak while they are held", async () 
   await page.mouse.up({ button: "right" });
   await page.keyboard.up("Shift");
   await observer.until(() => observer.clock?.pushing === "");
+  await observer.until(() => observer.max("u", "activation") < 0);
+
+  const screen = await page.context().newCDPSession(page);
+  const finger = { x: place.x + place.width * 0.25, y: place.y + place.height / 2 };
+  await screen.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [finger] });
+  await observer.until(() => pushing() && observer.max("u", "activation") > 3);
+  expect(Math.abs(observer.peak("u", "activation") - 25)).toBeLessThan(6);
+  await screen.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await observer.until(() => observer.clock?.pushing === "");
+  await screen.detach();
 });

@@ -27,7 +27,8 @@ export function PushControl({ amplitude, width, set }: PushSettings) {
         />
       </div>
       <Text size="xs" c="dimmed">
-        Hold the right button on the plot, or the key I, to inject a Gaussian; with Shift the same everywhere.
+        Hold the right button or a finger on the plot, or the key I, to inject a Gaussian; with Shift the same
+        everywhere.
       </Text>
     </>
   );

@@ -1,4 +1,5 @@
-// Injection into a field with the mouse (the right button) or with the key i. An outline shows the Gaussian.
+// Injection into a field with the right button of the mouse, a finger or the key i. An outline shows the
+// Gaussian.
 
 import type uPlot from "uplot";
 import { socket } from "../socket";
@@ -39,11 +40,13 @@ export function attachInjection(
   const listening = new AbortController();
   const { signal } = listening;
   const { over } = chart;
+  over.style.touchAction = "none"; // the browser would move the page under the finger
   over.addEventListener("contextmenu", (event) => ask() !== null && event.preventDefault(), { signal });
   over.addEventListener(
     "pointerdown",
     (event) => {
-      if (event.button === 2 && ask() !== null) {
+      const finger = event.pointerType === "touch" && event.isPrimary;
+      if ((event.button === 2 || finger) && ask() !== null) {
         event.preventDefault();
         boost = event.shiftKey;
         push(placeOf(event));
