@@ -62,7 +62,7 @@ test("the run continues without a page, and all open pages show the same state",
   await button(third, "Pause").waitFor();
   await third.getByRole("img", { name: "Unsaved edits" }).waitFor();
   await select(third, "u");
-  expect(await number(third, "resting_level").inputValue()).toBe("2");
+  expect(await number(third, "resting_level").inputValue()).toBe(dragged);
 });
 
 test("a page reports a lost connection, reconnects by itself and shows the present state", async () => {
@@ -131,6 +131,13 @@ test("without a connection controls are disabled and typed values restored", asy
   await page.getByRole("timer", { name: "Simulated time" }).getByText("not connected").waitFor();
   for (const name of ["Zoom in", "Help and keys"])
     expect(await button(page, name).isDisabled(), name).toBe(false);
+  const there = await box(page, "u").boundingBox();
+  await page.mouse.move((there?.x ?? 0) + 20, (there?.y ?? 0) + 12);
+  await page.mouse.down();
+  await page.mouse.move((there?.x ?? 0) + 80, (there?.y ?? 0) + 60, { steps: 4 });
+  await page.mouse.up();
+  expect(await page.locator(".react-flow__node.draggable").count(), "a box that can be dragged").toBe(0);
+  expect(await page.locator(".react-flow__handle.connectable").count(), "a port to connect").toBe(0);
   await shot(page, "not-connected");
 });
 

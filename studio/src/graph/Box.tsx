@@ -14,7 +14,7 @@ import type { BoxNode } from "./scene";
 import { useProblem, useWarning } from "./problem";
 import { useDetail } from "./useDetail";
 
-export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<BoxNode>) {
+export const Box = memo(function Box({ data, height = BOX.title, isConnectable }: NodeProps<BoxNode>) {
   const { element: id, path, name, title, family, inputs, outputs } = data;
   const level = useDetail();
   const selected = useStudio((state) => state.selected.includes(id));
@@ -40,7 +40,14 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
       {level === "dot" ? (
         <Anchors names={inputs} side="target" height={height} />
       ) : (
-        <Ports element={id} names={inputs} side="target" height={height} fits={fits} />
+        <Ports
+          element={id}
+          names={inputs}
+          side="target"
+          height={height}
+          fits={fits}
+          connectable={isConnectable}
+        />
       )}
       <div className="graph-box-head">
         <div className="graph-box-name one-line" title={path}>
@@ -61,7 +68,14 @@ export const Box = memo(function Box({ data, height = BOX.title }: NodeProps<Box
       {level === "dot" ? (
         <Anchors names={outputs} side="source" height={height} />
       ) : (
-        <Ports element={id} names={outputs} side="source" height={height} fits={fits} />
+        <Ports
+          element={id}
+          names={outputs}
+          side="source"
+          height={height}
+          fits={fits}
+          connectable={isConnectable}
+        />
       )}
     </div>
   );
@@ -90,9 +104,10 @@ type PortsProps = {
   side: "source" | "target";
   height: number;
   fits: PortFits;
+  connectable: boolean;
 };
 
-function Ports({ element, names, side, height, fits }: PortsProps) {
+function Ports({ element, names, side, height, fits, connectable }: PortsProps) {
   return names.map((name, n) => {
     const top = portHeight(height, n, names.length);
     return (
@@ -100,6 +115,7 @@ function Ports({ element, names, side, height, fits }: PortsProps) {
         key={name}
         id={name}
         type={side}
+        isConnectable={connectable}
         position={side === "target" ? Position.Left : Position.Right}
         style={{ top }}
         onPointerEnter={() => {

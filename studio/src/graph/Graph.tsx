@@ -27,6 +27,7 @@ import { WiringHint } from "../build/WiringHint";
 import { openPlot } from "../panels/openPlot";
 import { useDialogs } from "../dialogs/dialogs";
 import { SHORTCUTS } from "../shortcuts";
+import { useOffline } from "../connection/NeedsServer";
 import { useStudio } from "../store";
 import { place, unfold } from "./arrange";
 import { Box } from "./Box";
@@ -75,6 +76,7 @@ export function Graph() {
 
 function Canvas({ structure }: { structure: Structure }) {
   const kinds = useStudio((state) => state.kinds);
+  const offline = useOffline();
   const around = useRef<HTMLDivElement>(null);
   const { now, touch } = useStart(structure, kinds, around);
   const { nodes, onNodesChange, settle, reset } = useNodes(now);
@@ -146,6 +148,8 @@ function Canvas({ structure }: { structure: Structure }) {
           nodeTypes={NODES}
           edgeTypes={EDGES}
           onNodesChange={onNodesChange}
+          nodesDraggable={!offline}
+          nodesConnectable={!offline}
           onNodeDragStart={() => useHover.getState().close()}
           onNodeDragStop={(event, { id }) => {
             if (event.altKey) {
