@@ -1,6 +1,7 @@
 // The live picture of an element, drawn past React and shown by the live layer. It asks for data only while
 // it is mounted, which is while it is visible.
 
+import { canvasSettings } from "../canvases";
 import { useComputedColorScheme } from "@mantine/core";
 import { useContext, useEffect, useRef } from "react";
 import { isRecord } from "../replay/replay";
@@ -28,7 +29,7 @@ export function LiveBox({ element, port, label, width, height }: Props) {
     layer.add(place, picture);
     const canvas: Canvas = { element: picture, width, height, span: null, port };
     let form: Live["form"] = null;
-    picture.getContext("2d", { willReadFrequently: true });
+    picture.getContext("2d", canvasSettings());
     clear(canvas);
     const leave = socket.streams.subscribe({ type: "watch", element, port, most: MOST }, (live) => {
       if (live.form !== form) {

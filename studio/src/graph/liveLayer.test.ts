@@ -9,6 +9,7 @@ const next = () => frames.splice(0).forEach((frame) => frame());
 beforeEach(() => {
   vi.useFakeTimers();
   vi.stubGlobal("window", { devicePixelRatio: 1, setTimeout, clearTimeout });
+  vi.stubGlobal("document", { createElement: () => ({ getContext: () => null }) });
   vi.stubGlobal("requestAnimationFrame", (frame: () => void) => frames.push(frame));
   vi.stubGlobal(
     "ResizeObserver",

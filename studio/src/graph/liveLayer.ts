@@ -2,6 +2,7 @@
 // and hundreds of small ones cost more than one large one. Each box draws its picture on a canvas of its own
 // that is not on the page; here they are copied to the positions of the boxes.
 
+import { canvasSettings } from "../canvases";
 import type { Viewport } from "@xyflow/react";
 
 // Without a further move for this time the view is at rest, with or without a message of its end.
@@ -81,7 +82,7 @@ export class LiveLayer {
     if (this.canvas.width !== width || this.canvas.height !== height) {
       Object.assign(this.canvas, { width, height });
     }
-    const ctx = this.canvas.getContext("2d", { willReadFrequently: true });
+    const ctx = this.canvas.getContext("2d", canvasSettings());
     if (ctx === null) {
       return;
     }

@@ -1,5 +1,6 @@
 // Drawing arrays onto canvases: nothing here depends on React, sockets or elements.
 
+import { canvasSettings } from "../canvases";
 import type { Scale } from "./colors";
 
 export type Range = readonly [lower: number, upper: number];
@@ -145,7 +146,7 @@ function imageOf(canvas: HTMLCanvasElement, nx: number, ny: number): Surface | n
     return known;
   }
   // Kept by the processor: pixels that come from there need not go elsewhere first.
-  const ctx = canvas.getContext("2d", { willReadFrequently: true });
+  const ctx = canvas.getContext("2d", canvasSettings());
   if (ctx === null) {
     return null;
   }

@@ -5,6 +5,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import { canvasSettings } from "../canvases";
 import { ChartCursor, type CursorAt, type Orbit } from "./chartCursor";
 import type { Along } from "./linked";
 import { isSmall, type Look, pageLook } from "./look";
@@ -155,13 +156,16 @@ function fitted(
   return near || scale <= 0 ? null : size;
 }
 
-// uPlot asks for its canvas while it is made and leaves no choice. Without a graphics card, canvases that the
-// processor draws cost the browser far less than others (ten plots: 51 instead of 87 ms of processor time for
-// each picture); with one the difference is small.
+// uPlot asks for its canvas while it is made and has no option for its settings, which only matter where the
+// processor draws.
 function onProcessor<T>(make: () => T): T {
+  const settings = canvasSettings();
+  if (settings.willReadFrequently !== true) {
+    return make();
+  }
   const asked = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string) {
-    return asked.call(this, kind, { willReadFrequently: true });
+    return asked.call(this, kind, settings);
   } as typeof asked;
   try {
     return make();
