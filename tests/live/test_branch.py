@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import RecordError
+from deodar.errors import ParameterError, RecordError
 from deodar.live import branch_states
 from deodar.live.branch_states import BranchStates, size
 from deodar.live.engine import Injection
@@ -198,6 +198,47 @@ def test_a_branch_returns_to_the_world_of_its_moment(made: Callable[..., Branchi
     script = dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
     script.step(7)
     assert bits(one.session) == bits(script)
+
+
+def test_a_moment_before_the_first_element_is_restored(made: Callable[..., Branching]) -> None:
+    one = made(mixed())
+    full, empty = one.session.document, Document("nothing yet")
+    one.do(lambda: one.engine.adopt(one.model, empty))
+    one.until(lambda: one.session.document == empty and not one.engine.busy)
+    one.do(lambda: one.engine.show([], []))
+    one.do(one.engine.reset)
+    one.step(14)
+    one.do(lambda: one.engine.see(dd.Arena("blocks")))
+    one.do(lambda: one.engine.adopt(one.model, full))
+    one.until(lambda: one.session.document == full and not one.engine.busy)
+    one.step(14)
+    after = bits(one.session)
+    one.step(7)
+    one.branch(28)
+    assert bits(one.session) == after
+    assert one.branch(7) == empty and one.session.tick == 7 and one.session.world is None
+
+
+def test_a_refused_return_to_a_moment_keeps_the_edit_that_is_being_compiled(
+    made: Callable[..., Branching],
+) -> None:
+    one = made(mixed())
+    one.step(7)
+    wrong = dc.replace(one.do(one.engine.snapshot), precision="float64")
+    one.engine.states._too_large = 2**40
+
+    def adopt_and_return(coming: Document, back: Callable[[], Any], error: type[Exception]) -> None:
+        one.engine.adopt(one.model, coming)  # in one call, so that its compilation has not ended
+        with pytest.raises(error):
+            back()
+
+    for sigmoid, back, error in (
+        (dd.Step(), lambda: one.engine.branch(7), RecordError),
+        (dd.Absolute(), lambda: one.engine.restore(wrong), ParameterError),
+    ):
+        coming = edit.change_all(one.session.document, {"u.sigmoid": sigmoid})
+        one.do(lambda coming=coming, back=back, error=error: adopt_and_return(coming, back, error))
+        one.until(lambda coming=coming: one.session.document == coming and not one.engine.busy)
 
 
 def test_a_world_that_cannot_be_read_again_is_named(made: Callable[..., Branching]) -> None:

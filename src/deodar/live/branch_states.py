@@ -130,14 +130,10 @@ class BranchStates:
         present, world = session.snapshot(), session.world
         changes = [c for c in begin.changes if c.tick <= tick and not (c.tick == tick and is_push(c))]
         try:
-            if begin.world is not world:
-                session.world = begin.world
-            session.restore(begin.snapshot)
+            session.go_back(begin.snapshot, begin.world)
             repeat_changes(session, changes, tick, progress)
         except BaseException:
-            if session.world is not world:
-                session.world = world
-            session.restore(present)
+            session.go_back(present, world)
             self._seen = len(session.journal)
             self._last = session.journal[-1]
             raise

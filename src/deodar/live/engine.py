@@ -191,11 +191,11 @@ class Engine:
             raise ModelError("The run has no moment to continue from", fix="Start it first")
         shown = found[1]
         self.play(False)
-        self._target, self.injection = None, None
         try:
             self.states.branch(session, shown.tick, self._report)
         finally:
-            self.busy, self._stale = "", True
+            self.busy, self._stale = "compiling" if self._target else "", True
+        self.busy, self._target, self.injection = "", None, None
         self.ring = self.ring.until(shown.tick)
         self.traces = {request: trace.until(shown.time) for request, trace in self.traces.items()}
         self.track.back(session, shown.trail, shown.passed)
@@ -216,8 +216,8 @@ class Engine:
         """
         session = self._require()
         self.play(False)
-        self._target, self.injection = None, None
         session.restore(snapshot)
+        self.busy, self._target, self.injection = "", None, None
         if session.next_dt != session.document.step:  # a step that was lengthened
             session.dt = session.document.step
         self.failure = ((), ())

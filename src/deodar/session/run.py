@@ -239,9 +239,12 @@ class Run:
             new["groups"][group][name][row] = values
         self.state = new
 
-    def see(self, world: World | None) -> None:
-        """Use another world from now on. After an error nothing changed."""
-        self.exchange = Exchange(self.doc, world)
+    def see(self, world: World | None, coming: Document | None = None) -> None:
+        """Use another world from now on; `coming` is a document that is loaded next.
+
+        After an error nothing changed.
+        """
+        self.exchange = Exchange(self.doc if coming is None else coming, world)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
         self.forget()
 

@@ -328,16 +328,23 @@ class Session:
             )
         if not set(self.document.by_id()) & set(snapshot.document.by_id()):
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
+        self.go_back(snapshot, self.world)
+
+    def go_back(self, snapshot: SessionSnapshot, world: World | None) -> None:
+        """Restore a snapshot of this session with the world of that moment, whatever was edited since."""
         self.journal.append(Change(self.tick, "restore", snapshot))
         self._end_record("a snapshot was restored")
-        run, clock, seed = self._run, self._run.clock, self._run.seed
+        run = self._run
+        before = run.clock, run.seed, run.exchange
         try:
             run.clock, run.seed, self._coming_dt = snapshot.clock, snapshot.seed, None
+            if world is not self.world:
+                run.see(world, snapshot.document)
             if snapshot.document != self.document:
                 run.load(self.compiled(snapshot.document), snapshot.document)
                 self._ports.clear()
         except BaseException:
-            run.clock, run.seed = clock, seed
+            run.clock, run.seed, run.exchange = before
             raise
         fill(run, snapshot.states)
         run.exchange.put(snapshot.world)
