@@ -285,6 +285,73 @@ def test_an_axis_changes_for_all_elements_that_have_it(root: Path) -> None:
         play(address, scene)
 
 
+def test_every_kind_of_the_palette_is_added_to_an_empty_document(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        kinds = [k["name"] for k in p.said["welcome"]["kinds"] if k["room"] in ("elements", "couplings")]
+        assert {"Field", "Gain", "Sensor", "Motor"} <= set(kinds)
+        for kind in kinds:
+            await made(p, "add_element", kind=kind)
+            assert [e["kind"] for e in p.document["elements"]] == [kind]
+            await p.do("undo")
+
+    with studio(root) as address:
+        play(address, scene)
+
+
+def test_a_sensor_without_a_world_is_unfinished_and_runs_when_a_world_is_chosen(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("new")
+        await p.do("use_world", kind="Arena", path="blocks")
+        (u,) = await made(p, "add_element", kind="Field")
+        await p.do("speed", factor=None)
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 5 and not p.clock["busy"])
+
+        # one that the chosen world does not have, and an example does
+        (eye,) = await made(p, "add_element", kind="Sensor", name="eye")
+        assert p.document["problems"] == [] and p.clock["senses"]
+        await p.until(lambda: p.clock["world"] == "Picture: an example" and p.clock["tick"] == 5)
+        await p.do("undo")
+
+        # one that no world has
+        (lost,) = await made(
+            p, "add_element", kind="Sensor", name="lost", values={"sensor": "nothing", "axes": []}
+        )
+        (problem,) = p.document["problems"]
+        assert problem["element"] == lost and "'nothing'" in problem["what"]
+        assert "World in the header" in problem["fix"] and p.clock["senses"]
+        await p.do("set", element=u, parameter="tau", value=33.0)
+        await p.until(lambda: p.said.get("checked", {}).get("version") == p.said["opened"]["version"])
+        assert p.said["checked"]["problems"] == [problem], "the check keeps the problem"
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 10)
+
+        # another one: the present document can run in its world, so the run continues
+        await p.do("set", element=lost, parameter="sensor", value="touching")
+        assert p.document["problems"] == []
+        await p.until(lambda: p.clock["world"] == "Arena: blocks" and p.clock["tick"] == 10)
+        await p.do("remove", elements=[lost])
+
+        # axes over which the example can be read are the default
+        (eye,) = await made(p, "add_element", kind="Sensor", name="eye")
+        await p.do("watch", stream=1, element=eye, port="output")
+        await p.do("step", n=1)
+        await p.until(lambda: 1 in p.frames and p.frames[1][1].max() > 0)
+        assert p.clock["failure"] == [] and p.clock["world"] == "Picture: an example"
+
+        # the present document cannot run in the world of the next one: the run starts again
+        await p.do("set", element=eye, parameter="sensor", value="nothing")
+        await p.do("set", element=eye, parameter="axes", value=[])
+        await p.do("set", element=eye, parameter="sensor", value="touching")
+        await p.until(lambda: p.clock["world"] == "Arena: blocks" and p.clock["tick"] == 0)
+        await p.do("step", n=1)
+        await p.until(lambda: p.clock["tick"] == 1 and p.clock["failure"] == [])
+
+    with studio(root) as address:
+        play(address, scene)
+
+
 def test_every_template_is_added_as_a_group(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.open("new")
@@ -296,6 +363,12 @@ def test_every_template_is_added_as_a_group(root: Path) -> None:
         assert "selection" in rooms["examples"] and all(t["title"] and t["sentence"] for t in listed)
         pictures = {t["name"]: t["picture"] for t in listed}
         assert pictures["selection"] == "examples/selection.png" and pictures["feature_space"] == ""
+        for template in (t["name"] for t in listed):
+            answer = await p.do("add_template", name=template)
+            assert answer["group"] == [template] and answer["made"]
+            worldly = [q["what"] for q in p.document["problems"] if "world" in q["what"]]
+            assert worldly == [], template
+            await p.do("undo")
         for template in ("behaviour", "selection"):
             answer = await p.do("add_template", name=template, at=[100, 50])
             assert answer["group"] == [template] and answer["made"]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.server.embodiment import Embodiment
+from deodar.server.embodiment import Embodiment, problems
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 
@@ -20,16 +22,37 @@ def driving() -> dd.Model:
 
 def test_an_example_with_all_sensors_and_motors_is_the_default() -> None:
     found = Embodiment()
-    assert isinstance(found.world(saliency().document), Picture) and found.label == "Picture: an example"
-    assert isinstance(found.world(driving().document), Arena) and found.label == "Arena: an example"
-    assert found.world(dd.Model("blind").document) is None
+    picture, arena = found.world(saliency().document), found.world(driving().document)
+    assert isinstance(picture, Picture) and found.label(picture) == "Picture: an example"
+    assert isinstance(arena, Arena) and found.label(arena) == "Arena: an example"
+    assert found.world(dd.Model("blind").document) is None and found.label(None) == ""
+
+
+def test_a_world_in_use_is_kept_where_it_fits() -> None:
+    found, present = Embodiment(Arena("z")), Arena("blocks")
+    assert found.world(driving().document, present) is present
 
 
 def test_a_chosen_world_is_kept_where_it_fits() -> None:
     arena = Arena("z")
     found = Embodiment(arena)
-    assert found.world(driving().document) is arena and found.label == "Arena: z"
+    assert found.world(driving().document) is arena and found.label(arena) == "Arena: z"
     assert isinstance(found.world(saliency().document), Picture)
+
+
+def test_problems_name_each_signal_that_a_world_lacks() -> None:
+    eyes, left = driving().document.entries
+    found = problems(driving().document, Picture(np.zeros((4, 4, 3))))
+    assert [(p.where, p.what) for p in found] == [
+        (eyes.path, "the world Picture lacks the sensor 'infrared'"),
+        (left.path, "the world Picture lacks the motor 'left'"),
+    ]
+    (none,) = problems(driving().document, None)
+    assert none.what == "no world was chosen that has the sensor 'infrared'"
+    wide = dd.Model("wide")
+    wide.add(Sensor("eyes", [dd.Axis("sensor", 0, 8, 9)], "infrared"))
+    (shape,) = problems(wide.document, Arena("blocks"))
+    assert "8 samples" in shape.what and not problems(driving().document, Arena("blocks"))
 
 
 def test_a_robot_drives_in_the_studio_s_session() -> None:

@@ -55,8 +55,9 @@ async def _new(hub: Hub, page: Page, m: to_server.NewDocument) -> None:
 async def _add_element(hub: Hub, page: Page, m: to_server.AddElement) -> Answer:
     wire, replaces = (None if ends is None else _ends(ends) for ends in (m.wire, m.replaces))
     around = Around(_port(m.source), _port(m.target), wire, replaces)
+    values = hub.embodiment.starting_values(m.kind, m.values)
     made = await _changed(
-        hub, lambda doc: building.add(doc, m.kind, m.values, m.name, tuple(m.group), m.at, around)
+        hub, lambda doc: building.add(doc, m.kind, values, m.name, tuple(m.group), m.at, around)
     )
     return Answer(request=m.request, made=made)
 

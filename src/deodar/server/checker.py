@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from deodar.model.check import check
+from deodar.errors import Problem
 from deodar.model.document import Document
 from deodar.server import view
 from deodar.server.change_queue import ChangeQueue
@@ -28,6 +28,7 @@ class Checker:
 
     Args:
         present: returns the version and the document that are open.
+        check: returns the problems and warnings of a document; it is called in another thread.
         queue: keeps a reference to the task.
         changed: called after each result.
     """
@@ -35,26 +36,27 @@ class Checker:
     def __init__(
         self,
         present: Callable[[], tuple[int, Document | None]],
+        check: Callable[[Document], Sequence[Problem]],
         queue: ChangeQueue,
         changed: Callable[[], None],
     ) -> None:
         self.found: Checked | None = None
-        self._present, self._queue, self._changed = present, queue, changed
+        self._present, self._check, self._queue, self._changed = present, check, queue, changed
         self._busy = False
 
     def start(self) -> None:
         """Check the open document, and repeat until its version no longer changes."""
         if not self._busy:
             self._busy = True
-            self._queue.start_task(self._check())
+            self._queue.start_task(self._repeat())
 
-    async def _check(self) -> None:
+    async def _repeat(self) -> None:
         try:
             version = -1
             while version != self._present()[0]:
                 await asyncio.sleep(SECONDS)
                 version, doc = self._present()
-                found = [] if doc is None else await asyncio.to_thread(check, doc)
+                found = [] if doc is None else await asyncio.to_thread(self._check, doc)
                 if doc is not None and version == self._present()[0]:
                     self.found = Checked(version=version, problems=view.problems(found, doc))
                     self._changed()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import base64
 import binascii
+import dataclasses as dc
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -14,7 +15,7 @@ import numpy as np
 from deodar import registry
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.errors import WorldError, did_you_mean
+from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.kinds.world_settings import require_settings
 from deodar.model.document import Document
 from deodar.numerics.axes import Axis
@@ -22,6 +23,7 @@ from deodar.recording.opened import opened
 from deodar.recording.provenance import described
 from deodar.server import scene
 from deodar.server.to_page import WorldPreview
+from deodar.session.exchange import used
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 
@@ -34,43 +36,50 @@ class Embodiment:
 
     An example is used if no world was chosen, or the chosen one lacks a sensor or motor of the document; it
     is of a kind that has all of them.
-
-    Attributes:
-        label: a phrase for the world in use.
     """
 
     def __init__(self, chosen: World | None = None) -> None:
         self.chosen = chosen
         self._dropped: tempfile.TemporaryDirectory[str] | None = None
-        self.label = ""
         self._name = (
             ""
             if chosen is None
             else _named(type(chosen).__name__, str((described(chosen) or {}).get("file", "")))
         )
 
-    def world(self, doc: Document) -> World | None:
-        """Return the world for a document.
+    def world(self, doc: Document, present: World | None = None) -> World | None:
+        """Return the world for a document; `present` is the one in use, which stays if it fits.
 
         Return None if the document has no sensors and motors, or if no world was chosen and no example fits;
-        a run then raises the error.
+        `problems` then says what is missing.
         """
         wanted = signals(doc)
-        self.label = ""
         if not wanted:
             return None
-        if self.chosen is None or not wanted <= {*self.chosen.sensors, *self.chosen.motors}:
-            fitting = [
-                cls
-                for cls in registry.kinds("worlds").values()
-                if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}
-            ]
-            if fitting:
-                self.label = _named(fitting[0].__name__, "an example")
-                with errors_of(fitting[0], "example"):
-                    return fitting[0].example()
-        self.label = self._name
+        for known in (present, self.chosen):
+            if known is not None and not missing(known, doc):
+                return known
+        for cls in registry.kinds("worlds").values():
+            if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}:
+                with errors_of(cls, "example"):
+                    return cls.example()
         return self.chosen
+
+    def label(self, world: World | None) -> str:
+        """Return a phrase for a world in use."""
+        if world is None:
+            return ""
+        return self._name if world is self.chosen else _named(type(world).__name__, "an example")
+
+    def starting_values(self, kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of a new element; a sensor gets axes over which an example can be read."""
+        if kind != Sensor.__name__ or "axes" in values:
+            return dict(values)
+        sensor = values.get("sensor", Sensor().sensor)
+        for cls in registry.kinds("worlds").values():
+            if cls.stands_in and sensor in cls.sensors:
+                return {**values, "axes": [dc.asdict(axis) for axis in cls.example_axes(sensor)]}
+        return dict(values)
 
     def kind(self, name: str) -> type[World]:
         """Return the class of a world."""
@@ -127,12 +136,46 @@ class Embodiment:
                 fix="Choose a world with all sensors and motors of the model",
             )
         self.chosen = world
-        self.label = self._name = _named(kind, name)
+        self._name = _named(kind, name)
 
 
 def missing(world: World, doc: Document) -> list[str]:
     """Return the sensors and motors of a document that a world does not have."""
     return sorted(signals(doc) - {*world.sensors, *world.motors})
+
+
+def problems(doc: Document, world: World | None) -> Sequence[Problem]:
+    """Return why a document cannot run in a world: signals that it lacks, or has over other axes."""
+    lacking = [_lacking(e.path, name, world) for e in doc.entries if (name := _lacks(e.element, world))]
+    if lacking:
+        return lacking
+    try:
+        used(doc, world)
+    except WorldError as error:
+        return error.problems
+    return ()
+
+
+def _lacks(element: object, world: World | None) -> str:
+    """Return the sensor or motor of an element that a world does not have; empty if it has all."""
+    name = ""
+    try:
+        if isinstance(element, Sensor):
+            name = f"sensor {element.sensor!r}"
+            if world is None:
+                return name
+            world.require(element.sensor)
+        elif isinstance(element, Motor) and world is not None:
+            name = f"motor {element.motor!r}"
+            world.require_motor(element.motor)
+    except WorldError:
+        return name
+    return ""
+
+
+def _lacking(path: str, name: str, world: World | None) -> Problem:
+    lacks = "no world was chosen that has" if world is None else f"the world {type(world).__name__} lacks"
+    return Problem(path, f"{lacks} the {name}", "Choose a world that has it: the button World in the header")
 
 
 def preview(world: World, doc: Document | None) -> WorldPreview:

@@ -127,12 +127,17 @@ class Hub:
             busy=self.project.busy or engine.busy,
             compiling=self._compiling(),
             failure=self.project.failures(),
-            world=self.embodiment.label,
-            senses=session is not None and bool(signals(session.document)),
+            world=self._world(session),
+            senses=self.project.senses,
             pushing="" if injection is None else injection.element,
             timeline=timeline,
             recording=self._recording(session),
         )
+
+    def _world(self, session: Session | None) -> str:
+        """Return a phrase for the world that the running document uses."""
+        used = session is not None and signals(session.document)
+        return self.embodiment.label(session.world) if session is not None and used else ""
 
     def _dt(self, session: Session | None) -> float:
         """Return the present step; of a document that is not compiled, the one that it will run with."""

@@ -22,12 +22,13 @@ from deodar.importers import examples, opening
 from deodar.live.compilation import Compilation
 from deodar.live.engine import Engine
 from deodar.model import edit, find
+from deodar.model.check import check
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
 from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
-from deodar.server import content, converted, kept_files, record_frames, view
+from deodar.server import content, converted, embodiment, kept_files, record_frames, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.comparison import RecordComparison
@@ -100,7 +101,10 @@ class OpenProject:
         self.scene: tuple[Scene | None, str] = (None, "")
         self.comparison: RecordComparison | None = None
         self.checker = Checker(
-            lambda: (self.version, None if self.model is None else self.model.document), self.queue, changed
+            lambda: (self.version, None if self.model is None else self.model.document),
+            self._check,
+            self.queue,
+            changed,
         )
         self.kept = kept_files.NOTHING
         self._name = ""
@@ -142,7 +146,7 @@ class OpenProject:
         before = self._converted[-1] if self._converted else None
 
         def convert() -> tuple[Converted, DocumentView]:
-            made = converted.convert(doc, before)
+            made = self._convert(doc, before)
             return made, view.document(doc, file, *status, made)
 
         made, shown = await asyncio.to_thread(convert)
@@ -171,6 +175,11 @@ class OpenProject:
     def edits(self) -> str:
         """Name under which the unsaved edits of the open document are stored; empty if none is open."""
         return self._name
+
+    @property
+    def senses(self) -> bool:
+        """Whether the open document has sensors or motors and can run."""
+        return self.model is not None and self.record is None and bool(signals(self.model.document))
 
     def failures(self) -> list[ListedProblem]:
         """Return why the document does not run; an empty list if it does."""
@@ -582,12 +591,18 @@ class OpenProject:
             WorldError: the world lacks a sensor or motor of the document.
         """
         model, session = self._require_model(), self.engine.session
-        self.embodiment.choose(world, kind, name, model.document)
+        doc = model.document
+        unfinished = bool(self._conversion(doc).problems)
+        self.embodiment.choose(world, kind, name, doc)
+        self._converted.clear()  # its problems may be those with another world
         if session is None:
             self.queue.start_task(self._restart())
-        elif signals(session.document):
-            await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
-        self._changed()
+        else:
+            if not (unfinished and embodiment.problems(session.document, world)):
+                await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
+            if unfinished:
+                await self._adopt(doc)
+        self._moved()
 
     def touch(self) -> None:
         """Send everything to all pages again, after a change outside the document."""
@@ -688,8 +703,26 @@ class OpenProject:
             return "recompile"
         if session.cost(doc) == "recompile" and self._conversion(doc).problems:
             return "recompile"
+        if not await self._enter_world(session, doc):
+            self.busy = "compiling"
+            await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
+            self.queue.start_task(self._restart())
+            return "recompile"
         cost: Any = await asyncio.wrap_future(self.engine.call(lambda: self.engine.adopt(model, doc)))
         return cost
+
+    async def _enter_world(self, session: Session, doc: Document) -> bool:
+        """Make the session use a world that a document can run in.
+
+        Return False if its present document cannot run there, so that the session must start again.
+        """
+        world = self.embodiment.world(doc, session.world)
+        if world is None or world is session.world:
+            return True
+        if embodiment.problems(session.document, world):
+            return False
+        await asyncio.wrap_future(self.engine.call(lambda: self.engine.see(world)))
+        return True
 
     async def _restart(self) -> None:
         """Compile a document again that failed before, after an edit."""
@@ -726,9 +759,29 @@ class OpenProject:
         """Return a document as parts of messages; the last ones are kept."""
         found = next((c for c in self._converted if c.document is doc), None)
         if found is None:
-            found = converted.convert(doc, self._converted[-1] if self._converted else None)
+            found = self._convert(doc, self._converted[-1] if self._converted else None)
             self._converted.append(found)
         return found
+
+    def _convert(self, doc: Document, before: Converted | None) -> Converted:
+        """Convert a document; where its structure is sound, its problems are those with the world."""
+        made = converted.convert(doc, before)
+        if made.problems or self.record is not None:
+            return made
+        return dc.replace(made, problems=self._world_problems(doc))
+
+    def _world_problems(self, doc: Document) -> Sequence[Wrong]:
+        session = self.engine.session
+        return embodiment.problems(
+            doc, self.embodiment.world(doc, None if session is None else session.world)
+        )
+
+    def _check(self, doc: Document) -> Sequence[Wrong]:
+        """Return the problems of a document, or else its warnings."""
+        found = check(doc)
+        if any(p.severity == "problem" for p in found):
+            return found
+        return self._world_problems(doc) or found
 
     def _edited(self, before: Document, cost: Cost) -> None:
         """Start a new version after an edit, which pages receive as a patch."""
