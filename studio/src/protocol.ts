@@ -659,7 +659,7 @@ export type Kind = {
   settings: WorldSettingView[];
 };
 
-// Open the model of the experiment again, after the record of a trial.
+// Open the document that was set aside for the record of a trial, with its edits.
 export type LeaveTrial = {
   type: "leave_trial";
   request?: number;
@@ -1106,12 +1106,11 @@ export type Rename = {
   group?: string[];
 };
 
-// Run a trial of the experiment again, and open its record. `discard` allows unsaved edits to be lost.
+// Run a trial of the experiment again, and open its record; the document with its edits is set aside.
 export type RepeatTrial = {
   type: "repeat_trial";
   request?: number;
   trial: number;
-  discard?: boolean;
 };
 
 // Reset state, time and noise to the start, with another seed if one is given. Parameters stay.

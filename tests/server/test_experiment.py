@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import dataclasses as dc
 import json
+import threading
 from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from deodar.experiments.results import stored_rows
 from deodar.server import hub, requests, to_server
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.open_experiment import OpenExperiment
+from deodar.server.project import ConfirmationRequired
 from tests.server.page import WAIT, Page, play, studio
 
 
@@ -364,3 +366,45 @@ def test_the_studio_checks_an_experiment_after_a_check_that_failed(
     asyncio.run(scene())
     reports = [record for record in caplog.records if "of an experiment" in (record.exc_text or "")]
     assert len(reports) == 1
+
+
+def test_the_document_with_its_edits_is_open_again_after_the_record_of_a_trial(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, own_state: Path
+) -> None:
+    monkeypatch.setattr(hub, "KEEP_SECONDS", 1e6)  # only the opening of the record stores edits
+    few(1).run(folder / "results")
+    few(1).save(folder / "two-targets.json")
+    ready, computed = threading.Event(), ExperimentRun.repeat
+
+    def repeat(run: ExperimentRun, trial: int) -> Path:
+        path = computed(run, trial)
+        assert ready.wait(WAIT)
+        return path
+
+    monkeypatch.setattr(ExperimentRun, "repeat", repeat)
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            project, experiment = d.hub.project, d.hub.experiment
+            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            await d.do(to_server.OpenFile(path="two-targets.model.json"))
+            u = project.document().entries[0].id
+            await d.do(to_server.SetParameter(element=u, parameter="tau", value=40.0))
+            repeated = asyncio.create_task(d.do(to_server.RepeatTrial(trial=1)))
+            await d.do(to_server.SetParameter(element=u, parameter="tau", value=50.0))
+            ready.set()
+            await repeated
+            assert experiment.repeated == 1 and project.record is not None
+            [stored] = (own_state / "unsaved").glob("*.json")
+            assert dd.load(stored).get("u.tau") == 50.0
+            with pytest.raises(ConfirmationRequired):
+                await d.do(to_server.OpenFile(path="two-targets.model.json"))
+            await d.do(to_server.LeaveTrial())
+            assert project.record is None and project.unsaved and stored.is_file()
+            assert project.file == folder / "two-targets.model.json"
+            assert project.model is not None and project.model.get("u.tau") == 50.0
+            await d.do(to_server.Undo())
+            await d.do(to_server.Undo())
+            assert project.model.get("u.tau") == 20.0 and not project.unsaved
+
+    asyncio.run(scene())

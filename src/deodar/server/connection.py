@@ -42,7 +42,7 @@ from deodar.server.to_page import (
     TimelineView,
     WorldScene,
 )
-from deodar.server.to_server import MESSAGES, Drawn, RunRecordFrom
+from deodar.server.to_server import MESSAGES, Drawn, RepeatTrial, RunRecordFrom
 from deodar.session.port_reader import PortKey
 
 MOST_ANSWERS = 64
@@ -110,7 +110,7 @@ class PageConnection:
                     self._hub.engine.want()
                     self.page.wake()
                 continue
-            if isinstance(message, RunRecordFrom):  # it may take as long as the recorded run
+            if isinstance(message, (RunRecordFrom, RepeatTrial)):  # they may take as long as the whole run
                 self._hub.project.queue.start_task(self._do(message))
                 continue
             await self._do(message)

@@ -50,7 +50,7 @@ async def _stop(hub: Hub, page: Page, m: to_server.StopExperiment) -> None:
 
 @handles(to_server.RepeatTrial)
 async def _repeat(hub: Hub, page: Page, m: to_server.RepeatTrial) -> None:
-    await hub.experiment.repeat(m.trial, m.discard)
+    await hub.experiment.repeat(m.trial)
 
 
 @handles(to_server.LeaveTrial)

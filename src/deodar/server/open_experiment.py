@@ -48,7 +48,7 @@ class OpenExperiment:
     Methods that change it must be called through the queue of the project, except `repeat`, `stop` and
     `check`.
 
-    While the record of one of its trials is open, its model is the document that was open before.
+    While the record of one of its trials is open, its model is the document that the project set aside.
 
     Attributes:
         data: the plain data without its version and model; None: no experiment is open.
@@ -72,8 +72,8 @@ class OpenExperiment:
         self.number = 0
         self.repeated: int | None = None
         self._saved: JsonObject | None = None
-        self._home: tuple[Document, Path | None] | None = None
         self._shown = Path()
+        self._repeats = 0
         self._checked: tuple[int, Document | None] = (0, None)
 
     # ------------------------------------------------------------------------------------------------ looking
@@ -113,8 +113,8 @@ class OpenExperiment:
 
     def _document(self) -> Document:
         """Return the model of the experiment, without positions of panels."""
-        if self._home is not None:
-            return view.plain(self._home[0])
+        if self._project.aside is not None:
+            return view.plain(self._project.aside.model.document)
         if self._project.model is None or self._project.record is not None:
             raise DocumentError("no document is open", fix="Open the model of the experiment first")
         return view.plain(self._project.model.document)
@@ -155,8 +155,8 @@ class OpenExperiment:
     async def check(self) -> None:
         """Find the problems of the experiment, if it or its model changed since the last check."""
         record = self._project.record
-        if self._home is not None and (record is None or record.path != self._shown):
-            self._home, self.repeated = None, None  # the record of the trial was closed
+        if self.repeated is not None and (record is None or record.path != self._shown):
+            self.repeated = None  # the record of the trial was closed
         try:
             now = self.version, None if self.data is None else self._document()
         except DeodarError:
@@ -229,7 +229,7 @@ class OpenExperiment:
     async def _take(self, data: JsonObject, file: Path | None, saved: JsonObject | None) -> None:
         await self._end_run()
         self.data, self.file, self._saved = data, file, saved
-        self.run, self.repeated, self._home = None, None, None
+        self.run, self.repeated = None, None
         self.version += 1
         self._changed()
 
@@ -276,7 +276,8 @@ class OpenExperiment:
         place = self._workspace.target(path) if path else self.file
         if place is None:
             raise DocumentError("the experiment has no file yet", fix="Save it under a name")
-        own = self._project.file if self._home is None else self._home[1]
+        aside = self._project.aside
+        own = self._project.file if aside is None else aside.file
         model = Model(document=self._document()) if own is None else os.path.relpath(own, place.parent)
         experiment = self._experiment(model)
 
@@ -321,27 +322,33 @@ class OpenExperiment:
         if self.run is not None:
             self.run.stop()
 
-    async def repeat(self, trial: int, discard: bool) -> None:
-        """Run a trial again and open its record; documents can be edited until it is ready."""
-        run, project = self.run, self._project
+    async def repeat(self, trial: int) -> None:
+        """Run a trial again and open its record; documents can be edited until it is ready.
+
+        Raises:
+            DocumentError: there is no run, or another trial or experiment was opened meanwhile.
+        """
+        run = self.run
         if run is None:
             raise DocumentError("the experiment has no rows")
-        if project.unsaved and not discard:
-            raise ConfirmationRequired("unsaved")
-        home = self._home
-        if home is None and project.model is not None and project.record is None:
-            home = project.model.document, project.file
+        self._repeats += 1
+        latest = self._repeats
         path = await asyncio.to_thread(run.repeat, trial)
-        await project.queue.run(lambda: project.open_file(path, discard))
-        if project.record is not None:
-            self._home, self.repeated, self._shown = home, trial, project.record.path
+
+        async def show() -> None:
+            if run is not self.run or latest != self._repeats:
+                raise DocumentError(f"another trial was opened meanwhile; the record of trial {trial} is not")
+            await self._project.open_trial(path)
+            if self._project.record is not None:
+                self.repeated, self._shown = trial, self._project.record.path
             self._changed()
+
+        await self._project.queue.run(show)
 
     async def leave_trial(self) -> None:
         """Open the model of the experiment again, after the record of a trial."""
-        home, self._home, self.repeated = self._home, None, None
-        if home is not None:
-            await self._project.open_model(lambda: home[0], home[1], home[0].name, True)
+        self.repeated = None
+        await self._project.reopen()
         self._changed()
 
 

@@ -56,6 +56,36 @@ class ConfirmationRequired(Exception):
         super().__init__(question)
 
 
+@dc.dataclass(frozen=True)
+class SetAside:
+    """An open document in whose place the record of a trial is shown.
+
+    Attributes:
+        model: the document, with its history.
+        file: the file that it is saved to.
+        saved: the document as saved last.
+        digest: the digest of its file as read or written last.
+        name: the name under which its unsaved edits are stored.
+        kept: the document as stored last under that name.
+    """
+
+    model: Model
+    file: Path | None
+    saved: Document | None
+    digest: str
+    name: str
+    kept: Document | None
+
+    @property
+    def unsaved(self) -> bool:
+        """Whether the document has edits that are not saved to a file."""
+        return _differs(self.model.document, self.saved)
+
+
+def _differs(doc: Document, saved: Document | None) -> bool:
+    return saved is not doc and view.plain(doc) != saved
+
+
 class OpenProject:
     """The open document, if any.
 
@@ -72,6 +102,7 @@ class OpenProject:
         busy: a phrase for the compilation in progress; empty: none.
         compilation: the compilation in progress, or the last one.
         record: the open record, whose document `model` has; None: the document runs.
+        aside: the document in whose place the open record is shown; None: the record is not that of a trial.
         comparison: the comparison of the open record with another one.
         scene: the view of the record's world at its start, and a sentence on what it does not contain.
         kept: the snapshots and presets of the document, as listed last.
@@ -98,6 +129,7 @@ class OpenProject:
         self.busy = ""
         self.compilation: Compilation | None = None
         self.record: RecordReader | None = None
+        self.aside: SetAside | None = None
         self.scene: tuple[Scene | None, str] = (None, "")
         self.comparison: RecordComparison | None = None
         self.checker = Checker(
@@ -164,17 +196,12 @@ class OpenProject:
     @property
     def unsaved(self) -> bool:
         """Whether the document has edits that are not saved to a file."""
-        return (
-            self.model is not None
-            and self.record is None
-            and self._saved is not self.model.document
-            and view.plain(self.model.document) != self._saved
-        )
+        return self.model is not None and self.record is None and _differs(self.model.document, self._saved)
 
     @property
     def edits(self) -> str:
         """Name under which the unsaved edits of the open document are stored; empty if none is open."""
-        return self._name
+        return self._name if self.aside is None else self.aside.name
 
     @property
     def senses(self) -> bool:
@@ -211,10 +238,40 @@ class OpenProject:
             await self._refuse(str(path), error)
             return
         await self._leave()
-        self.record, self.scene = record, scene
-        self.model = Model(document=record.document)
+        self._show(record, scene)
         await try_in_file_thread(lambda: self.store.opened(path))
         self._moved()
+
+    def _show(self, record: RecordReader, scene: tuple[Scene | None, str]) -> None:
+        self.record, self.scene = record, scene
+        self.model = Model(document=record.document)
+
+    async def open_trial(self, path: Path) -> None:
+        """Open the record of a trial, and set the open document aside until `reopen`.
+
+        Raises:
+            DeodarError: the record cannot be read; the document stays open.
+        """
+        record, scene = await in_file_thread(lambda: record_frames.opened(path), str(path))
+        await self.keep()
+        aside = self.aside
+        if self.model is not None and self.record is None:
+            aside = SetAside(self.model, self.file, self._saved, self._digest, self._name, self._kept)
+        self._name, self.aside = "", None  # its stored edits stay
+        await self._leave()
+        self.aside = aside
+        self._show(record, scene)
+        self._moved()
+
+    async def reopen(self) -> None:
+        """Open the document that was set aside, with its history and its unsaved edits, if there is one."""
+        aside, self.aside = self.aside, None
+        if aside is None:
+            return
+        await self._leave()
+        self.model, self.file, self._saved, self._digest = aside.model, aside.file, aside.saved, aside.digest
+        self._name, self._kept = aside.name, aside.kept
+        self._run_opened()
 
     async def open_record_model(self, discard: bool) -> None:
         """Open the document of the open record, as a document without a file."""
@@ -307,7 +364,11 @@ class OpenProject:
         self._name, self._kept = self.store.new_name(), doc
         if file is not None:
             await try_in_file_thread(lambda: self.store.opened(file))
-        if self._conversion(doc).problems:  # it is shown and edited, and runs once it has none
+        self._run_opened()
+
+    def _run_opened(self) -> None:
+        """Show the document that was opened, and compile it."""
+        if self._conversion(self._require().document).problems:  # it is edited, and runs once it has none
             self._moved()
             return
         self.busy = "compiling"  # set before pages receive the document, so that no page considers it ready
@@ -321,13 +382,14 @@ class OpenProject:
         self._moved()
 
     async def _leave(self) -> None:
-        if self._name:
-            await try_in_file_thread(lambda: self.store.forget(self._name))
+        for name in (self._name, "" if self.aside is None else self.aside.name):
+            if name:
+                await try_in_file_thread(lambda name=name: self.store.forget(name))
         self.queue.session += 1
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.file_problems, self.failure, self.busy = ("", ()), (), ""
-        self.record, self.scene, self.kept = None, (None, ""), kept_files.NOTHING
+        self.record, self.aside, self.scene, self.kept = None, None, (None, ""), kept_files.NOTHING
         self._converted.clear()
         self.end_comparison()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
@@ -382,7 +444,8 @@ class OpenProject:
             self._changed()
 
     def _ask_unsaved(self, discard: bool) -> None:
-        if self.unsaved and not discard:
+        unsaved = self.unsaved if self.aside is None else self.aside.unsaved
+        if unsaved and not discard:
             raise ConfirmationRequired("unsaved")
 
     # ------------------------------------------------------------------------------------------------- saving
@@ -514,6 +577,7 @@ class OpenProject:
         if attempt != self._attempt:
             raise DocumentError("another request ended the repetition of the record")
         doc, world = session.document, session.world
+        self.aside = None  # the stored edits of the document stay
         await self._leave()
         self.model = Model(document=doc, trusted=self.trust)
         self._saved, self._digest = view.plain(doc), ""

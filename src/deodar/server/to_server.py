@@ -820,12 +820,11 @@ class StopExperiment(Request, frozen=True, kw_only=True, tag="stop_experiment"):
 
 @MESSAGES.register
 class RepeatTrial(Request, frozen=True, kw_only=True, tag="repeat_trial"):
-    """Run a trial of the experiment again, and open its record. `discard` allows unsaved edits to be lost."""
+    """Run a trial of the experiment again, and open its record; the document with its edits is set aside."""
 
     trial: Count
-    discard: bool = False
 
 
 @MESSAGES.register
 class LeaveTrial(DocumentRequest, frozen=True, kw_only=True, tag="leave_trial"):
-    """Open the model of the experiment again, after the record of a trial."""
+    """Open the document that was set aside for the record of a trial, with its edits."""

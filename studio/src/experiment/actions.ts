@@ -41,7 +41,7 @@ export const create = () => request({ type: "new_experiment" });
 export const close = () => request({ type: "close_experiment" });
 export const run = () => request({ type: "run_experiment" });
 export const stop = () => request({ type: "stop_experiment" });
-export const repeat = (trial: number) => leave({ type: "repeat_trial", trial });
+export const repeat = (trial: number) => request({ type: "repeat_trial", trial });
 export const backToModel = () => request({ type: "leave_trial" });
 
 function openExperiment(): Saved {

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from "vitest";
 
-import type { DocumentView, Folder, Kind, Welcome } from "../protocol";
+import type { DocumentView, ExperimentView, Folder, Kind, Welcome } from "../protocol";
 import { useStudio } from "../store";
 import { leave, open, save, saveAs, takeDropped, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
@@ -78,6 +78,15 @@ describe("leaving a document", () => {
     expect(await leave({ type: "close" })).toBe(true);
     expect(questions.map((q) => q.name)).toEqual(["unsaved", "save_as"]);
     expect(sent.map((m) => m.type)).toEqual(["close", "save", "close"]);
+  });
+
+  it("returns from the record of a trial before it saves", async () => {
+    useStudio.setState({ experiment: { repeated: 5 } as ExperimentView });
+    given({ file: "a.json" });
+    server({ ask: "unsaved" }, {}, {}, {});
+    person("save");
+    expect(await leave({ type: "open_file", path: "b.json" })).toBe(true);
+    expect(sent.map((m) => m.type)).toEqual(["open_file", "leave_trial", "save", "open_file"]);
   });
 
   it("is cancelled if the user cancels saving", async () => {

@@ -15,7 +15,6 @@ import type {
   Recover,
   Save,
   SaveExperiment,
-  RepeatTrial,
 } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
@@ -28,7 +27,6 @@ const MOST_BYTES = 40 * 2 ** 20;
 type Leaving =
   | NewDocument
   | OpenExperimentFile
-  | RepeatTrial
   | OpenFile
   | OpenExample
   | OpenText
@@ -46,12 +44,18 @@ export async function leave(message: Leaving): Promise<boolean> {
   const choice = await ask("unsaved", { title: useStudio.getState().document?.title ?? "" });
   switch (choice) {
     case "save":
-      return (await save()) && leave(message);
+      return (await toModel()) && (await save()) && leave(message);
     case "discard":
       return leave({ ...message, discard: true });
     case "cancel":
       return false;
   }
+}
+
+// The document that was set aside for the record of a trial is open again before it is saved.
+async function toModel(): Promise<boolean> {
+  const repeated = useStudio.getState().experiment?.repeated ?? null;
+  return repeated === null || done((await socket.ask({ type: "leave_trial" })).answer);
 }
 
 export async function open(): Promise<boolean> {
