@@ -16,7 +16,7 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import type { DrawingFormat } from "./exportDrawing";
 import { exportCsv, type Table } from "./exportCsv";
-import { type PlotKind, portAxes, titleOf } from "./kinds";
+import { hasFigure, type PlotKind, portAxes, titleOf } from "./kinds";
 import { PlotParameters } from "./PlotParameters";
 import type { PlotParams, PlotSettings } from "./settings";
 import type { Streaming } from "./useStreams";
@@ -153,12 +153,14 @@ export function PlotFrame(props: PlotFrameProps) {
                 Export CSV
               </Menu.Item>
             )}
-            <Menu.Item
-              leftSection={<IconFileDescription size={15} />}
-              onClick={() => void saveFigure({ element: element.id, port, kind, range })}
-            >
-              Save as a figure file
-            </Menu.Item>
+            {hasFigure(kind) && (
+              <Menu.Item
+                leftSection={<IconFileDescription size={15} />}
+                onClick={() => void saveFigure({ element: element.id, port, kind, range })}
+              >
+                Save as a figure file
+              </Menu.Item>
+            )}
           </Menu.Dropdown>
         </Menu>
       </header>

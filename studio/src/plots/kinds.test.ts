@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../protocol";
 import {
+  hasFigure,
   axisLabel,
   cell,
   commonScale,
@@ -137,6 +138,13 @@ describe("kinds of plots", () => {
     const one = element("a", "k", { output: ["x"], state: ["x"], total: [], input: ["x"] }, ["input"]);
     expect(portsAlike(one, "output")).toEqual(["output", "state", "input"]);
     expect(portsAlike(one, "total")).toEqual(["total"]);
+  });
+});
+
+describe("figure files", () => {
+  it("are offered for plots that deodar plot draws in the same way", () => {
+    expect(["course", "curve", "heat", "space_time"].every(hasFigure)).toBe(true);
+    expect(["kernel", "phase", "ridges"].some(hasFigure)).toBe(false);
   });
 });
 

@@ -65,6 +65,13 @@ export function plotKinds(
   ];
 }
 
+const FIGURES: PlotKind[] = ["course", "curve", "heat", "picture", "space_time"];
+
+// Whether `deodar plot` has a figure that draws the same as a plot.
+export function hasFigure(kind: PlotKind): boolean {
+  return FIGURES.includes(kind);
+}
+
 // Whether a plot of a package can show an array over these axes.
 export function fits(plot: PlotView, axes: AxisView[]): boolean {
   const drawn = isPicture(axes) ? 3 : Math.min(axes.length, 2);
