@@ -197,6 +197,30 @@ test("a box without connections that is dropped on a wire is inserted into it, a
   await observer.until(() => wires().join() === "left.output node.input");
 });
 
+test("the ports of a folded group begin and end connections of the elements inside", async () => {
+  const { page } = studio;
+  const ids = (names: string[]) => names.map((name) => observer.element(name).id);
+  await observer.ask({ type: "add_element", kind: "GaussianStimulus", name: "right", at: [0, 200] });
+  await observer.ask({ type: "connect", source: ids(["left"])[0] ?? "", target: ids(["u"])[0] ?? "" });
+  await observer.ask({ type: "connect", source: ids(["u"])[0] ?? "", target: ids(["node"])[0] ?? "" });
+  await observer.ask({ type: "group", elements: ids(["u"]), name: "g" });
+  await observer.ask({ type: "arrange", layout: { folded: ["g"] }, undoable: false });
+  const group = page.getByRole("group", { name: /^Group g, folded/ });
+  await group.waitFor();
+  await page.getByRole("button", { name: "Show everything" }).click();
+  const inner = (title: string) => group.locator(`.react-flow__handle[title="${title}"]`);
+  await pull(port("right", "output"), await middle(inner("g.u.input")));
+  await page.mouse.up();
+  await observer.until(() => wires().includes("right.output g.u.input"));
+  await observer.ask({ type: "add_element", kind: "RateNode", name: "other", at: [640, 200] });
+  await box(page, "other").waitFor();
+  await page.getByRole("button", { name: "Show everything" }).click();
+  await pull(inner("g.u.output"), await middle(port("other", "input")));
+  await shot(page, "wires-folded");
+  await page.mouse.up();
+  await observer.until(() => wires().includes("g.u.output other.input"));
+});
+
 test("the keyboard connects the selected element with what is typed, and removes a connection", async () => {
   const { page } = studio;
   await select(page, "left");

@@ -60,15 +60,15 @@ export function useWires(wires: Wire[]): Props {
         void begin(from, handleType, moved);
         moved = null;
       } else if (nodeId !== null && handleId !== null && handleType !== null) {
+        const { element, port } = endAt(nodeId, handleId);
         useHover.getState().close();
-        void begin({ element: nodeId, port: handleId }, handleType);
+        void begin({ element, port: port ?? "" }, handleType);
       }
     };
     const stop: Props["onConnectEnd"] = (event, { toHandle }) => {
       const { clientX: x, clientY: y } =
         "changedTouches" in event ? (event.changedTouches[0] as Touch) : event;
-      const to =
-        toHandle === null ? elementAt(x, y) : { element: toHandle.nodeId, port: toHandle.id ?? null };
+      const to = toHandle === null ? elementAt(x, y) : endAt(toHandle.nodeId, toHandle.id ?? null);
       if (to === "outside") {
         end();
       } else {
@@ -91,8 +91,9 @@ export function useWires(wires: Wire[]): Props {
       onClickConnectEnd: stop,
       isValidConnection: ({ source, sourceHandle, target, targetHandle }) => {
         const { wiring } = useWiring.getState();
-        const [element, port] = wiring?.side === "source" ? [target, targetHandle] : [source, sourceHandle];
-        const fit = wiring?.fits == null ? undefined : fitOf(wiring.fits, element, port ?? null);
+        const [node, handle] = wiring?.side === "source" ? [target, targetHandle] : [source, sourceHandle];
+        const { element, port } = endAt(node, handle ?? null);
+        const fit = wiring?.fits == null ? undefined : fitOf(wiring.fits, element, port);
         return fit !== undefined && stateOf(fit) !== "no";
       },
       // a click at a port, and then one on the ground
@@ -119,6 +120,14 @@ export function useWires(wires: Wire[]): Props {
   return { ...props, edges };
 }
 
+// The element and its port at a handle; the handles of a folded group name those inside.
+function endAt(node: string, handle: string | null): { element: string; port: string | null } {
+  const gap = handle?.indexOf(" ") ?? -1;
+  return node.startsWith("group:") && handle !== null && gap >= 0
+    ? { element: handle.slice(0, gap), port: handle.slice(gap + 1) }
+    : { element: node, port: handle };
+}
+
 function insertInto(wire: string, x: number, y: number): void {
   const ends = firstOf(wire);
   if (ends !== null) {
@@ -133,5 +142,7 @@ function elementAt(x: number, y: number): { element: string; port: null } | null
   if (box != null) {
     return { element: box, port: null };
   }
-  return found?.closest(".react-flow") == null ? "outside" : null;
+  return found?.closest(".react-flow") == null || found.closest(".react-flow__node-folded") !== null
+    ? "outside"
+    : null;
 }

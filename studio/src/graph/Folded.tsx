@@ -1,17 +1,24 @@
-// A folded group: one box with its name and how much is in it.
+// A folded group: one box with its name, how much is in it, and the ports that are connected with the
+// outside.
 
 import { ActionIcon } from "@mantine/core";
 import { IconChevronRight } from "@tabler/icons-react";
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
+import type { Side } from "../build/ends";
+import { usePortFits } from "../build/usePortFits";
+import { askFits, useWiring } from "../build/wiring";
 import { useStudio } from "../store";
 import { fold } from "./arrange";
+import { portHeight } from "./boxes";
+import { FOLDED } from "./layout";
 import { MarkIcon } from "./Mark";
-import type { FoldedNode } from "./scene";
+import { type FoldedNode, type FoldedPort, portHandle } from "./scene";
 import { problemOf, warningOf } from "./problem";
 import { keyOf } from "./tree";
 
-export const Folded = memo(function Folded({ data: { key, name, count } }: NodeProps<FoldedNode>) {
+export const Folded = memo(function Folded({ data }: NodeProps<FoldedNode>) {
+  const { key, name, count, inputs, outputs } = data;
   const inside = useStudio(
     (state) =>
       state.document?.elements.some((e) => within(e.group, key) && problemOf(e.id, state) !== "") ?? false,
@@ -34,7 +41,7 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
         fold(key, false);
       }}
     >
-      <Handle type="target" position={Position.Left} isConnectable={false} />
+      <Ports side="target" shown={inputs} />
       <ActionIcon
         className="nodrag"
         size="sm"
@@ -58,10 +65,53 @@ export const Folded = memo(function Folded({ data: { key, name, count } }: NodeP
           <MarkIcon problem={inside} size={16} />
         </span>
       )}
-      <Handle type="source" position={Position.Right} isConnectable={false} />
+      <Ports side="source" shown={outputs} />
     </div>
   );
 });
+
+type BorderPortsProps = { side: Side; shown: FoldedPort[] };
+
+// The wires of the group end at one handle in the middle.
+function Ports({ side, shown }: BorderPortsProps) {
+  const position = side === "target" ? Position.Left : Position.Right;
+  return (
+    <>
+      <Handle type={side} position={position} isConnectable={false} />
+      {shown.map((port, n) => (
+        <BorderPort
+          key={portHandle(port)}
+          side={side}
+          position={position}
+          top={portHeight(FOLDED.height, n, shown.length)}
+          port={port}
+        />
+      ))}
+    </>
+  );
+}
+
+type BorderPortProps = { side: Side; position: Position; top: number; port: FoldedPort };
+
+// A port of an element inside.
+function BorderPort({ side, position, top, port: { element, port, path } }: BorderPortProps) {
+  const fits = usePortFits(element);
+  return (
+    <Handle
+      id={portHandle({ element, port })}
+      type={side}
+      position={position}
+      style={{ top }}
+      title={path}
+      data-fits={fits.ports.get(port)}
+      onPointerEnter={() => {
+        if (useWiring.getState().wiring === null) {
+          void askFits({ element, port });
+        }
+      }}
+    />
+  );
+}
 
 function within(group: string[], key: string): boolean {
   const own = keyOf(group);

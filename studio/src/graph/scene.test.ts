@@ -35,12 +35,19 @@ test("an open group is a frame before its elements; couplings are on edges", () 
   expect([...pills.keys()]).toEqual(["g.k"]);
 });
 
-test("edges end at a folded group, and parallel edges become one", () => {
+test("edges end at a folded group, parallel edges become one, and the group has the ports of all", () => {
   const { nodes, wires } = made(["g"]);
   expect(nodes.map((n) => n.type)).toEqual(["folded", "box", "box"]);
   expect(wires.map((w) => [w.source, w.target, w.data?.count])).toEqual([
     ["s", "group:g", 2],
     ["group:g", "t", 1],
+  ]);
+  expect(nodes[0]?.handles?.map(({ id, type }) => [id, type])).toEqual([
+    [null, "target"],
+    [null, "source"],
+    ["g.u input", "target"],
+    ["g.v input", "target"],
+    ["g.v output", "source"],
   ]);
 });
 

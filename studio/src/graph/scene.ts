@@ -25,7 +25,16 @@ export type BoxData = {
   inputs: string[];
   outputs: string[];
 };
-export type GroupData = { key: string; name: string; count: number };
+// A port of an element in a folded group that is connected with the outside.
+export type FoldedPort = { element: string; port: string; path: string };
+// `inputs` and `outputs` are those of a folded group, up to `MOST_PORTS`.
+export type GroupData = {
+  key: string;
+  name: string;
+  count: number;
+  inputs: FoldedPort[];
+  outputs: FoldedPort[];
+};
 // `chains`: what a wire stands for; those of a folded group are one. `shared`: whether an arrow ends at the
 // same port.
 export type WireData = {
@@ -72,10 +81,14 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
     room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")),
   }));
   const where = places(found.root, sizes, bonds, readBoxes(layout), panel);
+  const borders = foldedPorts(chained.edges, found, names);
   const wires = wiresOf(chained.edges, found, names);
   lanes(wires, (node) => rectOf(node, where, sizes));
   return {
-    nodes: [...nodesOf(found.root, names, kinds, sizes, where), ...readComments(layout).map(commentNode)],
+    nodes: [
+      ...nodesOf(found.root, names, kinds, sizes, where, borders),
+      ...readComments(layout).map(commentNode),
+    ],
     wires,
     tree: found,
     places: where,
@@ -99,6 +112,7 @@ function nodesOf(
   kinds: Map<string, Kind>,
   sizes: Map<string, Size>,
   where: Places,
+  borders: Map<string, Border>,
 ): SceneNode[] {
   const parent = branch.key === "" ? null : (where.groups.get(branch.key) ?? null);
   const stand = (at: Point) => ({
@@ -117,8 +131,8 @@ function nodesOf(
     if (rect === undefined) {
       return [];
     }
-    const own = groupOf(group, rect, stand(rect));
-    return group.folded ? [own] : [own, ...nodesOf(group, names, kinds, sizes, where)];
+    const own = groupOf(group, rect, stand(rect), borders.get(group.key) ?? NO_BORDER);
+    return group.folded ? [own] : [own, ...nodesOf(group, names, kinds, sizes, where, borders)];
   });
   return [...groups, ...boxes];
 }
@@ -173,8 +187,8 @@ function boxNode(element: ElementView, kinds: Map<string, Kind>, size: Size, sta
   };
 }
 
-function groupOf(group: Branch, rect: Rect, stand: Stand): FrameNode | FoldedNode {
-  const data = { key: group.key, name: group.name, count: group.count };
+function groupOf(group: Branch, rect: Rect, stand: Stand, border: Border): FrameNode | FoldedNode {
+  const data = { key: group.key, name: group.name, count: group.count, ...border };
   const common = {
     id: groupNode(group.key),
     ...stand,
@@ -185,7 +199,12 @@ function groupOf(group: Branch, rect: Rect, stand: Stand): FrameNode | FoldedNod
     selectable: false,
   };
   if (group.folded) {
-    const handles = [...ports([""], "target", FOLDED), ...ports([""], "source", FOLDED)];
+    const handles = [
+      ...ports([""], "target", FOLDED),
+      ...ports([""], "source", FOLDED),
+      ...ports(border.inputs.map(portHandle), "target", FOLDED),
+      ...ports(border.outputs.map(portHandle), "source", FOLDED),
+    ];
     return {
       ...common,
       type: "folded",
@@ -217,6 +236,40 @@ function ports(names: string[], type: "source" | "target", { width, height }: Si
     width: 8,
     height: 8,
   }));
+}
+
+// The most ports that a side of a folded group shows.
+const MOST_PORTS = 5;
+
+type Border = Pick<GroupData, "inputs" | "outputs">;
+const NO_BORDER: Border = { inputs: [], outputs: [] };
+
+export const portHandle = ({ element, port }: { element: string; port: string }): string =>
+  `${element} ${port}`;
+
+// The ports at which connections enter and leave each folded group.
+function foldedPorts(edges: Chain[], found: Tree, names: Map<string, ElementView>): Map<string, Border> {
+  const borders = new Map<string, Border>();
+  const add = (group: Branch | null, side: "inputs" | "outputs", element: string, port: string) => {
+    if (group === null) {
+      return;
+    }
+    const border = borders.get(group.key) ?? NO_BORDER;
+    const shown = border[side];
+    const known = shown.some((one) => one.element === element && one.port === port);
+    if (!known && shown.length < MOST_PORTS) {
+      const path = `${names.get(element)?.path ?? element}.${port}`;
+      borders.set(group.key, { ...border, [side]: [...shown, { element, port, path }] });
+    }
+  };
+  for (const edge of edges) {
+    const [from, to] = [hiddenBy(found, edge.source), hiddenBy(found, edge.target)];
+    if (from === null || from !== to) {
+      add(from, "outputs", edge.source, edge.source_port);
+      add(to, "inputs", edge.target, edge.target_port);
+    }
+  }
+  return borders;
 }
 
 // Edges of elements in folded groups end at the group; those that then run between the same two ports become
