@@ -408,3 +408,52 @@ def test_the_document_with_its_edits_is_open_again_after_the_record_of_a_trial(
             assert project.model.get("u.tau") == 20.0 and not project.unsaved
 
     asyncio.run(scene())
+
+
+def test_saving_an_experiment_asks_before_it_replaces_a_file_of_others(folder: Path) -> None:
+    few().save(folder / "two-targets.json")
+    other = (folder / "two-targets.model.json").read_text(encoding="utf-8")
+    (folder / "exp.model.json").write_text("{}", encoding="utf-8")
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            save = to_server.SaveExperiment
+            await d.do(to_server.OpenText(name="other.json", text=other))
+            await d.do(to_server.NewExperiment())
+            with pytest.raises(ConfirmationRequired) as asked:
+                await d.do(save(path="exp.json"))
+            assert (asked.value.question, asked.value.file) == ("replace", "exp.model.json")
+            assert (folder / "exp.model.json").read_text(encoding="utf-8") == "{}"
+            await d.do(save(path="exp.json", replace=True))
+            await d.edit(trials=5)
+            await d.do(save())  # both files are its own now
+            assert dd.Experiment.load(folder / "exp.json").trials == 5
+            (folder / "exp.json").write_text("{}", encoding="utf-8")
+            with pytest.raises(ConfirmationRequired) as asked:
+                await d.do(save())
+            assert asked.value.file == "exp.json"
+
+    asyncio.run(scene())
+
+
+def test_an_experiment_keeps_its_model_while_another_document_is_open(folder: Path) -> None:
+    few().save(folder / "a.json")
+    few().save(folder / "b.json")
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="a.json"))
+            await d.do(to_server.OpenFile(path="b.model.json"))
+            await d.edit(trials=5)
+            with pytest.raises(DeodarError, match="belongs to a"):
+                await d.do(to_server.SaveExperiment())
+            with pytest.raises(DeodarError, match="is the file of the model"):
+                await d.do(to_server.SaveExperiment(path="b.model.json", replace=True))
+            await d.do(to_server.SaveExperiment(path="c.json"))
+            await d.do(to_server.OpenFile(path="a.model.json"))
+            await d.do(to_server.OpenFile(path="b.model.json"))
+            await d.do(to_server.SaveExperiment())
+
+    asyncio.run(scene())
+    models = {name: json.loads((folder / name).read_text())["model"] for name in ("a.json", "c.json")}
+    assert models == {"a.json": "a.model.json", "c.json": "b.model.json"}

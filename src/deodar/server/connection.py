@@ -122,7 +122,7 @@ class PageConnection:
         try:
             answers = await requests.do(self._hub, self.page, message)
         except ConfirmationRequired as required:
-            answers = [Answer(request=message.request, ask=required.question)]
+            answers = [Answer(request=message.request, ask=required.question, file=required.file)]
         except DeodarError as error:
             model = self._hub.project.model
             problems = view.problems(error.problems, None if model is None else model.document)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses as dc
+import hashlib
 import math
 import os
 import tempfile
@@ -72,6 +73,8 @@ class OpenExperiment:
         self.number = 0
         self.repeated: int | None = None
         self._saved: JsonObject | None = None
+        self._model: tuple[Model | None, Path | None] = (None, None)  # of the file, and its own file
+        self._digests: dict[Path, str] = {}
         self._shown = Path()
         self._repeats = 0
         self._checked: tuple[int, Document | None] = (0, None)
@@ -110,6 +113,11 @@ class OpenExperiment:
         first = count if number == self.number else 0
         rows = [] if run is None else run.rows[first : first + MOST_ROWS]
         return TrialRows(run=self.number, first=first, rows=rows) if rows else None
+
+    def _present(self) -> tuple[Model | None, Path | None]:
+        """Return the open document, or the one that was set aside, and its file."""
+        aside, project = self._project.aside, self._project
+        return (project.model, project.file) if aside is None else (aside.model, aside.file)
 
     def _document(self) -> Document:
         """Return the model of the experiment, without positions of panels."""
@@ -192,24 +200,25 @@ class OpenExperiment:
         """Open an experiment and its model; the rows beside its file are those of its run."""
         self._require_end()
 
-        def read() -> Experiment:
+        def read() -> tuple[Experiment, str]:
             with self._workspace.folder(place) as folder:
-                data = codec.read(folder.read(place.name, MOST_BYTES))
-            return Experiment.from_data(
-                data, None, lambda name: Model(document=self._model(place, name)[0]())
+                content = folder.read(place.name, MOST_BYTES)
+            found = Experiment.from_data(
+                codec.read(content), None, lambda name: Model(document=self._named(place, name)[0]())
             )
+            return found, hashlib.sha256(content).hexdigest()
 
         try:
-            found = await in_file_thread(read, str(place))
+            found, digest = await in_file_thread(read, str(place))
         except FileNotFoundError:
             raise DocumentError("there is no such file", where=self._workspace.shown(place)) from None
-        document, file = self._model(place, str(found.model))
+        document, file = self._named(place, str(found.model))
         await self._project.open_model(document, file, str(found.model), discard)
         if self._project.model is None:
             return
         data: Any = codec.parse(codec.line(found.to_data()))
         await self._take({key: value for key, value in data.items() if key not in APART}, place, None)
-        self._saved = self.data
+        self._saved, self._digests = self.data, {place: digest}
         if place.name == EXPERIMENT and (place.parent / ROWS).is_file():
             rows = await in_file_thread(lambda: stored_rows(place.parent), str(place))
             run = ExperimentRun(await asyncio.to_thread(self._setup), place.parent, self._changed)
@@ -218,7 +227,7 @@ class OpenExperiment:
             self.run = run
             self.number += 1
 
-    def _model(self, place: Path, name: str) -> tuple[Callable[[], Document], Path | None]:
+    def _named(self, place: Path, name: str) -> tuple[Callable[[], Document], Path | None]:
         """Return a function that reads the model of an experiment, and the file of this model."""
         if name.startswith(EXAMPLE):
             example = gallery.example_file(name.removeprefix(EXAMPLE))
@@ -230,6 +239,7 @@ class OpenExperiment:
         await self._end_run()
         self.data, self.file, self._saved = data, file, saved
         self.run, self.repeated = None, None
+        self._model, self._digests = self._present(), {}
         self.version += 1
         self._changed()
 
@@ -270,35 +280,55 @@ class OpenExperiment:
         """Write the experiment to a path, or to its own file; a model without a file is written beside it.
 
         Raises:
-            ConfirmationRequired: without `replace`, if the path is another file that exists.
-            DocumentError: the experiment has problems that a file cannot have.
+            ConfirmationRequired: without `replace`, if one of the files that are written exists, and was not
+                read or written by this experiment last.
+            DocumentError: the experiment has problems that a file cannot have, or another document than its
+                model is open.
         """
         place = self._workspace.target(path) if path else self.file
         if place is None:
             raise DocumentError("the experiment has no file yet", fix="Save it under a name")
-        aside = self._project.aside
-        own = self._project.file if aside is None else aside.file
+        present, own = self._present()
+        if place == self.file:
+            self._require_own(place)
+        if place == own:
+            raise DocumentError("is the file of the model", where=path, fix="Save it under another name")
         model = Model(document=self._document()) if own is None else os.path.relpath(own, place.parent)
         experiment = self._experiment(model)
 
-        def write() -> None:
-            with (
-                tempfile.TemporaryDirectory(prefix="deodar-") as private,
-                self._workspace.folder(place) as to,
-            ):
+        def make() -> dict[Path, bytes]:
+            with tempfile.TemporaryDirectory(prefix="deodar-") as private:
                 experiment.save(Path(private) / place.name)
-                made = {file.name: file.read_bytes() for file in Path(private).iterdir()}
-                # the experiment last, because it refers to the model
-                for name in sorted(made, key=lambda name: name == place.name):
-                    to.write(name, made[name])
+                return {place.with_name(file.name): file.read_bytes() for file in Path(private).iterdir()}
 
-        exists = await in_file_thread(place.exists, str(place))
-        if exists and place != self.file and not replace:
-            raise ConfirmationRequired("replace")
+        def write() -> None:
+            with self._workspace.folder(place) as to:
+                # the experiment last, because it refers to the model
+                for file in sorted(made, key=lambda file: file == place):
+                    to.write(file.name, made[file])
+
+        made = await in_file_thread(make, str(place))
+        digests = {file: hashlib.sha256(content).hexdigest() for file, content in made.items()}
+        for file in made if not replace else ():
+            now = await in_file_thread(lambda file=file: self._workspace.digest(file), str(file))
+            if now not in ("", self._digests.get(file), digests[file]):
+                raise ConfirmationRequired("replace", self._workspace.shown(file))
         await in_file_thread(write, str(place))
-        self.file, self._saved = place, self.data
+        self.file, self._saved, self._digests = place, self.data, digests
+        self._model = present, own
         self._changed()
         return place
+
+    def _require_own(self, place: Path) -> None:
+        """Raise DocumentError if the open document is another one than the model that the file names."""
+        (model, file), (present, own) = self._model, self._present()
+        if present is not model and (own is None or own != file):
+            name = "a model without a file" if file is None else self._workspace.shown(file)
+            raise DocumentError(
+                f"belongs to {name}, and another document is open",
+                where=self._workspace.shown(place),
+                fix="Open its model again, or save the experiment under another name",
+            )
 
     # --------------------------------------------------------------------------------------------- the trials
 

@@ -49,10 +49,16 @@ Ask = Literal["unsaved", "replace"]
 
 
 class ConfirmationRequired(Exception):
-    """A question that the user must answer before the request can be repeated."""
+    """A question that the user must answer before the request can be repeated.
 
-    def __init__(self, question: Ask) -> None:
+    Args:
+        question: the question.
+        file: the file that would be replaced, as the page names it; empty: the one that the request names.
+    """
+
+    def __init__(self, question: Ask, file: str = "") -> None:
         self.question: Ask = question
+        self.file = file
         super().__init__(question)
 
 

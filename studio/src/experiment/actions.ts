@@ -46,11 +46,12 @@ export const backToModel = () => request({ type: "leave_trial" });
 
 function openExperiment(): Saved {
   const { experiment } = useStudio.getState();
+  const file = experiment?.file ?? "";
   return {
-    file: experiment?.file ?? "",
+    file,
     name: String(experiment?.data?.["name"] ?? ""),
     message: (path, replace) => ({ type: "save_experiment", path, replace }),
-    isOwn: () => false,
+    isOwn: (path) => path === file,
   };
 }
 

@@ -106,7 +106,8 @@ export async function write(saved: Saved, path = "", replace = false): Promise<b
     }
     return false;
   }
-  const choice = await ask("replace", { path: path || file, own: isOwn(path) });
+  const inTheWay = answer.file || path || file;
+  const choice = await ask("replace", { path: inTheWay, own: isOwn(inTheWay) });
   switch (choice) {
     case "replace":
       return write(saved, path, true);
@@ -129,7 +130,7 @@ function openDocument(): Saved {
     file,
     name: title,
     message: (path, replace) => ({ type: "save", path, replace }),
-    isOwn: (path) => path === "" || path === file,
+    isOwn: (path) => path === file,
   };
 }
 
