@@ -12,6 +12,7 @@ import contextlib
 import dataclasses as dc
 import json
 import random
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -145,6 +146,24 @@ class State:
         """Replace the present document by a new one."""
         return State(new, self.past, None, gesture)
 
+    def each(self, how: Callable[[Document], Document]) -> State:
+        """Change all documents."""
+
+        def changed(chain: Any) -> Any:
+            found: list[Document] = []
+            while chain is not None:
+                found.append(chain[0])
+                chain = chain[1]
+            for doc in reversed(found):
+                chain = (how(doc), chain)
+            return chain
+
+        return State(how(self.document), changed(self.past), changed(self.future), self.gesture)
+
+
+def _arranged(doc: Document, m: dict[str, Any]) -> Document:
+    return edit.arrange(doc, {k: v for k, v in {**doc.layout, **m["layout"]}.items() if v is not None})
+
 
 def again(state: State, page: int, m: dict[str, Any]) -> State:
     """Return the state after an accepted edit; the same object if it changes nothing."""
@@ -157,8 +176,7 @@ def again(state: State, page: int, m: dict[str, Any]) -> State:
                 state if state.future is None else State(state.future[0], (doc, state.past), state.future[1])
             )
         case "arrange":
-            new = edit.arrange(doc, {k: v for k, v in {**doc.layout, **m["layout"]}.items() if v is not None})
-            return state.commit(new) if m["undoable"] else state.amend(new)
+            return state.commit(_arranged(doc, m)) if m["undoable"] else state.each(lambda d: _arranged(d, m))
         case _:
             new = _other(doc, m)
             mine = (page, m["gesture"]) if m.get("gesture") else None

@@ -157,10 +157,24 @@ def attack(steps: int, seed: int) -> Outcome:
     page, shown = whole(history.document), converted.convert(history.document)
     for _ in range(steps):
         choice = draw.random()
-        if choice < 0.3:
+        if choice < 0.28:
             history.undo()
-        elif choice < 0.5:
+        elif choice < 0.46:
             history.redo()
+        elif choice < 0.5:
+            steps_of = history.depth, history.ahead
+            folded = draw.choice(([], ["a"], ["a", "b"], None))
+            edit.arrange_everywhere(history, {"folded": folded, "panels": {"k": draw.random()}})
+            if (history.depth, history.ahead) != steps_of:
+                outcome.errors.append(f"step {outcome.steps}: a layout without undo changed the history")
+            texts = [written(doc) for doc in (*history.documents[: history.depth + 1],)]
+            texts += [written(doc) for doc in reversed(history.documents[history.depth + 1 :])]
+            outcome.edits["fold"] = outcome.edits.get("fold", 0) + 1
+        elif choice < 0.56 and history.depth:  # one more edit of a drag
+            new = edit.describe(history.document, notes=str(draw.random()))
+            history.amend(new)
+            texts[history.depth :] = [written(new)]
+            outcome.edits["amend"] = outcome.edits.get("amend", 0) + 1
         else:
             name = draw.choice(list(EDITS))
             try:

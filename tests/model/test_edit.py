@@ -264,3 +264,20 @@ def test_indices_of_a_document_are_extended_as_elements_are_added():
     model.add(dd.Field("v", []))
     assert len(vars(model.document)["_ends"]) == len(model.document.ends()) == 1
     assert [len(doc.by_names()) for doc in seen] == [1, 2, 3]
+
+
+def test_a_layout_changes_in_every_document_and_past_ones_keep_their_folded_groups() -> None:
+    first = edit.arrange(Document("d"), {"folded": ["old", "other"], "panels": 1})
+    history = edit.UndoHistory(first)
+    history.commit(edit.arrange(edit.describe(first, notes="renamed"), {"folded": ["new", "other"]}))
+    history.commit(edit.describe(history.document, notes="undone"))
+    history.undo()
+    edit.arrange_everywhere(history, {"folded": ["new", "more"], "panels": None})
+    assert (history.depth, history.ahead) == (1, 1)
+    assert [doc.layout["folded"] for doc in history.documents] == [
+        ["old", "more"],
+        ["new", "more"],
+        ["new", "more"],
+    ]
+    assert [doc.notes for doc in history.documents] == ["", "renamed", "undone"]
+    assert not any("panels" in doc.layout for doc in history.documents)

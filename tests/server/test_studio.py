@@ -281,6 +281,36 @@ def test_the_layout_is_stored_in_the_document(root: Path) -> None:
     assert layout == {"panels": {"a": 1}, "pins": [{"element": "e", "parameter": "tau"}]}
 
 
+def test_panels_and_folds_are_no_part_of_the_history(root: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.runs()
+        u = p.element("u")
+
+        async def arrange(**layout: Any) -> None:
+            await p.do("arrange", layout=layout, undoable=False)
+
+        def status() -> tuple[int, int, Any]:
+            return p.document["undo"], p.document["redo"], p.document["layout"]
+
+        await p.do("set", element=u, parameter="tau", value=33.0)
+        await p.do("undo")
+        await arrange(panels={"a": 1})
+        assert status() == (0, 1, {"panels": {"a": 1}}), "redo remains"
+        await p.do("redo")
+        await arrange(folded=["g"])
+        await p.do("undo")
+        assert status() == (0, 1, {"panels": {"a": 1}, "folded": ["g"]}), "the fold is not undone with tau"
+        for k, value in enumerate((21.0, 22.0)):  # the drag of a slider
+            await p.do("set", element=u, parameter="tau", value=value, gesture=5)
+            await arrange(panels={"a": 2 + k})
+        assert status() == (1, 0, {"panels": {"a": 3}, "folded": ["g"]}), "the drag is one step"
+        await p.do("undo")
+        assert p.document["layout"]["panels"] == {"a": 3}
+
+    with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
 def test_an_injected_input_creates_a_peak_until_it_ends(root: Path) -> None:
     async def scene(p: Page) -> None:
         await p.runs()

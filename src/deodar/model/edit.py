@@ -479,6 +479,31 @@ def arrange(doc: Document, layout: Mapping[str, Json]) -> Document:
     return dc.replace(doc, layout=dict(layout))
 
 
+def arrange_everywhere(history: UndoHistory, layout: Mapping[str, Json]) -> None:
+    """Change keys of the layout in all documents of a history; None removes a key.
+
+    Of a list (folded groups) the other documents take over what was added and removed, because groups may
+    have had other names.
+    """
+    present = history.document
+
+    def changed(doc: Document, key: str, value: Json) -> Json:
+        before, theirs = present.layout.get(key), doc.layout.get(key)
+        if doc is present or not isinstance(value, list):
+            return value
+        old, own = (each if isinstance(each, list) else [] for each in (before, theirs))
+        return [
+            *(each for each in own if each in value or each not in old),
+            *(each for each in value if each not in old and each not in own),
+        ]
+
+    def how(doc: Document) -> Document:
+        new = {**doc.layout, **{key: changed(doc, key, value) for key, value in layout.items()}}
+        return arrange(doc, {key: value for key, value in new.items() if value is not None})
+
+    history.change_all(how)
+
+
 class UndoHistory:
     """A sequence of documents, with undo and redo."""
 
@@ -514,10 +539,16 @@ class UndoHistory:
     def amend(self, document: Document) -> None:
         """Replace the present document by a new one without a new step of the history.
 
-        For a change that is made in many small ones, and for changes that no user would undo.
+        For a change that is made in many small ones.
         """
         self.document = document
         self._future.clear()
+
+    def change_all(self, how: Callable[[Document], Document]) -> None:
+        """Apply a function to all documents, also those that were undone."""
+        self._past = [how(doc) for doc in self._past]
+        self._future = [how(doc) for doc in self._future]
+        self.document = how(self.document)
 
     @property
     def ahead(self) -> int:

@@ -679,15 +679,15 @@ class OpenProject:
         self._moved()
 
     async def arrange(self, layout: dict[str, Any], undoable: bool) -> None:
-        """Change parts of the layout."""
+        """Change parts of the layout; without `undoable`, in all documents of the history."""
         model = self._require()
-        merged = {k: v for k, v in {**model.document.layout, **layout}.items() if v is not None}
-        before, new = model.document, edit.arrange(model.document, merged)
+        before = model.document
         if undoable:
-            model.history.commit(new)
-        else:
-            model.history.amend(new)
-        self._gesture = None
+            merged = {k: v for k, v in {**before.layout, **layout}.items() if v is not None}
+            model.history.commit(edit.arrange(before, merged))
+            self._gesture = None
+        else:  # a drag of a slider continues, and redo remains
+            edit.arrange_everywhere(model.history, layout)
         self._edited(before, "live")
 
     async def lay_out(self, how: Callable[[Document], Document]) -> None:
