@@ -150,8 +150,13 @@ test("an experiment is built with the mouse, and its file is the one that Python
   expect(await obstacles(page)).toEqual([]);
   await shot(page, "experiment-built");
 
-  await button(page, "Save the experiment").click();
   const dialog = page.getByRole("dialog");
+  await choose(page, "More for the experiment", "Close");
+  await dialog.getByText("two targets was edited since it was saved.").waitFor();
+  await shot(page, "experiment-unsaved");
+  await dialog.getByRole("button", { name: "Cancel" }).click();
+  await dialog.waitFor({ state: "detached" });
+  await button(page, "Save the experiment").click();
   await fill(dialog.getByRole("textbox", { name: "Name" }), "built");
   await expect.poll(() => button(page, "Save the experiment").isDisabled()).toBe(true);
   expect(await page.getByText("changed on another page").count()).toBe(0);

@@ -85,7 +85,7 @@ function Page() {
 
 // The browser asks before a page with unsaved edits is closed.
 function useAskBeforeLeaving(): void {
-  const unsaved = useStudio((state) => state.document?.unsaved ?? false);
+  const unsaved = useStudio((state) => state.document?.unsaved || state.experiment?.unsaved || false);
   useEffect(() => {
     if (!unsaved) {
       return;

@@ -68,18 +68,18 @@ export type Announced = {
 
 // The result of a request; if it has problems, the request had no effect.
 //
-// `ask` is a question for the user before the request can be repeated: `unsaved` (repeat it with discard) or
-// `replace` (repeat it with replace; `file` is the file in the way, if the request does not name it). `cost`
-// is the cost of a change. For a preset, `carried` is the number of values that changed and `unmatched` lists
-// the values that could not be applied. `imported` is a sentence on the import of a file of another tool.
-// `version` is the first version of the document with the change, if the request made one. `made` lists the
-// ids of new elements, `group` the names of a new group; `text` is what the request asked for: a document for
-// the clipboard, or a script.
+// `ask` is a question for the user before the request can be repeated: `unsaved` (repeat it with discard),
+// `unsaved_experiment` (repeat it with discard_experiment) or `replace` (repeat it with replace; `file` is
+// the file in the way, if the request does not name it). `cost` is the cost of a change. For a preset,
+// `carried` is the number of values that changed and `unmatched` lists the values that could not be applied.
+// `imported` is a sentence on the import of a file of another tool. `version` is the first version of the
+// document with the change, if the request made one. `made` lists the ids of new elements, `group` the names
+// of a new group; `text` is what the request asked for: a document for the clipboard, or a script.
 export type Answer = {
   type: "answer";
   request: number;
   problems?: ListedProblem[];
-  ask?: "" | "replace" | "unsaved";
+  ask?: "" | "replace" | "unsaved" | "unsaved_experiment";
   cost?: "" | "live" | "rebuild" | "recompile";
   file?: string;
   carried?: number;
@@ -213,11 +213,12 @@ export type Close = {
   discard?: boolean;
 };
 
-// Close the experiment.
+// Close the experiment. `discard_experiment` allows its unsaved edits to be lost.
 export type CloseExperiment = {
   type: "close_experiment";
   request?: number;
   session?: number;
+  discard_experiment?: boolean;
 };
 
 // Add, change or remove a comment on the graph; the answer has the id of a new one in `made`.
@@ -778,10 +779,13 @@ export type NewDocument = {
 };
 
 // Open a new experiment whose model is the open document.
+//
+// `discard_experiment` allows unsaved edits of the open experiment to be lost.
 export type NewExperiment = {
   type: "new_experiment";
   request?: number;
   session?: number;
+  discard_experiment?: boolean;
 };
 
 // A coupling that can stand between two ports whose axes differ: `add_element` with these values.
@@ -802,22 +806,28 @@ export type OpenExample = {
   discard?: boolean;
 };
 
-// Open an experiment below the root, and its model. `discard` allows unsaved edits to be lost.
+// Open an experiment below the root, and its model.
+//
+// `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
 export type OpenExperimentFile = {
   type: "open_experiment";
   request?: number;
   session?: number;
   path: string;
   discard?: boolean;
+  discard_experiment?: boolean;
 };
 
-// Open a document, a record or an experiment below the root. `discard` allows edits to be lost.
+// Open a document, a record or an experiment below the root.
+//
+// `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
 export type OpenFile = {
   type: "open_file";
   request?: number;
   session?: number;
   path: string;
   discard?: boolean;
+  discard_experiment?: boolean;
 };
 
 // Open a package (`NAME.deodar`) that was dropped on the page, as a document without a file.

@@ -11,6 +11,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -457,3 +458,33 @@ def test_an_experiment_keeps_its_model_while_another_document_is_open(folder: Pa
     asyncio.run(scene())
     models = {name: json.loads((folder / name).read_text())["model"] for name in ("a.json", "c.json")}
     assert models == {"a.json": "a.model.json", "c.json": "b.model.json"}
+
+
+@pytest.mark.parametrize(
+    "leaves",
+    [
+        to_server.NewExperiment(),
+        to_server.CloseExperiment(),
+        to_server.OpenExperimentFile(path="two-targets.json"),
+        to_server.OpenFile(path="two-targets.json"),
+    ],
+    ids=lambda message: type(message).__name__,
+)
+def test_unsaved_edits_of_an_experiment_are_asked_about(
+    folder: Path, leaves: to_server.NewExperiment | to_server.CloseExperiment | to_server.OpenFile
+) -> None:
+    few().save(folder / "two-targets.json")
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="two-targets.json"))
+            await d.do(to_server.NewExperiment())
+            await d.do(to_server.NewExperiment())  # no edit would be lost
+            await d.edit(trials=7)
+            with pytest.raises(ConfirmationRequired, match="unsaved_experiment"):
+                await d.do(leaves)
+            assert d.hub.experiment.view().data["trials"] == 7
+            await d.do(msgspec.structs.replace(leaves, discard_experiment=True))
+            assert (d.hub.experiment.data or {}).get("trials") != 7
+
+    asyncio.run(scene())

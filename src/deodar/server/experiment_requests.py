@@ -11,13 +11,13 @@ from deodar.server.to_page import Answer
 
 @handles(to_server.NewExperiment)
 async def _new(hub: Hub, page: Page, m: to_server.NewExperiment) -> None:
-    await hub.experiment.new()
+    await hub.experiment.new(m.discard_experiment)
     await hub.experiment.check()
 
 
 @handles(to_server.OpenExperimentFile)
 async def _open(hub: Hub, page: Page, m: to_server.OpenExperimentFile) -> None:
-    await hub.experiment.open(hub.workspace.inside(m.path), m.discard)
+    await hub.experiment.open(hub.workspace.inside(m.path), m.discard, m.discard_experiment)
     await hub.experiment.check()
 
 
@@ -35,7 +35,7 @@ async def _save(hub: Hub, page: Page, m: to_server.SaveExperiment) -> Answer:
 
 @handles(to_server.CloseExperiment)
 async def _close(hub: Hub, page: Page, m: to_server.CloseExperiment) -> None:
-    await hub.experiment.close()
+    await hub.experiment.close(m.discard_experiment)
 
 
 @handles(to_server.RunExperiment)

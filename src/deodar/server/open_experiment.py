@@ -81,6 +81,11 @@ class OpenExperiment:
 
     # ------------------------------------------------------------------------------------------------ looking
 
+    @property
+    def unsaved(self) -> bool:
+        """Whether the experiment was edited since it was made, opened or saved."""
+        return self.data is not None and self.data != self._saved
+
     def view(self) -> ExperimentView:
         """Return the experiment as a message."""
         run = self.run
@@ -100,7 +105,7 @@ class OpenExperiment:
             data=self.data,
             version=self.version,
             file="" if self.file is None else self._workspace.shown(self.file),
-            unsaved=self.data is not None and self.data != self._saved,
+            unsaved=self.unsaved,
             problems=view.problems(self.problems),
             trials=self.trials,
             repeated=self.repeated,
@@ -190,15 +195,24 @@ class OpenExperiment:
 
     # ------------------------------------------------------------------------------------ opening and closing
 
-    async def new(self) -> None:
-        """Open a new experiment with the open document."""
-        self._require_end()
-        name = self._document().name
-        await self._take({"name": name, "limit": LIMIT, "trials": TRIALS}, None, None)
+    async def new(self, discard: bool) -> None:
+        """Open a new experiment with the open document.
 
-    async def open(self, place: Path, discard: bool) -> None:
-        """Open an experiment and its model; the rows beside its file are those of its run."""
-        self._require_end()
+        Raises:
+            ConfirmationRequired: without `discard`, if the open experiment has unsaved edits.
+        """
+        self._require_end(discard)
+        data: JsonObject = {"name": self._document().name, "limit": LIMIT, "trials": TRIALS}
+        await self._take(data, None, data)
+
+    async def open(self, place: Path, discard: bool, discard_experiment: bool) -> None:
+        """Open an experiment and its model; the rows beside its file are those of its run.
+
+        Raises:
+            ConfirmationRequired: without `discard`, if the document has unsaved edits, or, without
+                `discard_experiment`, the open experiment.
+        """
+        self._require_end(discard_experiment)
 
         def read() -> tuple[Experiment, str]:
             with self._workspace.folder(place) as folder:
@@ -243,9 +257,13 @@ class OpenExperiment:
         self.version += 1
         self._changed()
 
-    async def close(self) -> None:
-        """Close the experiment."""
-        self._require_end()
+    async def close(self, discard: bool) -> None:
+        """Close the experiment.
+
+        Raises:
+            ConfirmationRequired: without `discard`, if it has unsaved edits.
+        """
+        self._require_end(discard)
         await self._end_run()
         self.data, self.file, self.run, self.repeated = None, None, None, None
         self.problems, self.trials = (), 0
@@ -257,9 +275,11 @@ class OpenExperiment:
         if self.run is not None:
             self.run.close()
 
-    def _require_end(self) -> None:
+    def _require_end(self, discard: bool) -> None:
         if self.run is not None and self.run.state == "running":
             raise DocumentError("its experiment is running", fix="Stop the experiment first")
+        if self.unsaved and not discard:
+            raise ConfirmationRequired("unsaved_experiment")
 
     async def _end_run(self) -> None:
         """End the processes of the run, which are those of a repetition, if there is one."""

@@ -45,7 +45,7 @@ from deodar.session.session_at import session_at
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene
 
-Ask = Literal["unsaved", "replace"]
+Ask = Literal["unsaved", "unsaved_experiment", "replace"]
 
 
 class ConfirmationRequired(Exception):

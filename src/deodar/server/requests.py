@@ -76,7 +76,7 @@ async def _change(hub: Hub, page: Page, message: to_server.DocumentRequest) -> A
 async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
     place = hub.workspace.inside(m.path)
     if await in_file_thread(lambda: content.is_experiment(hub.workspace, place), m.path):
-        await hub.experiment.open(place, m.discard)
+        await hub.experiment.open(place, m.discard, m.discard_experiment)
         await hub.experiment.check()
         return Answer(request=m.request)
     imported = await hub.project.open_file(place, m.discard)

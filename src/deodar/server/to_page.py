@@ -752,18 +752,18 @@ class Fits(Message, frozen=True, tag="fitting"):
 class Answer(Message, frozen=True, tag="answer"):
     """The result of a request; if it has problems, the request had no effect.
 
-    `ask` is a question for the user before the request can be repeated: `unsaved` (repeat it with discard) or
-    `replace` (repeat it with replace; `file` is the file in the way, if the request does not name it). `cost`
-    is the cost of a change. For a preset, `carried` is the number of values that changed and `unmatched`
-    lists the values that could not be applied. `imported` is a sentence on the import of a file of another
-    tool. `version` is the first version of the document with the change, if the request made one. `made`
-    lists the ids of new elements, `group` the names of a new group; `text` is what the request asked for: a
-    document for the clipboard, or a script.
+    `ask` is a question for the user before the request can be repeated: `unsaved` (repeat it with discard),
+    `unsaved_experiment` (repeat it with discard_experiment) or `replace` (repeat it with replace; `file` is
+    the file in the way, if the request does not name it). `cost` is the cost of a change. For a preset,
+    `carried` is the number of values that changed and `unmatched` lists the values that could not be applied.
+    `imported` is a sentence on the import of a file of another tool. `version` is the first version of the
+    document with the change, if the request made one. `made` lists the ids of new elements, `group` the names
+    of a new group; `text` is what the request asked for: a document for the clipboard, or a script.
     """
 
     request: int
     problems: list[ListedProblem] = []
-    ask: Literal["", "unsaved", "replace"] = ""
+    ask: Literal["", "unsaved", "unsaved_experiment", "replace"] = ""
     cost: Literal["", Cost] = ""
     file: str = ""
     carried: int = 0

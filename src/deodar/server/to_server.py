@@ -37,10 +37,14 @@ class DocumentRequest(Request, frozen=True):
 
 @MESSAGES.register
 class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
-    """Open a document, a record or an experiment below the root. `discard` allows edits to be lost."""
+    """Open a document, a record or an experiment below the root.
+
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    """
 
     path: Text
     discard: bool = False
+    discard_experiment: bool = False
 
 
 @MESSAGES.register
@@ -773,15 +777,24 @@ class Drawn(Request, frozen=True, kw_only=True, tag="drawn"):
 
 @MESSAGES.register
 class NewExperiment(DocumentRequest, frozen=True, kw_only=True, tag="new_experiment"):
-    """Open a new experiment whose model is the open document."""
+    """Open a new experiment whose model is the open document.
+
+    `discard_experiment` allows unsaved edits of the open experiment to be lost.
+    """
+
+    discard_experiment: bool = False
 
 
 @MESSAGES.register
 class OpenExperimentFile(DocumentRequest, frozen=True, kw_only=True, tag="open_experiment"):
-    """Open an experiment below the root, and its model. `discard` allows unsaved edits to be lost."""
+    """Open an experiment below the root, and its model.
+
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    """
 
     path: Text
     discard: bool = False
+    discard_experiment: bool = False
 
 
 @MESSAGES.register
@@ -805,7 +818,9 @@ class SaveExperiment(DocumentRequest, frozen=True, kw_only=True, tag="save_exper
 
 @MESSAGES.register
 class CloseExperiment(DocumentRequest, frozen=True, kw_only=True, tag="close_experiment"):
-    """Close the experiment."""
+    """Close the experiment. `discard_experiment` allows its unsaved edits to be lost."""
+
+    discard_experiment: bool = False
 
 
 @MESSAGES.register

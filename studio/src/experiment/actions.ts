@@ -1,7 +1,7 @@
 // What the panel asks of the server.
 
 import { ask } from "../dialogs/dialogs";
-import { done, leave, type Saved, write, writeAs } from "../files/flows";
+import { done, leave, openExperiment, write, writeAs } from "../files/flows";
 import { same } from "../inspector/parameters/part";
 import type { Answer } from "../protocol";
 import { request, socket } from "../socket";
@@ -33,27 +33,16 @@ const NOTHING: Answer = { type: "answer", request: 0 };
 export async function open(): Promise<void> {
   const path = await ask("choose", { wants: "experiments" });
   if (typeof path === "string") {
-    await leave({ type: "open_experiment", path });
+    await before.then(() => leave({ type: "open_experiment", path }));
   }
 }
 
-export const create = () => request({ type: "new_experiment" });
-export const close = () => request({ type: "close_experiment" });
+export const create = () => before.then(() => leave({ type: "new_experiment" }));
+export const close = () => before.then(() => leave({ type: "close_experiment" }));
 export const run = () => request({ type: "run_experiment" });
 export const stop = () => request({ type: "stop_experiment" });
 export const repeat = (trial: number) => request({ type: "repeat_trial", trial });
 export const backToModel = () => request({ type: "leave_trial" });
-
-function openExperiment(): Saved {
-  const { experiment } = useStudio.getState();
-  const file = experiment?.file ?? "";
-  return {
-    file,
-    name: String(experiment?.data?.["name"] ?? ""),
-    message: (path, replace) => ({ type: "save_experiment", path, replace }),
-    isOwn: (path) => path === file,
-  };
-}
 
 // A change that was made before is in the file.
 export const save = (): Promise<boolean> => before.then(() => write(openExperiment()));

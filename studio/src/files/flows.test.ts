@@ -89,6 +89,30 @@ describe("leaving a document", () => {
     expect(sent.map((m) => m.type)).toEqual(["open_file", "leave_trial", "save", "open_file"]);
   });
 
+  it("asks about the experiment, saves it, and then asks about the document", async () => {
+    const experiment = { data: { name: "trials" }, file: "exp.json" } as unknown as ExperimentView;
+    useStudio.setState({ experiment });
+    given({});
+    server({ ask: "unsaved_experiment" }, {}, { ask: "unsaved" }, {});
+    const questions = person("save", "discard");
+    expect(await leave({ type: "open_experiment", path: "b.json" })).toBe(true);
+    expect(questions.map((q) => q.question)).toEqual([{ title: "trials" }, { title: "selection" }]);
+    expect(sent.map((m) => m.type)).toEqual([
+      "open_experiment",
+      "save_experiment",
+      "open_experiment",
+      "open_experiment",
+    ]);
+    expect(sent[3]).toEqual({ type: "open_experiment", path: "b.json", discard: true });
+  });
+
+  it("discards the edits of the experiment alone", async () => {
+    server({ ask: "unsaved_experiment" }, {});
+    person("discard");
+    expect(await leave({ type: "close_experiment" })).toBe(true);
+    expect(sent[1]).toEqual({ type: "close_experiment", discard_experiment: true });
+  });
+
   it("is cancelled if the user cancels saving", async () => {
     given({});
     server({ ask: "unsaved" });

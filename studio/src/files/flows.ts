@@ -4,7 +4,9 @@
 import type {
   Answer,
   Close,
+  CloseExperiment,
   NewDocument,
+  NewExperiment,
   OpenExample,
   OpenExperimentFile,
   OpenFile,
@@ -26,6 +28,8 @@ const MOST_BYTES = 40 * 2 ** 20;
 
 type Leaving =
   | NewDocument
+  | NewExperiment
+  | CloseExperiment
   | OpenExperimentFile
   | OpenFile
   | OpenExample
@@ -38,6 +42,17 @@ type Leaving =
 // Go to another document, or to none. Unsaved edits are asked about. True where it was done.
 export async function leave(message: Leaving): Promise<boolean> {
   const { answer } = await socket.ask(message);
+  if (answer.ask === "unsaved_experiment") {
+    const saved = openExperiment();
+    switch (await ask("unsaved", { title: saved.name })) {
+      case "save":
+        return (await write(saved)) && leave(message);
+      case "discard":
+        return leave({ ...message, discard_experiment: true } as Leaving);
+      case "cancel":
+        return false;
+    }
+  }
   if (answer.ask !== "unsaved") {
     return done(answer) && arrived(answer);
   }
@@ -46,7 +61,7 @@ export async function leave(message: Leaving): Promise<boolean> {
     case "save":
       return (await toModel()) && (await save()) && leave(message);
     case "discard":
-      return leave({ ...message, discard: true });
+      return leave({ ...message, discard: true } as Leaving);
     case "cancel":
       return false;
   }
@@ -130,6 +145,17 @@ function openDocument(): Saved {
     file,
     name: title,
     message: (path, replace) => ({ type: "save", path, replace }),
+    isOwn: (path) => path === file,
+  };
+}
+
+export function openExperiment(): Saved {
+  const { experiment } = useStudio.getState();
+  const file = experiment?.file ?? "";
+  return {
+    file,
+    name: String(experiment?.data?.["name"] ?? ""),
+    message: (path, replace) => ({ type: "save_experiment", path, replace }),
     isOwn: (path) => path === file,
   };
 }
