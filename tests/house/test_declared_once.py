@@ -28,7 +28,7 @@ def _declared(module: Any, base: type[Any]) -> set[str]:
         for cls in vars(module).values()
         if isinstance(cls, type) and issubclass(cls, base) and cls.__module__ == module.__name__
     ]
-    bases = (base, to_server.Request, to_server.DocumentRequest)
+    bases = (base, to_server.Request, to_server.DocumentRequest, to_server.OpeningRequest)
     return {cls.__name__ for cls in own if cls not in bases}
 
 

@@ -23,6 +23,13 @@ def test_the_typescript_is_up_to_date() -> None:
     assert protocol.TYPESCRIPT.read_text(encoding="utf-8") == protocol.typescript(), SAY
 
 
+def test_the_page_knows_which_requests_are_meant_for_the_open_document() -> None:
+    meant = protocol.meant()
+    assert {"change_axis", "use_world", "use_world_content", "leave_trial", "set", "close"} <= set(meant)
+    assert not {"open_file", "open_text", "recover", "new", "play", "watch"} & set(meant)
+    assert all(f'  "{tag}",\n' in protocol.typescript().partition("MEANT")[2] for tag in meant)
+
+
 def test_the_command_writes_the_schema_and_the_typescript(monkeypatch: pytest.MonkeyPatch) -> None:
     written: dict[Path, bytes] = {}
     monkeypatch.setattr(output, "write", written.__setitem__)

@@ -62,7 +62,19 @@ def typescript() -> str:
         else:
             lines = "".join(f"\n  | {_type(f)}" for f in form["anyOf"])
             out.append(f"export type {name} ={lines};\n\n")
-    return "".join(out).rstrip() + "\n"
+    out.append("// Types of the requests that are meant for the document that the page shows.\n")
+    listed = "".join(f"  {codec.line(tag)},\n" for tag in meant())
+    out.append(f'export const MEANT: readonly ToServer["type"][] = [\n{listed}];\n')
+    return "".join(out)
+
+
+def meant() -> list[str]:
+    """Return the types of the requests that are meant for the open document, and do not open another one."""
+    return sorted(
+        str(cls.__struct_config__.tag)
+        for cls in to_server.MESSAGES.values()
+        if issubclass(cls, to_server.DocumentRequest) and not issubclass(cls, to_server.OpeningRequest)
+    )
 
 
 def _record(form: dict[str, Any]) -> str:

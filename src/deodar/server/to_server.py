@@ -35,8 +35,12 @@ class DocumentRequest(Request, frozen=True):
     session: Count = 0
 
 
+class OpeningRequest(DocumentRequest, frozen=True):
+    """A request that opens another document, whichever is open."""
+
+
 @MESSAGES.register
-class OpenFile(DocumentRequest, frozen=True, kw_only=True, tag="open_file"):
+class OpenFile(OpeningRequest, frozen=True, kw_only=True, tag="open_file"):
     """Open a document, a record or an experiment below the root.
 
     `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
@@ -67,7 +71,7 @@ class EndComparison(DocumentRequest, frozen=True, kw_only=True, tag="end_compari
 
 
 @MESSAGES.register
-class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"):
+class OpenExample(OpeningRequest, frozen=True, kw_only=True, tag="open_example"):
     """Open an example, as a document without a file."""
 
     name: Text
@@ -75,7 +79,7 @@ class OpenExample(DocumentRequest, frozen=True, kw_only=True, tag="open_example"
 
 
 @MESSAGES.register
-class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
+class OpenText(OpeningRequest, frozen=True, kw_only=True, tag="open_text"):
     """Open the text of a file that was dropped on the page, as a document without a file."""
 
     name: Text
@@ -84,7 +88,7 @@ class OpenText(DocumentRequest, frozen=True, kw_only=True, tag="open_text"):
 
 
 @MESSAGES.register
-class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"):
+class OpenPackage(OpeningRequest, frozen=True, kw_only=True, tag="open_package"):
     """Open a package (`NAME.deodar`) that was dropped on the page, as a document without a file.
 
     `content` is base64.
@@ -96,7 +100,7 @@ class OpenPackage(DocumentRequest, frozen=True, kw_only=True, tag="open_package"
 
 
 @MESSAGES.register
-class Recover(DocumentRequest, frozen=True, kw_only=True, tag="recover"):
+class Recover(OpeningRequest, frozen=True, kw_only=True, tag="recover"):
     """Open stored unsaved edits."""
 
     name: Text
@@ -224,7 +228,7 @@ class Ends(Data, frozen=True, kw_only=True):
 
 
 @MESSAGES.register
-class NewDocument(DocumentRequest, frozen=True, kw_only=True, tag="new"):
+class NewDocument(OpeningRequest, frozen=True, kw_only=True, tag="new"):
     """Open an empty document without a file."""
 
     discard: bool = False
@@ -786,7 +790,7 @@ class NewExperiment(DocumentRequest, frozen=True, kw_only=True, tag="new_experim
 
 
 @MESSAGES.register
-class OpenExperimentFile(DocumentRequest, frozen=True, kw_only=True, tag="open_experiment"):
+class OpenExperimentFile(OpeningRequest, frozen=True, kw_only=True, tag="open_experiment"):
     """Open an experiment below the root, and its model.
 
     `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
