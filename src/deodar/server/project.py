@@ -625,7 +625,7 @@ class OpenProject:
         return path
 
     async def return_to(self, name: str) -> None:
-        """Return to a snapshot; its parameters are one step of undo.
+        """Return to a snapshot; its elements, connections and parameters are one step of undo.
 
         Raises:
             UnknownName: there is none of this name.
@@ -644,7 +644,7 @@ class OpenProject:
         await self.list_kept()
 
     async def _follow_run(self) -> None:
-        """Take over the parameters of the running session into the document, as one step of undo."""
+        """Take over elements, connections and parameters of the running session, as one step of undo."""
         model, session = self._require_model(), self.engine.session
         assert session is not None
         now = model.document
