@@ -152,7 +152,7 @@ test("an experiment is built with the mouse, and its file is the one that Python
 
   const dialog = page.getByRole("dialog");
   await choose(page, "More for the experiment", "Close");
-  await dialog.getByText("two targets was edited since it was saved.").waitFor();
+  await dialog.getByText("The experiment two targets was edited since it was saved.").waitFor();
   await shot(page, "experiment-unsaved");
   await dialog.getByRole("button", { name: "Cancel" }).click();
   await dialog.waitFor({ state: "detached" });

@@ -96,7 +96,10 @@ describe("leaving a document", () => {
     server({ ask: "unsaved_experiment" }, {}, { ask: "unsaved" }, {});
     const questions = person("save", "discard");
     expect(await leave({ type: "open_experiment", path: "b.json" })).toBe(true);
-    expect(questions.map((q) => q.question)).toEqual([{ title: "trials" }, { title: "selection" }]);
+    expect(questions.map((q) => q.question)).toEqual([
+      { title: "The experiment trials" },
+      { title: "selection" },
+    ]);
     expect(sent.map((m) => m.type)).toEqual([
       "open_experiment",
       "save_experiment",

@@ -44,7 +44,7 @@ export async function leave(message: Leaving): Promise<boolean> {
   const { answer } = await socket.ask(message);
   if (answer.ask === "unsaved_experiment") {
     const saved = openExperiment();
-    switch (await ask("unsaved", { title: saved.name })) {
+    switch (await ask("unsaved", { title: `The experiment ${saved.name}` })) {
       case "save":
         return (await write(saved)) && leave(message);
       case "discard":
