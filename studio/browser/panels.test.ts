@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { choose, panel } from "./hands";
+import { choose, panel, settled } from "./hands";
 import { shot, startStudio, type Studio } from "./studio";
 
 let studio: Studio;
@@ -51,7 +51,8 @@ test("panels that are opened and closed again leave the others where they were, 
 test("a border that was moved meanwhile stays where it is", async () => {
   const before = await places();
   await open("Costs");
-  const inspector = await panel(studio.page, "Inspector").boundingBox();
+  await panel(studio.page, "Costs").waitFor();
+  const inspector = await settled(studio.page, () => panel(studio.page, "Inspector").boundingBox());
   if (inspector === null) throw new Error("The inspector is not visible.");
   const { mouse } = studio.page;
   await mouse.move(inspector.x - 1, inspector.y + 100);

@@ -559,7 +559,7 @@ test("the arrangement of panels is kept in a reload and in the file", async () =
   await page.getByLabel("Find an element to plot").fill("lef");
   await page.getByRole("menuitem", { name: "left", exact: true }).click();
   await plot("Curves of left").waitFor();
-  await button(page, "Close Sliders").click();
+  await page.getByRole("tab", { name: "Sliders", exact: true }).press("Delete");
   await panel(page, "Sliders").waitFor({ state: "detached" });
   await observer.until(
     () =>

@@ -101,7 +101,7 @@ const curve = (page: Page, path: string) =>
       const data = layer.getContext("2d")?.getImageData(left, 0, width, layer.height);
       const rows: number[] = [];
       (data?.data ?? []).forEach((value, i, all) => {
-        if (i % 4 === 0 && (all[i + 3] ?? 0) > 128 && value - (all[i + 2] ?? 0) > 60)
+        if (i % 4 === 0 && (all[i + 3] ?? 0) > 128 && (all[i + 1] ?? 0) - value > 60)
           rows.push(base.top + Math.floor(i / 4 / (data?.width ?? 1)) / scale);
       });
       const near = rows.filter((row) => row > at.top - 20 && row < at.bottom + 20);
