@@ -358,7 +358,7 @@ test("axis, interaction kernel and time windows are edited in the plot that show
   const axis = () => observer.document?.axes[0];
   const before = axis()?.upper;
   // a click on the axis itself
-  const drawn = await plot("Curves of u").locator(".u-axis").first().boundingBox();
+  const drawn = await settled(page, () => plot("Curves of u").locator(".u-axis").first().boundingBox());
   if (drawn === null) throw new Error("the plot has no axis");
   await page.mouse.click(drawn.x + drawn.width / 2, drawn.y + drawn.height / 2);
   const upper = page.getByRole("textbox", { name: "To of the axis x", exact: true });
@@ -372,6 +372,7 @@ test("axis, interaction kernel and time windows are edited in the plot that show
   expect(axis()?.upper).toBe(80);
   await page.keyboard.press("Escape");
   await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "detached" });
   await observer.ask({ type: "undo" });
   await observer.until(() => axis()?.upper === before);
 

@@ -482,5 +482,5 @@ def test_the_script_of_the_open_document_makes_the_same_document(root: Path) -> 
         assert space["make"]().to_json() == (root / "again.json").read_text(encoding="utf-8")
         assert script.endswith('dd.save(make(), "selection.json")\n'), "the name of the file that was open"
 
-    with studio(root) as address:
+    with studio(root, root / "selection.json") as address:
         play(address, scene)
