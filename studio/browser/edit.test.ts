@@ -64,6 +64,7 @@ test("what is selected is copied, pasted, cut and duplicated, with its connectio
   expect(observer.document?.connections.length).toBe(2);
   await page.keyboard.press("Control+z");
   await observer.until(() => paths() === "a,b,u");
+  await box(page, "b2").waitFor({ state: "detached" }); // it lies over the other one
   await select(page, "b");
   await page.keyboard.press("Control+d");
   await observer.until(() => paths() === "a,b,b2,u");

@@ -177,8 +177,12 @@ function Canvas({ structure }: { structure: Structure }) {
           }}
           onNodeClick={(event, { id, type }) => {
             useHover.getState().close();
+            const several = event.shiftKey || event.ctrlKey || event.metaKey;
             if (type === "frame" || type === "folded") {
-              pickGroup(groupKey(id), event.shiftKey || event.ctrlKey || event.metaKey);
+              pickGroup(groupKey(id), several);
+            } else if (type === "box" && !several) {
+              // xyflow leaves several selected boxes as they are
+              useStudio.getState().select([id]);
             }
           }}
           onNodeDoubleClick={(_, { id, type }) => {
