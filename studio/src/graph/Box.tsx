@@ -25,6 +25,12 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
   const fits = usePortFits(id);
   const reached = useWiring((state) => state.target === id);
   const { enter, leave } = useHover.getState();
+  const ports = (side: PortsProps["side"], names: string[]) =>
+    level === "dot" ? (
+      <Anchors names={names} side={side} height={height} />
+    ) : (
+      <Ports element={id} names={names} side={side} height={height} fits={fits} connectable={isConnectable} />
+    );
   return (
     <div
       className="graph-box"
@@ -37,18 +43,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
       onPointerEnter={({ currentTarget }) => useWiring.getState().wiring === null && enter(id, currentTarget)}
       onPointerLeave={leave}
     >
-      {level === "dot" ? (
-        <Anchors names={inputs} side="target" height={height} />
-      ) : (
-        <Ports
-          element={id}
-          names={inputs}
-          side="target"
-          height={height}
-          fits={fits}
-          connectable={isConnectable}
-        />
-      )}
+      {ports("target", inputs)}
       <div className="graph-box-head">
         <div className="graph-box-name one-line" title={path}>
           {name}
@@ -65,18 +60,7 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
           height={level === "full" ? live : LIVE.number}
         />
       )}
-      {level === "dot" ? (
-        <Anchors names={outputs} side="source" height={height} />
-      ) : (
-        <Ports
-          element={id}
-          names={outputs}
-          side="source"
-          height={height}
-          fits={fits}
-          connectable={isConnectable}
-        />
-      )}
+      {ports("source", outputs)}
     </div>
   );
 });

@@ -1,12 +1,13 @@
 // The properties of one of the document's axes. A change acts on every element that has the axis.
 
-import { Switch, TextInput } from "@mantine/core";
+import { Switch } from "@mantine/core";
 import { useState } from "react";
 
 import type { AxisView, ListedProblem } from "../../protocol";
 import { socket } from "../../socket";
 import { useStudio } from "../../store";
 import { ProblemLine } from "../../widgets/ProblemLine";
+import { TextBox } from "../forms/TextBox";
 import { NumberBox } from "../numbers/NumberBox";
 
 type Properties = Omit<AxisView, "key">;
@@ -40,14 +41,24 @@ export function AxisFields({ axis }: { axis: AxisView }) {
       />
     </label>
   );
+  const text = (name: "name" | "unit", label: string) => (
+    <label className="axis-field">
+      <span>{label}</span>
+      <TextBox
+        label={`${label} of the axis ${axis.name}`}
+        value={axis[name]}
+        onCommit={(value) => change({ [name]: value })}
+      />
+    </label>
+  );
   return (
     <section className="axis-fields" aria-label={`Axis ${axis.name}`}>
       <b className="one-line">Axis {axis.name}</b>
-      <TextField label="Name" axis={axis} name="name" change={change} />
+      {text("name", "Name")}
       {number("lower", "From", axis.unit)}
       {number("upper", "To", axis.unit)}
       {number("samples", "Samples")}
-      <TextField label="Unit" axis={axis} name="unit" change={change} />
+      {text("unit", "Unit")}
       <Switch
         size="xs"
         label="Periodic"
@@ -59,43 +70,5 @@ export function AxisFields({ axis }: { axis: AxisView }) {
       </p>
       <ProblemLine problem={problem} />
     </section>
-  );
-}
-
-type TextFieldProps = {
-  label: string;
-  axis: AxisView;
-  name: "name" | "unit";
-  change: (next: Partial<Properties>) => Promise<boolean>;
-};
-
-// Enter or leaving the field commits it, Escape resets it.
-function TextField({ label, axis, name, change }: TextFieldProps) {
-  const [draft, setDraft] = useState<string | null>(null);
-  const take = async () => {
-    if (draft !== null && (draft === axis[name] || (await change({ [name]: draft })))) {
-      setDraft(null);
-    }
-  };
-  return (
-    <label className="axis-field">
-      <span>{label}</span>
-      <TextInput
-        size="xs"
-        aria-label={`${label} of the axis ${axis.name}`}
-        value={draft ?? axis[name]}
-        autoComplete="off"
-        spellCheck={false}
-        onChange={(event) => setDraft(event.currentTarget.value)}
-        onKeyDown={(event) => {
-          if (event.key === "Enter") {
-            void take();
-          } else if (event.key === "Escape") {
-            setDraft(null);
-          }
-        }}
-        onBlur={() => void take()}
-      />
-    </label>
   );
 }
