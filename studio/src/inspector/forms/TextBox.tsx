@@ -28,7 +28,8 @@ export function TextBox({
     if (event.key === "Enter" && draft !== null) {
       event.preventDefault();
       if (await take(draft)) {
-        setDraft(null);
+        // what was typed since then stays
+        setDraft((now) => (now === draft ? null : now));
       }
     } else if (event.key === "Escape") {
       setDraft(null);

@@ -55,7 +55,8 @@ export function NumberBox(props: NumberBoxProps) {
   const onKeyDown = async (event: KeyboardEvent<HTMLInputElement>) => {
     if (event.key === "Enter" && draft !== null) {
       if (await take(draft)) {
-        setDraft(null);
+        // what was typed since then stays
+        setDraft((now) => (now === draft ? null : now));
       }
     } else if (event.key === "Escape") {
       setDraft(null);
