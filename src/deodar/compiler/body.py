@@ -32,11 +32,13 @@ class Body:
     Attributes:
         world: functions of the world; its arrays are arguments of a run.
         sensors, motors: the sensors and motors that the model uses, by id.
+        holds: whether readings last for several steps of the model, at its own dt.
     """
 
     world: PureWorld
     sensors: Mapping[str, Sensor]
     motors: Mapping[str, Motor]
+    holds: bool = False
 
     @property
     def key(self) -> Hashable:
@@ -46,6 +48,7 @@ class Body:
             self.world.structure(),
             tuple(sorted(self.sensors)),
             tuple(sorted(self.motors)),
+            self.holds,
         )
 
     @property

@@ -48,8 +48,8 @@ Result = TypeVar("Result")
 OneCopy = Callable[[ProgramValues, list[Constants], ProgramState, NoiseKeys], Result]
 """A function of one copy of a model."""
 
-Stepped = tuple[Array, ProgramState, Arrays]
-"""Tick, state, and the noise drawn for two ticks."""
+Stepped = tuple[Array, ProgramState, Arrays, Arrays]
+"""Tick, state, the noise drawn for two ticks, and what follows from the latest readings of the world."""
 
 Recorded = tuple[Stepped, tuple[Array, ...]]
 """What steps carry, and a buffer of records for each port."""
@@ -154,6 +154,7 @@ class Executable:
             batch.size,
             embodied=body is not None,
             trials=batch.trials or 1,
+            holding=body is not None and body.holds,
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
         self.program = Program(
@@ -360,13 +361,16 @@ class Executable:
             end = given[0] + n.astype(jnp.uint32)
 
             def one(carry: Stepped) -> Stepped:
-                tick, state, drawn = carry
+                tick, state, drawn, perceived = carry
                 drawn = program.draw(chunk.keys, tick, clock["tick"], drawn)
-                return tick + jnp.uint32(1), flat(program.step(chunk, full(state), drawn, tick)), drawn
+                now = full(state)
+                perceived = program.perceive(chunk, now, tick, clock["tick"], perceived)
+                new = program.step(chunk, now, drawn, tick, perceived)
+                return tick + jnp.uint32(1), flat(new), drawn, perceived
 
             return lax.while_loop(lambda carry: carry[0] != end, one, given)
 
-        begun = clock["tick"], flat(state), program.undrawn()
+        begun = clock["tick"], flat(state), program.undrawn(), program.unperceived()
         if not ports:
             state = full(steps(head, begun)[1])
             return state, (), program.finite(state)
@@ -383,7 +387,7 @@ class Executable:
                 ),
             )
 
-        (_, state, _), buffers = lax.fori_loop(0, records, segment, (begun, buffers))
+        (_, state, *_), buffers = lax.fori_loop(0, records, segment, (begun, buffers))
         state = full(state)
         return state, buffers, program.finite(state)
 

@@ -41,6 +41,8 @@ class RowGroup:
             is lost by rounding.
         cost: for each leaf, `live` or `rebuild`.
         still: whether its outputs are constant during a chunk.
+        sensory: whether its outputs follow from readings of a world inside the step alone, so that they are
+            constant between two readings.
         noise: axes over which a row draws noise, or None.
         strategy: the strategy for its kernels.
     """
@@ -53,6 +55,7 @@ class RowGroup:
     noise: Axes | None
     strategy: Strategy = EXACT
     exact: frozenset[str] = frozenset()
+    sensory: bool = False
 
     @property
     def like(self) -> Node:
@@ -124,7 +127,7 @@ class Plan:
             names = ", ".join(n.path for n in g.nodes[:4]) + (", ..." if g.rows > 4 else "")
             lines.append(
                 f"group {k}: {g.rows} x {type(g.like.element).__name__} every"
-                f" {g.like.every}{' still' if g.still else ''}: {names}"
+                f" {g.like.every}{' still' if g.still else ' sensory' if g.sensory else ''}: {names}"
             )
             lines += [
                 f"  {key}: {choice.method}{' shared' if key == g.strategy.shared else ''}"
@@ -188,6 +191,7 @@ def plan(
     partition: Partition | None = None,
     embodied: bool = False,
     trials: int = 1,
+    holding: bool = False,
 ) -> Plan:
     """The plan of a document.
 
@@ -200,6 +204,7 @@ def plan(
         partition: which nodes share a group; none: `by_structure`.
         embodied: whether the world is inside the step, so that readings of sensors change during a chunk.
         trials: how many of the copies have the same parameters.
+        holding: whether a world inside the step holds its readings for several ticks.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
@@ -215,7 +220,9 @@ def plan(
         for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
             found[i] = dc.replace(found[i], apart=True)
     nodes = shared(nodes, found)
-    groups, row = _groups(nodes, neutral, still, found, partition or by_structure)
+    between = _still(nodes, False) if holding else still
+    sensory = {n.id: between[n.id] and not still[n.id] and not n.element.external for n in nodes}
+    groups, row = _groups(nodes, neutral, still, sensory, found, partition or by_structure)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
     reads = {
@@ -259,6 +266,7 @@ def _groups(
     nodes: Sequence[Node],
     neutral: Mapping[str, frozenset[str]],
     still: Mapping[str, bool],
+    sensory: Mapping[str, bool],
     found: Mapping[str, Strategy],
     partition: Partition,
 ) -> tuple[list[RowGroup], dict[str, tuple[int, int]]]:
@@ -267,12 +275,13 @@ def _groups(
     row: dict[str, tuple[int, int]] = {}
     # by stored id, so that the order of declaration has no effect
     for n in sorted(nodes, key=lambda n: n.id):
-        key = partition(n, still[n.id], neutral[n.id], found[n.id])
+        key = (partition(n, still[n.id], neutral[n.id], found[n.id]), sensory[n.id])
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
             # noise at its neutral strength 0 is omitted from the program, unless that value may change
             probe = bind(n.element, lambda path, n=n: None if path in neutral[n.id] else ...)
-            groups.append(RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id]))
+            group = RowGroup([], {}, (), {}, still[n.id], probe.noise_axes(), found[n.id])
+            groups.append(dc.replace(group, sensory=sensory[n.id]))
         row[n.id] = (g, groups[g].rows)
         groups[g].nodes.append(n)
     return groups, row

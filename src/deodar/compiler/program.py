@@ -131,7 +131,17 @@ class Program:
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
         self.still = [c for c in plan.calls if plan.groups[c.group].still]
-        self.moving = [c for c in plan.calls if not plan.groups[c.group].still]
+        self.moving = [
+            c for c in plan.calls if not (plan.groups[c.group].still or plan.groups[c.group].sensory)
+        ]
+        self.sensing = [
+            c
+            for c in plan.calls
+            if plan.groups[c.group].sensory or plan.groups[c.group].like.element.external
+        ]
+        self.sensory = [
+            (g, port) for g, group in enumerate(plan.groups) if group.sensory for port in group.like.outs
+        ]
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
@@ -201,10 +211,41 @@ class Program:
         # other
         return lax.cond((tick % jnp.uint32(2) == 0) | (tick == start), anew, lambda: drawn)
 
-    def step(self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array) -> ProgramState:
+    def unperceived(self) -> Arrays:
+        """Return what follows from readings before the first is made."""
+        groups = self.plan.groups
+        return {
+            array_key(g, port): jnp.zeros((groups[g].rows, *shape(groups[g].like.outs[port])), self.dtype)
+            for g, port in self.sensory
+        }
+
+    def perceive(
+        self, chunk: Chunk, state: ProgramState, tick: Array, start: Array, perceived: Arrays
+    ) -> Arrays:
+        """Return what follows from readings of the world: computed when the readings are new, and at the tick
+        `start` of the chunk, since parameters may have changed before it.
+        """
+
+        def anew() -> Arrays:
+            seeing, buffers = self._seeing(chunk, state), dict(chunk.still)
+            for call in self.sensing:
+                self._output(call, buffers, seeing, {}, tick)
+            return {array_key(g, port): buffers[g, port, 0] for g, port in self.sensory}
+
+        if not self.sensory:
+            return perceived
+        period = jnp.maximum(chunk.clock["period"], jnp.uint32(1))
+        # the predicate is that of all copies, like the one of `draw`
+        return lax.cond((tick % period == 0) | (tick == start), anew, lambda: perceived)
+
+    def step(
+        self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array, perceived: Arrays
+    ) -> ProgramState:
         """The state at tick + 1: every output at t is read, then all new states are committed together."""
         chunk = self._seeing(chunk, state)
         buffers, old = dict(chunk.still), state["groups"]
+        for g, port in self.sensory:
+            buffers[g, port, 0] = perceived[array_key(g, port)]
         new, held = list(old), dict(state["held"])
         for call in self.moving:
             group = self.plan.groups[call.group]

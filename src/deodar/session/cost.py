@@ -270,7 +270,7 @@ def _alone(
             }
             chunk = Chunk(values, settled, keys, given.sensed, clock, buffers)
             shown = program.observe(ports, chunk, state, tick)
-            return program.step(chunk, state, drawn, tick), shown
+            return program.step(chunk, state, drawn, tick, {}), shown
 
         def body(_: Array, carry: tuple[GroupCarry, Arrays]) -> tuple[GroupCarry, Arrays]:
             (tick, state, shown), drawn = carry

@@ -17,6 +17,7 @@ from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, WorldError
 from deodar.model.document import Document
+from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import show
 from deodar.recording import stored
@@ -26,6 +27,11 @@ from deodar.worlds._pure import PureWorld
 
 NEVER = 2**62
 """A tick that no run reaches."""
+
+HELD = 1.5
+"""Steps between two readings of a world from which what follows from readings alone is kept: at 1 step the
+branch would be taken every time.
+"""
 
 MotorReader = Callable[[Sequence[str]], Sequence[np.ndarray]]
 """Function that returns the commands of motors (by id) in the present state of the model."""
@@ -264,7 +270,10 @@ def embodied(doc: Document, world: World | None) -> Body | None:
     if not isinstance(world, PureWorld) or not world.inside:
         return None
     sensors, motors = used(doc, world)
-    return Body(world, sensors, motors) if sensors or motors else None
+    if not sensors and not motors:
+        return None
+    steps = 0.0 if world.period is None else world.period / (unit_seconds(doc.time_unit) * 1e3) / doc.step
+    return Body(world, sensors, motors, holds=steps > HELD)
 
 
 def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[str, Motor]]:
