@@ -26,6 +26,7 @@ from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
 from deodar.worlds.arena.argument import parse_argument
+from deodar.worlds.arena.camera import colours_of, picture_rays, surfaces
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
@@ -65,6 +66,14 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
             "the arena from above without the vehicle; the last axis is red, green, blue", each=True
         ),
     }
+    if vehicle.camera is not None:
+        out |= {
+            "camera": Signal(
+                "picture of the camera: columns from the left, rows from the top, and red, green, blue",
+                each=True,
+            ),
+            "line": Signal("one row of that picture, at the height of the camera", each=True),
+        }
     return out | {"goal": Signal("x and y of the goal", (2,), unit, each=True)} if goal else out
 
 
@@ -114,7 +123,9 @@ class Arena(PureWorld):
 
     Shapes:
         `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and
-        `above` are sampled over the model's axes; x is the axis named x, else the first. For a file with the
+        `above` are sampled over the model's axes; x is the axis named x, else the first. `camera` has the
+        axes columns, rows and channel (red, green, blue), `line` columns and channel: they may have any
+        number of samples and show the whole field of view. Values are 0 to 1. For a file with the
         plane x,z (y up), x is the file's -z, y is the file's -x, and heading 0 points along the file's -z.
 
     Reference:
@@ -196,6 +207,7 @@ class Arena(PureWorld):
         size: Sequence[float],
         color: Sequence[float] = (0.72, 0.53, 0.3),
         windows: Sequence[float] | np.ndarray | None = None,
+        height: float | None = None,
     ) -> None:
         """Add an object to the arena from the next period on, or replace the one of the same name.
 
@@ -206,8 +218,9 @@ class Arena(PureWorld):
             color: red, green and blue, 0 to 1.
             windows: (start, stop) in ms of the run's time between which the object is present, or a row for
                 each trial; None: from now on.
+            height: height of the object; None: that of the walls of the border.
         """
-        self.objects.place(make(name, center, size, color, self.scale), windows)
+        self.objects.place(make(name, center, size, color, self.scale, height), windows)
 
     def move(self, name: str, center: Sequence[float]) -> None:
         """Move an object; `center` is the new x and y of its middle.
@@ -309,7 +322,9 @@ class Arena(PureWorld):
         numbers = {
             name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()
         }
-        return {"boxes": self.objects.boxes(), "colours": self.objects.colours(), **numbers}
+        objects = self.objects
+        arrays = {"boxes": objects.boxes(), "colours": objects.colours(), "heights": objects.heights()}
+        return {**arrays, **numbers}
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         goals = np.zeros((1, 2)) if self.goals is None else self.goals
@@ -402,12 +417,28 @@ class Arena(PureWorld):
             return (state["place"] if sensor == "place" else own["goal"]) / self.scale
         if sensor == "pose":
             return jnp.concatenate([state["position"] / self.scale, state["heading"][None]])
+        if sensor in ("camera", "line"):
+            return self._picture(shared, own, state, sensor, axes)
         require_plane(sensor, axes, sensor == "above")
         one, other = sides(axes[:2], shared["boxes"], self.scale)
         one = one * _there(own, state["tick"])[:, None]
         if sensor == "obstacles":  # one matrix product, which needs no array over boxes and the plane
             return jnp.clip(jnp.einsum("bi,bj->ij", one, other, precision="highest"), 0.0, 1.0)
         return coloured(one[:, :, None] * other[:, None, :], shared["colours"])
+
+    def _picture(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
+        camera = self.vehicle.camera
+        assert camera is not None
+        shown = surfaces(
+            camera,
+            (state["position"], state["heading"]),
+            shared["boxes"],
+            shared["heights"],
+            _there(own, state["tick"]),
+            picture_rays(camera, sensor, axes),
+        )
+        picture = colours_of(shown, shared["colours"])
+        return picture if sensor == "camera" else picture[:, 0]
 
     def _settled(self, starts: np.ndarray | None) -> np.ndarray:
         """Check starts and goals, and return the starts; if none was given, choose one.
@@ -490,10 +521,12 @@ class Arena(PureWorld):
     @staticmethod
     def example_axes(sensor: str) -> Axes:
         plane = (Axis("x", 0.0, 1.2, 13, unit="m"), Axis("y", 0.0, 0.8, 9, unit="m"))
+        columns, rows, channel = Axis("column", 0, 15, 16), Axis("row", 0, 11, 12), Axis("channel", 0, 2, 3)
         counts = {"infrared": 8, "place": 2, "goal": 2, "encoders": 2, "pose": 3}
         if sensor in counts:
             return (Axis("of", 0, counts[sensor] - 1, counts[sensor]),)
-        return {"obstacles": plane, "above": (*plane, Axis("channel", 0, 2, 3))}.get(sensor, ())
+        axes = {"obstacles": plane, "above": (*plane, channel), "line": (columns, channel)}
+        return (axes | {"camera": (columns, rows, channel)}).get(sensor, ())
 
 
 def _there(own: ArenaCopy, tick: Array) -> Array:

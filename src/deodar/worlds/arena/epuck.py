@@ -6,14 +6,15 @@ Sources:
     20 steps per turn and a gear of 1:50. Billing, Lowe & Sandamirskaya (2015), Adapt. Behav. 23(5), and its
     published simulator: wheels of 41 mm, an axle of 52 mm, 1000 steps per turn, the angles of the sensors.
     The model of the robot in the simulator Webots 7, as public projects quote it: radius of the body, table
-    of the sensors.
+    of the sensors. The model of the robot in Webots (E-puck.proto): a horizontal field of view of 0.84 rad
+    and 52 x 39 pixels, position of the camera.
 """
 
 from __future__ import annotations
 
-from math import pi
+from math import atan, pi, tan
 
-from deodar.worlds.arena.vehicle import Infrared, Vehicle
+from deodar.worlds.arena.vehicle import Infrared, Vehicle, VehicleCamera
 
 # Sensor 0 is at the right of the front; the others follow clockwise round the robot. The angles are those of
 # the published controller; the positions are general knowledge of the robot, accurate to a millimetre or two.
@@ -36,4 +37,5 @@ EPUCK = Vehicle(
         readings=(4095.0, 3474.0, 2211.0, 676.0, 306.0, 164.0, 90.0, 56.0, 34.0),
         noise=(0.005, 0.037, 0.071, 0.105, 0.125, 0.206, 0.269, 0.438, 0.704),
     ),
+    camera=VehicleCamera(0.84, 2 * atan(tan(0.42) * 39 / 52), height=0.028, forward=0.03),
 )

@@ -1,13 +1,15 @@
 """The layout of an arena: its JSON format, the reader, and the checks.
 
-    {"unit": "m", "arena": {"x": [0, 1], "y": [0, 1]},
+    {"unit": "m", "arena": {"x": [0, 1], "y": [0, 1], "height": 0.1},
      "walls": [{"name": "north", "center": [0.5, 0.9], "size": [0.6, 0.05]}],
      "boxes": [...],
-     "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "color": [1, 0, 0]}],
+     "blocks": [{"name": "red", "center": [0.2, 0.3], "size": [0.05, 0.05], "height": 0.07,
+                 "color": [1, 0, 0]}],
      "start": [0.2, 0.2], "heading": 0.0, "goal": [0.8, 0.8]}
 
-A file may contain several arenas by name. All objects are parallel to the two axes; sensors and contact
-ignore their height.
+A file may contain several arenas by name. All objects are parallel to the two axes. Only the camera depends
+on heights: `arena.height` is that of the walls of the border (by default 0.1 m), and of objects that state
+none.
 """
 
 from __future__ import annotations
@@ -33,15 +35,21 @@ COLOURS = {"walls": (0.45, 0.45, 0.45), "boxes": (0.72, 0.53, 0.3), "blocks": (0
 KNOWN = ("unit", "plane", "arena", *COLOURS, "start", "heading", "goal", "goal_area")
 LARGEST_FILE = 2**24
 
+WALL_HEIGHT = 0.1
+"""Height of the walls of the border where a layout states none, m: about twice that of the vehicles."""
+
 
 @dataclass(frozen=True)
 class ArenaObject:
-    """A box in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to 1."""
+    """A box in an arena: middle and size (x, y) in metres, colour (red, green, blue) from 0 to 1, height in
+    metres; None: that of the walls of the border.
+    """
 
     name: str
     center: tuple[float, float]
     size: tuple[float, float]
     color: tuple[float, float, float]
+    height: float | None = None
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -59,21 +67,31 @@ class ArenaLayout:
         objects: boxes in it; they may overlap, and may lie outside the border (parked).
         start: x, y in m and heading in rad, or None.
         goal: x, y in m, or None.
+        height: height of the walls of the border, m.
     """
 
     border: tuple[float, float, float, float]
     objects: tuple[ArenaObject, ...] = ()
     start: tuple[float, float, float] | None = None
     goal: tuple[float, float] | None = None
+    height: float = WALL_HEIGHT
 
     def to_data(self) -> JsonObject:
         """Return the layout in the format of a file."""
         left, low, right, high = self.border
-        data: JsonObject = {"unit": "m", "arena": {"x": [left, right], "y": [low, high]}}
-        data["blocks"] = [
-            {"name": t.name, "center": list(t.center), "size": list(t.size), "color": list(t.color)}
-            for t in self.objects
-        ]
+        area: JsonObject = {"x": [left, right], "y": [low, high]}
+        if self.height != WALL_HEIGHT:
+            area["height"] = self.height
+        blocks: list[Json] = []
+        for t in self.objects:
+            said: JsonObject = {
+                "name": t.name,
+                "center": list(t.center),
+                "size": list(t.size),
+                "color": list(t.color),
+            }
+            blocks.append(said if t.height is None else said | {"height": t.height})
+        data: JsonObject = {"unit": "m", "arena": area, "blocks": blocks}
         if self.start is not None:
             data |= {"start": list(self.start[:2]), "heading": self.start[2]}
         return data if self.goal is None else data | {"goal": list(self.goal)}
@@ -154,6 +172,14 @@ class _Faults(list[Problem]):
             return None
         return float(numbers[0] or 0), float(numbers[1] or 0)
 
+    def height(self, place: str, value: Json, scale: float) -> float | None:
+        """Return a height in metres, None where none is stated."""
+        number = None if value is None else real(value)
+        if value is not None and (number is None or not 0 < number < math.inf):
+            self.say(place, f"is {show(value)}; expected a finite number above 0")
+            return None
+        return None if number is None else float(number) * scale
+
 
 def _layout(data: Json, where: str) -> ArenaLayout:
     faults = _Faults(where)
@@ -188,9 +214,12 @@ def _layout(data: Json, where: str) -> ArenaLayout:
         scale,
         faults,
     )
+    walls = data.get("arena")
+    height = faults.height("arena.height", walls.get("height") if isinstance(walls, Mapping) else None, scale)
     if faults or border is None:
         raise WorldError(faults)
-    return ArenaLayout(border, objects, None if start is None else (*start, float(heading or 0)), goal)
+    begin = None if start is None else (*start, float(heading or 0))
+    return ArenaLayout(border, objects, begin, goal, WALL_HEIGHT if height is None else height)
 
 
 def _border(
@@ -246,25 +275,31 @@ def _objects(data: Mapping[str, Json], turned: bool, scale: float, faults: _Faul
                 faults.say(name, "is the name of two objects")
             taken.add(name)
             item = _object(name, entry.get("center"), entry.get("size"), entry.get("color", colour), faults)
+            height = faults.height(f"{name}.height", entry.get("height"), scale)
             if item is not None:
                 (w, h), center = item.size, _turn(item.center, turned, scale)
-                yield ArenaObject(
-                    name, center, (h * scale, w * scale) if turned else (w * scale, h * scale), item.color
-                )
+                size = (h * scale, w * scale) if turned else (w * scale, h * scale)
+                yield ArenaObject(name, center, size, item.color, height)
 
 
-def make(name: str, center: Json, size: Json, color: Json, scale: float = 1.0) -> ArenaObject:
+def make(
+    name: str, center: Json, size: Json, color: Json, scale: float = 1.0, height: Json = None
+) -> ArenaObject:
     """Make an object from unchecked values; lengths are in units of `scale` metres.
 
+    Without a height it is as tall as the walls of the border.
+
     Raises:
-        WorldError: a number is missing or not finite, the object has no area, or its colour is invalid.
+        WorldError: a number is missing or not finite, the object has no area, or its colour or
+            height is invalid.
     """
     faults = _Faults("")
     item = _object(name, center, size, color, faults)
-    if item is None:
+    tall = faults.height(f"{name}.height", height, scale)
+    if item is None or faults:
         raise WorldError(faults)
     (x, y), (w, h) = item.center, item.size
-    return ArenaObject(name, (x * scale, y * scale), (w * scale, h * scale), item.color)
+    return ArenaObject(name, (x * scale, y * scale), (w * scale, h * scale), item.color, tall)
 
 
 def _object(name: str, center: Json, size: Json, color: Json, found: _Faults) -> ArenaObject | None:

@@ -35,6 +35,7 @@ class ArenaObjects:
 
     def __init__(self, layout: ArenaLayout, period: float) -> None:
         self.border = layout.border
+        self.wall_height = layout.height
         self.period = period
         self.room = len(layout.objects) + SPARE
         self.slots: list[ArenaObject | None] = list(layout.objects) + [None] * SPARE
@@ -103,6 +104,13 @@ class ArenaObjects:
         """Return the colours (n, 3) of the rows of `boxes`."""
         return np.asarray([*(OUTSIDE if t is None else t.color for t in self.slots), *([OUTSIDE] * BORDER)])
 
+    def heights(self) -> np.ndarray:
+        """Return the heights (n,) of the rows of `boxes` in metres."""
+        stated = [None if t is None else t.height for t in self.slots]
+        return np.asarray(
+            [*(self.wall_height if h is None else h for h in stated), *[self.wall_height] * BORDER]
+        )
+
     def times(self, trials: Sequence[int]) -> np.ndarray:
         """Return the windows (trials, n, 2) of the rows of `boxes`, in periods."""
         out = np.zeros((len(trials), self.room + BORDER, 2), np.int32)
@@ -115,7 +123,7 @@ class ArenaObjects:
     def to_data(self) -> list[Json]:
         """Return the objects and their windows as plain data."""
         return [
-            [t.name, *t.center, *t.size, *t.color, w.tolist()]
+            [t.name, *t.center, *t.size, *t.color, w.tolist(), *([] if t.height is None else [t.height])]
             for t, w in zip(self.slots, self.windows, strict=True)
             if t is not None
         ]
@@ -128,7 +136,7 @@ class ArenaObjects:
     def restore(self, data: Sequence[Any]) -> None:
         """Replace all objects by those that `to_data` or `to_slots` returned."""
         self.slots = [
-            None if d is None else ArenaObject(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7]))
+            None if d is None else ArenaObject(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7]), *d[9:])
             for d in data
         ]
         self.windows = [np.asarray([ALWAYS] if d is None else d[8], np.int32) for d in data]

@@ -37,6 +37,22 @@ class Infrared:
 
 
 @dataclass(frozen=True)
+class VehicleCamera:
+    """A colour camera that looks straight ahead, parallel to the floor; a pinhole without distortion.
+
+    Attributes:
+        horizontal, vertical: field of view, rad.
+        height: height above the floor, m.
+        forward: position in front of the axle, m.
+    """
+
+    horizontal: float
+    vertical: float
+    height: float
+    forward: float = 0.0
+
+
+@dataclass(frozen=True)
 class Vehicle:
     """A round body on two driven wheels.
 
@@ -48,6 +64,7 @@ class Vehicle:
         steps_per_turn: motor steps in one turn of a wheel; wheel speeds are given in steps per second.
         fastest: largest speed of a wheel, steps per second.
         infrared: distance sensors.
+        camera: colour camera, or None.
     """
 
     name: str
@@ -57,6 +74,7 @@ class Vehicle:
     steps_per_turn: float
     fastest: float
     infrared: Infrared
+    camera: VehicleCamera | None = None
 
     @property
     def step_length(self) -> float:

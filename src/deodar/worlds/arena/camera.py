@@ -1,0 +1,159 @@
+"""The picture of a vehicle's colour camera among boxes, as pure functions of one copy.
+
+The camera is a pinhole that looks straight ahead, parallel to the floor. Columns run from the left to the
+right and rows from the top to the bottom, both equally spaced in the image plane. A pixel has the colour of
+the surface that the ray through its middle meets first: a side or the top of a box, or the floor; the
+background where the ray meets none.
+"""
+
+from __future__ import annotations
+
+import math
+
+import jax.numpy as jnp
+import numpy as np
+from jax import Array, lax
+
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axes
+from deodar.worlds.arena.vehicle import VehicleCamera, ahead
+from deodar.worlds.arena.view import FLOOR
+
+BACKGROUND = (0.78, 0.78, 0.78)
+"""Colour above the boxes."""
+
+NEAREST = 1e-6
+"""Smallest depth of a surface, m: that of a box around the camera."""
+
+AT_ONCE = 48
+"""Number of boxes whose depths are compared in one loop over the pixels; more take longer to compile."""
+
+
+def slopes(samples: int, angle: float) -> np.ndarray:
+    """Return the slopes of the rays of a row or column of pixels, positive to the left or upwards, falling.
+
+    The slope is the offset in the image plane at distance 1; pixel middles are equally spaced in it::
+
+        slope_i = tan(angle / 2) * (1 - (2 i + 1) / samples)
+    """
+    return math.tan(angle / 2) * (1 - (2 * np.arange(samples) + 1) / samples)
+
+
+def picture_rays(camera: VehicleCamera, sensor: str, axes: Axes) -> tuple[np.ndarray, np.ndarray]:
+    """Return the slopes of the columns and of the rows of a sensor's pixels; `line` has one row.
+
+    The axes state the number of columns and rows; the picture always covers the whole field of view.
+
+    Raises:
+        WorldError: the sensor is sampled over other axes.
+    """
+    wanted = 2 if sensor == "line" else 3
+    if len(axes) != wanted or axes[-1].samples != 3:
+        shape = "columns and three channels" if wanted == 2 else "columns, rows and three channels"
+        raise WorldError(f"is seen over {shape}, not over {[a.samples for a in axes]} samples", where=sensor)
+    columns = slopes(axes[0].samples, camera.horizontal)
+    return columns, np.zeros(1) if wanted == 2 else slopes(axes[1].samples, camera.vertical)
+
+
+def surfaces(
+    camera: VehicleCamera,
+    pose: tuple[Array, Array],
+    boxes: Array,
+    heights: Array,
+    present: Array,
+    rays: tuple[np.ndarray, np.ndarray],
+) -> Array:
+    """Return for each pixel (columns, rows) the number of the box that it shows, n for the floor and n + 1
+    for the background.
+
+    A ray is a point that moves forward by 1 m, sideways by the slope of the column and upwards by the slope
+    of the row. It is inside the footprint of a box between two depths, and between the floor and the top of
+    the box between two others; it meets the box where both intervals begin to overlap. Depths are compared
+    with a relative error of 2^-17 (for 64 boxes), because the number of the box replaces the last bits.
+
+    Args:
+        camera: the camera.
+        pose: position (2,) and heading of the vehicle.
+        boxes: (n, 4), m.
+        heights: height of each box (n,), m.
+        present: which boxes are present (n,).
+        rays: slopes of the columns and of the rows.
+    """
+    count, dtype = len(boxes), boxes.dtype
+    across, up = jnp.asarray(rays[0], dtype), rays[1]
+    near, far = _footprints(camera, pose, boxes, across)
+    far = jnp.where(present[:, None], far, -1.0)
+    enter, leave = _between(camera, heights, jnp.asarray(up, dtype))
+    loops = -(-count // AT_ONCE)
+    each = -(-count // loops)
+    last = jnp.pad(far, ((0, loops * each - count), (0, 0)), constant_values=-1.0)
+    spans = [
+        jnp.pad(a, ((0, loops * each - count), (0, 0)))
+        for a in (_numbered(near, count), _numbered(enter, count), leave)
+    ]
+
+    def nearer(k: Array | int, best: Array) -> Array:
+        one, two, end, stop = (lax.dynamic_slice_in_dim(a, k * each, each) for a in (*spans, last))
+        for b in range(each):
+            depth = jnp.maximum(one[b][:, None], two[b])
+            best = jnp.minimum(
+                best, jnp.where(depth <= jnp.minimum(stop[b][:, None], end[b]), depth, jnp.inf)
+            )
+        return best
+
+    nothing = jnp.full((len(across), len(up)), jnp.inf, dtype)
+    best = nearer(0, nothing) if loops == 1 else lax.fori_loop(0, loops, nearer, nothing)
+    other = np.where(up < 0, count, count + 1).astype(np.int32)
+    return jnp.where(best < jnp.inf, _number(best, count), other)
+
+
+def colours_of(numbers: Array, colours: Array) -> Array:
+    """Return the colours (..., 3) of the surfaces that `surfaces` numbered; `colours` are those of the boxes
+    (n, 3).
+    """
+    others = jnp.asarray([FLOOR, BACKGROUND], colours.dtype)
+    return jnp.concatenate([colours, others]).at[numbers].get(mode="promise_in_bounds")
+
+
+def _footprints(
+    camera: VehicleCamera, pose: tuple[Array, Array], boxes: Array, across: Array
+) -> tuple[Array, Array]:
+    """Return the depths (n, columns) at which the rays enter and leave the footprint of each box."""
+    position, heading = pose
+    front = ahead(heading)
+    eye = position + camera.forward * front
+    rays = front + across[:, None] * jnp.stack([-front[1], front[0]])
+    tiny = jnp.asarray(1e-30, boxes.dtype)
+    inverse = 1.0 / jnp.where(jnp.abs(rays) < tiny, tiny, rays)
+    one, other = ((side[:, None] - eye) * inverse for side in (boxes[:, :2], boxes[:, 2:]))
+    near, far = jnp.max(jnp.minimum(one, other), axis=-1), jnp.min(jnp.maximum(one, other), axis=-1)
+    return jnp.maximum(near, NEAREST), far
+
+
+def _between(camera: VehicleCamera, heights: Array, up: Array) -> tuple[Array, Array]:
+    """Return the depths (n, rows) at which the rays come between the floor and the top of each box, and leave
+    this range; the second is negative for rays that pass above.
+    """
+    rise = (heights - camera.height)[:, None]
+    tall, down = rise >= 0, up < 0
+    slope = jnp.where(up == 0, jnp.asarray(1e-30, up.dtype), up)
+    enter = jnp.where(~tall & down, rise / slope, 0.0)
+    return enter, jnp.where(down, -camera.height / slope, jnp.where(tall, rise / slope, -1.0))
+
+
+def _words(dtype: np.dtype[np.floating], count: int) -> tuple[type[np.unsignedinteger], int]:
+    """Return the type of the bits of a number, and how many of them hold the number of a box."""
+    return np.uint64 if np.dtype(dtype) == np.float64 else np.uint32, max(1, (count - 1).bit_length())
+
+
+def _numbered(depths: Array, count: int) -> Array:
+    """Replace the last bits of depths (n, samples) by the number of the row; the order of depths remains."""
+    kind, bits = _words(depths.dtype, count)
+    words = lax.bitcast_convert_type(depths, kind) >> kind(bits) << kind(bits)
+    return lax.bitcast_convert_type(words | jnp.arange(count, dtype=kind)[:, None], depths.dtype)
+
+
+def _number(depths: Array, count: int) -> Array:
+    """Return the numbers that `_numbered` put into depths."""
+    kind, bits = _words(depths.dtype, count)
+    return (lax.bitcast_convert_type(depths, kind) & kind(2**bits - 1)).astype(jnp.int32)

@@ -1,0 +1,263 @@
+"""The picture of a vehicle's camera, compared with geometry in plain NumPy."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import WorldError
+from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.camera import AT_ONCE, BACKGROUND
+from deodar.worlds.arena.epuck import EPUCK
+from deodar.worlds.arena.view import FLOOR, OUTSIDE
+
+CAMERA = EPUCK.camera
+assert CAMERA is not None
+COLUMNS, ROWS, CHANNEL = dd.Axis("column", 0, 79, 80), dd.Axis("row", 0, 59, 60), dd.Axis("channel", 0, 2, 3)
+AXES = (COLUMNS, ROWS, CHANNEL)
+RED, GREEN, BLUE = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def room(*objects: dict[str, Any], wall: float = 0.5, **options: Any) -> Arena:
+    """Return an arena of 4 m x 4 m that has begun, with the vehicle in its middle facing along x."""
+    layout: dict[str, Any] = {"arena": {"x": [-2, 2], "y": [-2, 2], "height": wall}, "blocks": list(objects)}
+    world = Arena(layout, **{"start": (0.0, 0.0, 0.0)} | options)
+    world.reset(0)
+    return world
+
+
+def block(name: str, x: float, y: float, size: Any, height: float, color: Any) -> dict[str, Any]:
+    return {"name": name, "center": [x, y], "size": size, "height": height, "color": list(color)}
+
+
+def shot(world: Arena, axes: Any = AXES) -> np.ndarray:
+    return world.sense("camera" if len(axes) == 3 else "line", axes, 0.0)[0]
+
+
+def outline(world: Arena, pose: Any, name: str) -> tuple[float, float, float, float]:
+    """Project the eight corners of an object: least and largest column and row, in pixels."""
+    item = next(t for t in world.layout.objects if t.name == name)
+    x0, y0, x1, y1 = item.box
+    assert CAMERA is not None and item.height is not None
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    found = []
+    for x in (x0, x1):
+        for y in (y0, y1):
+            for z in (0.0, item.height):
+                dx, dy = x - pose[0], y - pose[1]
+                depth, left = c * dx + s * dy - CAMERA.forward, c * dy - s * dx
+                found.append((left / depth / math.tan(CAMERA.horizontal / 2), (z - CAMERA.height) / depth))
+    across, up = np.asarray(found).T
+    columns = (1 - across) * COLUMNS.samples / 2
+    rows = (1 - up / math.tan(CAMERA.vertical / 2)) * ROWS.samples / 2
+    return columns.min(), columns.max(), rows.min(), rows.max()
+
+
+def extent(picture: np.ndarray, color: Any) -> tuple[int, int, int, int]:
+    """Return first and last column and row of the pixels of a colour, the last ones plus 1."""
+    columns, rows = np.nonzero((np.abs(picture - color) < 1e-6).all(axis=-1))
+    return columns.min(), columns.max() + 1, rows.min(), rows.max() + 1
+
+
+@pytest.mark.parametrize(
+    "pose", [(0.0, 0.0, 0.0), (-1.0, 0.3, -0.2), (0.2, -0.9, 1.0), (1.2, 1.1, -2.5), (-0.6, 0.9, -0.7)]
+)
+def test_a_block_has_its_projected_size_and_place(pose: tuple[float, float, float]) -> None:
+    x, y = pose[0] + 0.5 * math.cos(pose[2] + 0.1), pose[1] + 0.5 * math.sin(pose[2] + 0.1)
+    world = room(block("red", x, y, [0.06, 0.04], 0.05, RED), start=pose)
+    wanted = outline(world, pose, "red")
+    assert 0 < wanted[0] < wanted[1] < 80 and 0 < wanted[2] < wanted[3] < 60, "the block is in view"
+    np.testing.assert_allclose(extent(shot(world), RED), wanted, atol=1.0)
+
+
+def test_a_block_grows_as_it_comes_near() -> None:
+    for distance in (0.15, 0.3, 0.6, 1.2):
+        world = room(block("red", distance, 0.0, [0.05, 0.05], 0.04, RED))
+        np.testing.assert_allclose(extent(shot(world), RED), outline(world, (0, 0, 0), "red"), atol=1.0)
+
+
+def test_columns_run_from_the_left_and_rows_from_the_top() -> None:
+    picture = shot(room(block("red", 0.5, 0.15, [0.05, 0.05], 0.04, RED), wall=0.1))
+    assert extent(picture, RED)[1] < 40
+    np.testing.assert_allclose(picture[79, [0, -1]], [BACKGROUND, FLOOR], atol=1e-6)
+    assert (np.abs(picture[79] - OUTSIDE) < 1e-6).all(axis=-1).any(), "the wall is between both"
+
+
+def test_the_walls_of_the_border_end_where_their_height_says() -> None:
+    assert CAMERA is not None
+    picture = shot(room(wall=0.4))
+    depth = 2 - CAMERA.forward
+    edges = np.asarray([0.4 - CAMERA.height, -CAMERA.height]) / depth / math.tan(CAMERA.vertical / 2)
+    np.testing.assert_allclose(extent(picture, OUTSIDE)[2:], (1 - edges) * 30, atol=1.0)
+
+
+def meets(world: Arena, pose: Any, slope: tuple[float, float]) -> np.ndarray:
+    """Return the colour at the first of many points along a ray that is inside an object or below the floor.
+
+    Points on a line are compared with the objects; no formula is shared with the camera.
+    """
+    assert CAMERA is not None
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    depth = np.arange(1, 30_000) * 1e-4
+    x = pose[0] + c * CAMERA.forward + depth * (c - slope[0] * s)
+    y = pose[1] + s * CAMERA.forward + depth * (s + slope[0] * c)
+    z = CAMERA.height + depth * slope[1]
+    left, low, right, high = world.layout.border
+    hit = np.full(len(depth), -1)
+    hit[(z <= 0)] = -2
+    for k, item in enumerate(world.layout.objects):
+        x0, y0, x1, y1 = item.box
+        top = world.layout.height if item.height is None else item.height
+        hit[(x >= x0) & (x <= x1) & (y >= y0) & (y <= y1) & (z >= 0) & (z <= top)] = k
+    outside = (x <= left) | (x >= right) | (y <= low) | (y >= high)
+    hit[outside & (z >= 0) & (z <= world.layout.height)] = -3
+    first = hit[np.argmax(hit != -1)] if (hit != -1).any() else -1
+    colours = {-1: BACKGROUND, -2: FLOOR, -3: OUTSIDE}
+    return np.asarray(colours.get(first) or world.layout.objects[first].color)
+
+
+def agrees(world: Arena, pose: Any) -> float:
+    """Return the share of pixels whose colour is that of a ray through the pixel or right beside it."""
+    assert CAMERA is not None
+    axes = (dd.Axis("column", 0, 31, 32), dd.Axis("row", 0, 23, 24), CHANNEL)
+    picture = shot(world, axes)
+    right = []
+    for i in range(32):
+        for j in range(24):
+            across = math.tan(CAMERA.horizontal / 2) * (1 - (2 * i + 1) / 32)
+            up = math.tan(CAMERA.vertical / 2) * (1 - (2 * j + 1) / 24)
+            near = [meets(world, pose, (across + d, up + e)) for d, e in ((0, 0), (3e-3, 0), (0, 3e-3))]
+            right.append(min(np.abs(picture[i, j] - n).max() for n in near) < 1e-6)
+    return float(np.mean(right))
+
+
+def test_low_blocks_before_high_ones_hide_their_lower_parts_only() -> None:
+    near, far = (
+        block("near", 0.4, 0.0, [0.05, 0.1], 0.03, RED),
+        block("far", 0.8, 0.0, [0.1, 0.1], 0.3, GREEN),
+    )
+    picture = shot(room(near, far))
+    column = picture[40]
+    reds, greens = ((np.abs(column - c) < 1e-6).all(axis=-1) for c in (RED, GREEN))
+    assert reds.any() and greens.any() and np.flatnonzero(greens).max() + 1 == np.flatnonzero(reds).min()
+    hidden = shot(room(near | {"height": 0.3}, far))
+    assert not (np.abs(hidden[40] - GREEN) < 1e-6).all(axis=-1).any()
+
+
+def test_the_top_of_a_block_below_the_camera_is_seen() -> None:
+    assert CAMERA is not None
+    flat = block("flat", 0.3, 0.0, [0.2, 0.1], 0.005, RED)
+    _, _, top, bottom = extent(shot(room(flat)), RED)
+    up = np.asarray(
+        [(0.005 - CAMERA.height) / (0.4 - CAMERA.forward), -CAMERA.height / (0.2 - CAMERA.forward)]
+    )
+    rows = (1 - up / math.tan(CAMERA.vertical / 2)) * 30
+    np.testing.assert_allclose([top, bottom], np.minimum(rows, 60), atol=1.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_pixel_shows_the_first_surface_on_its_ray(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    things = [
+        block(
+            f"b{k}",
+            *random.uniform([0.15, -0.4], [1.5, 0.4]),
+            random.uniform(0.03, 0.3, 2).tolist(),
+            random.choice([0.01, 0.02, 0.05, 0.15]),
+            random.uniform(0, 1, 3),
+        )
+        for k in range(12)
+    ]  # they overlap, too
+    pose = (0.0, 0.0, random.uniform(-0.3, 0.3))
+    assert agrees(room(*things, wall=0.2, start=pose), pose) > 0.995
+
+
+def test_a_block_without_a_height_is_as_tall_as_the_walls() -> None:
+    bare = {"name": "bare", "center": [0.5, 0.0], "size": [0.05, 0.05], "color": list(RED)}
+    stated = shot(room(bare | {"height": 0.08}, wall=0.5))
+    np.testing.assert_array_equal(shot(room(bare, wall=0.08))[38:42, 20:40], stated[38:42, 20:40])
+    np.testing.assert_allclose(shot(room(bare, wall=0.5))[40, 0], RED, atol=1e-6)
+
+
+def test_the_line_is_the_row_of_the_picture_at_the_height_of_the_camera() -> None:
+    things = block("low", 0.3, 0.0, [0.05, 0.05], 0.02, RED), block("high", 0.8, 0.1, [0.1, 0.1], 0.1, GREEN)
+    world = room(*things)
+    middle = shot(world, (COLUMNS, dd.Axis("row", 0, 60, 61), CHANNEL))[:, 30]
+    line = shot(world, (COLUMNS, CHANNEL))
+    np.testing.assert_array_equal(line, middle)
+    assert (line == np.asarray(GREEN, line.dtype)).all(axis=-1).any()
+    assert not (line == np.asarray(RED, line.dtype)).all(axis=-1).any(), "the camera looks over the low block"
+
+
+def test_objects_are_seen_while_they_are_present() -> None:
+    world = room()
+    before = shot(world)
+    world.place("shown", (0.5, 0.0), (0.05, 0.05), RED, windows=(64.0, 128.0), height=0.06)
+    seen = []
+    for _ in range(3):
+        seen.append((np.abs(shot(world) - RED) < 1e-6).all(axis=-1).any())
+        world.act({}, 0.0)
+    assert seen == [False, True, False]
+    np.testing.assert_array_equal(shot(world), before)
+
+
+def test_many_boxes_are_compared_in_several_loops() -> None:
+    count = 2 * AT_ONCE
+    posts = [
+        block(f"p{k}", 1.0, 0.01 * (k - count / 2), [0.004, 0.004], 0.1, (k / count, 0, 1))
+        for k in range(count)
+    ]
+    few = [p for p in posts if abs(p["center"][1]) < 0.1]
+    axes = (dd.Axis("column", 0, 799, 800), CHANNEL)
+    assert CAMERA is not None
+    narrow = np.abs(math.tan(CAMERA.horizontal / 2) * (1 - (2 * np.arange(800) + 1) / 800)) < 0.08
+    np.testing.assert_array_equal(shot(room(*posts), axes)[narrow], shot(room(*few), axes)[narrow])
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_both_precisions_give_the_same_picture(precision: str) -> None:
+    world = room(
+        block("red", 0.5, 0.03, [0.06, 0.04], 0.05, RED), block("low", 0.3, 0, [0.3, 0.3], 0.01, BLUE)
+    )
+    single = shot(world)
+    world.reset(0, precision=precision)
+    assert world.sense("camera", AXES, 0.0).dtype == precision
+    assert (np.abs(shot(world) - single) < 1e-6).all(axis=-1).mean() > 0.999
+
+
+def test_a_camera_around_which_a_box_is_placed_sees_the_box() -> None:
+    world = room()
+    world.place("over", (0.0, 0.0), (0.2, 0.2), RED, height=0.2)
+    np.testing.assert_allclose(shot(world), np.broadcast_to(RED, (80, 60, 3)), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("sensor", "axes"), [("camera", (COLUMNS, ROWS)), ("line", AXES), ("line", (COLUMNS,))]
+)
+def test_other_axes_are_refused(sensor: str, axes: Any) -> None:
+    with pytest.raises(WorldError, match="channels"):
+        room().sense(sensor, axes, 0.0)
+
+
+@pytest.mark.parametrize("height", [0, -1, math.nan, "tall"])
+def test_invalid_heights_are_refused(height: Any) -> None:
+    with pytest.raises(WorldError, match=r"height.*expected a finite number above 0"):
+        room(block("red", 0.5, 0.0, [0.1, 0.1], 0.1, RED) | {"height": height})
+    with pytest.raises(WorldError, match="height"):
+        room().place("red", (0.5, 0.0), (0.1, 0.1), height=height)
+
+
+def test_heights_are_part_of_the_description() -> None:
+    world = Arena(
+        {"unit": "cm", "arena": {"x": [0, 100], "y": [0, 100], "height": 20}, "start": [20, 20]}, unit="cm"
+    )
+    world.place("red", (50, 50), (5, 5), RED, height=7)
+    world.place("bare", (50, 20), (5, 5), GREEN)
+    again = Arena.again(world.describe())
+    assert again.describe()["sha256"] == world.describe()["sha256"]
+    np.testing.assert_allclose(again.objects.heights(), world.objects.heights())
+    assert sorted(set(again.objects.heights().round(6))) == [0.07, 0.2]
