@@ -59,7 +59,10 @@ QUOTA = """
 import resource, sys
 sys.path[:0] = {path!r}
 import deodar as dd
+from deodar.recording import growing
+from deodar.session import run
 from tests.recording.models import model
+growing.FLUSH_SECONDS = run.CHUNK_SECONDS = 0.005
 dd.simulate(model(), 1, record="u")
 resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
 dd.simulate(model(), 100_000, seed=3, record="u", every=1, out=sys.argv[1], snapshots=100)
@@ -67,7 +70,10 @@ dd.simulate(model(), 100_000, seed=3, record="u", every=1, out=sys.argv[1], snap
 
 
 def test_a_run_that_fills_its_quota_ends_with_an_error_and_keeps_its_record(tmp_path: Path) -> None:
-    """The system lets no file grow beyond 60,000 bytes, which is less than a chunk."""
+    """The system lets no file grow beyond 60,000 bytes, which is less than a chunk.
+
+    Samples are written in small pieces, so that the first ones are stored on a machine of any speed.
+    """
     command = [sys.executable, "-B", "-c", QUOTA.format(path=sys.path), str(tmp_path / "run")]
     environment = os.environ | {"DEODAR_CACHE": "off"}
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
