@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 import numpy as np
 import pytest
 
 from deodar.errors import WorldError
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.argument import parse_argument
+from deodar.worlds.arena.khepera import KHEPERA
 
 
 def test_an_argument_may_name_only_the_layout():
@@ -28,6 +31,19 @@ def test_a_start_without_a_heading_faces_along_x():
     assert Arena.open("z, unit=cm, start=-45 55").starts[0, 2] == 0
 
 
+def test_a_vehicle_is_chosen_by_its_name():
+    arena = Arena.open("blocks, unit=cm, vehicle=khepera")
+    assert arena.vehicle == Arena(vehicle="khepera").vehicle != Arena().vehicle
+    assert arena.sensors["infrared"].shape == (6,) and arena.sensors["infrared"].unit == "mm"
+    assert Arena.again(arena.describe()).vehicle == arena.vehicle
+
+
+def test_an_arena_with_a_vehicle_of_your_own_is_not_opened_again():
+    arena = Arena(vehicle=dc.replace(KHEPERA, radius=0.03))
+    with pytest.raises(WorldError, match="custom vehicle"):
+        Arena.again(arena.describe())
+
+
 @pytest.mark.parametrize(
     ("argument", "said"),
     [
@@ -37,6 +53,7 @@ def test_a_start_without_a_heading_faces_along_x():
         ("z, start=1 2 3 4", "start is '1 2 3 4'"),
         ("z, slip=much", "slip is 'much'; expected a number"),
         ("z, place_noise=-1", "place_noise is -1"),
+        ("z, vehicle=kephera", "no vehicle 'kephera'. Did you mean 'khepera'"),
         ("z, unit=mile", "unit is 'mile'"),
     ],
 )

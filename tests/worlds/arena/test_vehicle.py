@@ -8,6 +8,7 @@ import pytest
 
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
+from deodar.worlds.arena.khepera import KHEPERA
 from deodar.worlds.arena.vehicle import ahead, drive, limited, wrapped
 
 NOTHING = jnp.zeros((1, 4)), jnp.zeros(1, bool)
@@ -94,3 +95,43 @@ def test_readings_follow_the_table_with_noise_that_grows_with_distance() -> None
 def test_without_obstacles_every_sensor_reads_the_last_entry_of_the_table() -> None:
     seen = distances(EPUCK.infrared, jnp.zeros(2), jnp.asarray(0.4), *NOTHING, jnp.asarray(0.6))
     np.testing.assert_allclose(readings(EPUCK.infrared, seen, jnp.zeros(8)), 34, rtol=1e-6)
+
+
+def test_the_khepera_has_the_published_wheels() -> None:
+    way, _ = drive(KHEPERA, jnp.asarray(0.0), jnp.asarray([1200.0, 1200.0]))
+    np.testing.assert_allclose(way, [0.1, 0], atol=1e-6)
+    _, turn = drive(KHEPERA, jnp.asarray(0.0), jnp.asarray([-12.0, 12.0]))
+    np.testing.assert_allclose(turn, 2 / 53, rtol=1e-5)
+
+
+def test_infrared_sensors_of_the_khepera_state_distances_up_to_their_range() -> None:
+    s = KHEPERA.infrared
+    at = jnp.asarray([0.0, 0.0123, 0.05, 0.0999, 0.1001, 0.3])
+    np.testing.assert_allclose(
+        readings(s, at, jnp.zeros(6)), [0, 12.3, 50, 99.9, 10_000, 10_000], rtol=1e-4, atol=1e-4
+    )
+    noisy = readings(s, jnp.full(20_000, 0.06), jnp.asarray(np.random.default_rng(1).normal(size=20_000)))
+    np.testing.assert_allclose([np.mean(noisy), np.std(noisy)], [60, 3], rtol=0.02)
+    assert (readings(s, jnp.full(5, 0.2), jnp.full(5, -3.0)) == 10_000).all(), "no noise where nothing is"
+
+
+@pytest.mark.parametrize(("sensor", "degrees"), [*enumerate([-90, -45, -9, 11, 45, 90])])
+def test_each_infrared_sensor_of_the_khepera_looks_where_the_paper_says(sensor: int, degrees: float) -> None:
+    """A small block stands 4 cm from the rim, at an angle that is positive to the right."""
+    angle = np.radians(0.7 - degrees)  # the robot faces 0.7 degrees to the left of x
+    x, y = (0.0275 + 0.04 + 0.002) * np.cos(angle), (0.0275 + 0.04 + 0.002) * np.sin(angle)
+    box = jnp.asarray([[x - 0.002, y - 0.002, x + 0.002, y + 0.002]])
+    seen = readings(
+        KHEPERA.infrared,
+        distances(
+            KHEPERA.infrared,
+            jnp.zeros(2),
+            jnp.asarray(np.radians(0.7)),
+            box,
+            jnp.ones(1, bool),
+            jnp.asarray(0.6),
+        ),
+        jnp.zeros(6),
+    )
+    assert seen[sensor] == pytest.approx(40, abs=1.0)
+    assert (np.delete(np.asarray(seen), sensor) == 10_000).all()

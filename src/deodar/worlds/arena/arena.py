@@ -35,10 +35,14 @@ from deodar.worlds.arena.objects import ArenaObjects
 from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
+from deodar.worlds.arena.vehicles import VEHICLES, vehicle_of
 from deodar.worlds.arena.view import coloured, require_plane, sides
 
 CONTACTS = ("slide", "stick")
 GOAL = "goal"
+CUSTOM = "custom"
+"""What records state as the vehicle's name if it is none of those that come with deodar."""
+
 WRAP = 2.0**15
 """Encoders count from -WRAP to WRAP and then wrap around, like those of the e-puck (16 bits)."""
 
@@ -47,9 +51,7 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
     """Return the signals of a vehicle's sensors in an arena."""
     out = {
         "infrared": Signal(
-            "infrared sensors, from the right of the front clockwise; large when near",
-            (vehicle.infrared.count,),
-            each=True,
+            vehicle.infrared.meaning, (vehicle.infrared.count,), vehicle.infrared.unit, each=True
         ),
         "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True),
         "heading": Signal("heading; 0 along x, counter-clockwise", (), "rad", each=True),
@@ -109,12 +111,13 @@ class Arena(PureWorld):
             free place nearest the middle.
         goal: x and y, or a row for each trial; None: that of the layout.
         unit: unit of all lengths in arguments and readings: m, cm or mm.
-        vehicle: the vehicle; by default an e-puck.
+        vehicle: `e-puck` or `khepera`, or a `Vehicle` of your own (`deodar.worlds.arena.vehicle`), which
+            records do not contain.
         period: ms between two exchanges with the model.
         contact: `slide` along what is touched, or `stick` to it.
-        reflection: infrared reflectance of objects: an object is read as if its distance were divided by it.
-            0.6 is a fit: with 1 the published planner stops at the gaps of 10 cm of its large maze, which it
-            passed.
+        reflection: infrared reflectance of objects: an e-puck reads an object as if its distance were divided
+            by it; a Khepera, whose readings are distances, does not depend on it. 0.6 is a fit: with 1 the
+            published planner stops at the gaps of 10 cm of its large maze, which it passed.
         place_noise: standard deviation of the place sensor, in `unit`.
         place_every: number of periods for which a reading of the place is kept.
         infrared_noise: factor on the noise of the infrared sensors; 0 removes it.
@@ -147,7 +150,7 @@ class Arena(PureWorld):
         start: Sequence[float] | np.ndarray | None = None,
         goal: Sequence[float] | np.ndarray | None = None,
         unit: str = "m",
-        vehicle: Vehicle = EPUCK,
+        vehicle: str | Vehicle = EPUCK.name,
         period: float = 64.0,
         contact: str = "slide",
         reflection: float = 0.6,
@@ -162,7 +165,8 @@ class Arena(PureWorld):
             raise WorldError(f"unit is {show(unit)}; expected one of {', '.join(UNITS)}")
         if contact not in CONTACTS:
             raise WorldError(f"contact is {show(contact)}", fix=did_you_mean(str(contact), CONTACTS))
-        self.unit, self.scale, self.vehicle, self.contact = unit, UNITS[unit], vehicle, contact
+        self.unit, self.scale, self.contact = unit, UNITS[unit], contact
+        self.vehicle = vehicle_of(vehicle)
         self.period = _number("period", period, above=0.0)
         self.reflection = _number("reflection", reflection, above=0.0)
         if isinstance(place_every, bool) or not isinstance(place_every, (int, np.integer)) or place_every < 1:
@@ -196,7 +200,7 @@ class Arena(PureWorld):
             else np.asarray([first])
         )
         self.starts = self._settled(wanted)
-        self.sensors = signals(vehicle, unit, self.goals is not None)
+        self.sensors = signals(self.vehicle, unit, self.goals is not None)
 
     # ------------------------------------------------------------------------- objects, also changed in a run
 
@@ -478,7 +482,7 @@ class Arena(PureWorld):
     def describe(self) -> JsonObject:
         settings: JsonObject = {
             "unit": self.unit,
-            "vehicle": self.vehicle.name,
+            "vehicle": self.vehicle.name if VEHICLES.get(self.vehicle.name) == self.vehicle else CUSTOM,
             "period": self.period,
             "contact": self.contact,
         }
@@ -506,7 +510,7 @@ class Arena(PureWorld):
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Arena:
         settings = dict(described["settings"])
-        if settings.pop("vehicle") != EPUCK.name:
+        if settings["vehicle"] not in VEHICLES:
             raise WorldError("was run with a custom vehicle, which a record does not contain", where="arena")
         found = cls(described["layout"], described["start"], described["goal"], **settings)
         found.objects.restore(described["things"])

@@ -7,7 +7,7 @@ from typing import Any
 
 from deodar.errors import WorldError, did_you_mean
 
-WORDS = ("unit", "contact")
+WORDS = ("unit", "contact", "vehicle")
 PLACES = {"start": (2, 3), "goal": (2, 2)}
 """Smallest and largest count of numbers of a place; a start without a heading points along x."""
 

@@ -36,6 +36,7 @@ EPUCK = Vehicle(
         distances=(0.0, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07),
         readings=(4095.0, 3474.0, 2211.0, 676.0, 306.0, 164.0, 90.0, 56.0, 34.0),
         noise=(0.005, 0.037, 0.071, 0.105, 0.125, 0.206, 0.269, 0.438, 0.704),
+        meaning="infrared sensors, from the right of the front clockwise; large when near",
     ),
     camera=VehicleCamera(0.84, 2 * atan(tan(0.42) * 39 / 52), height=0.028, forward=0.03),
 )

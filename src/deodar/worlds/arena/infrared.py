@@ -13,7 +13,8 @@ from deodar.worlds.arena.vehicle import Infrared, ahead
 def distances(
     sensors: Infrared, position: Array, heading: Array, boxes: Array, present: Array, reflection: Array
 ) -> Array:
-    """Return the distance (sensors,) to the nearest box along one ray, divided by `reflection`, m.
+    """Return the distance (sensors,) to the nearest box along one ray, m, divided by `reflection` for sensors
+    whose readings depend on it.
 
     Rays end at ten times the largest distance of the table; readings are constant beyond the table.
     """
@@ -25,7 +26,8 @@ def distances(
     looks = ahead(heading + jnp.asarray(sensors.angles, dtype)).T
     # an object that reflects twice as well as the table's surface is detected up to twice the range
     longest = 10 * sensors.distances[-1]
-    return jnp.minimum(rays(origins, looks, boxes, present, longest), longest) / reflection
+    found = jnp.minimum(rays(origins, looks, boxes, present, longest), longest)
+    return found / reflection if sensors.reflects else found
 
 
 def readings(sensors: Infrared, distance: Array, deviates: Array) -> Array:

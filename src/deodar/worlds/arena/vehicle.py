@@ -18,9 +18,12 @@ class Infrared:
         left: position of each sensor to the left of the middle, m.
         angles: direction of each sensor, rad, counter-clockwise from straight ahead.
         distances: distances at which the reading is known, m, rising; beyond the last one the reading is
-            constant.
-        readings: reading at those distances, without unit.
+            constant. The reading jumps at a distance that is listed twice.
+        readings: reading at those distances, in `unit`.
         noise: standard deviation at those distances, as a share of the reading.
+        meaning: what the readings are, and the order of the sensors.
+        unit: unit of the readings; "" if they have none.
+        reflects: whether readings depend on the reflectance of objects; False if they state distances.
     """
 
     forward: tuple[float, ...]
@@ -29,6 +32,9 @@ class Infrared:
     distances: tuple[float, ...]
     readings: tuple[float, ...]
     noise: tuple[float, ...]
+    meaning: str = "readings of the infrared sensors"
+    unit: str = ""
+    reflects: bool = True
 
     @property
     def count(self) -> int:
