@@ -93,9 +93,9 @@ def _objects(pen: Any, r: DrawnRun, k: int, at: Any) -> None:
     (width, height), (x0, y0), (x1, y1) = pen.im.size, at(border[0], border[3]), at(border[2], border[1])
     for side in ((0, 0, x0, height), (x1, 0, width, height), (0, 0, width, y0), (0, y1, width, height)):
         pen.rectangle(side, fill=WALL)
-    for item in r.arena.objects.slots:
-        comes = r.obstacle_at is not None and item is not None and item.name == "obstacle"
-        if item is not None and (not comes or k * r.every > (r.obstacle_at or 0)):
+    for item in r.arena.objects.all():
+        comes = r.obstacle_at is not None and item.name == "obstacle"
+        if not comes or k * r.every > (r.obstacle_at or 0):
             left, low, right, high = (100 * v for v in item.box)
             pen.rectangle([*at(left, high), *at(right, low)], fill=OBSTACLE if comes else WALL)
 

@@ -85,8 +85,8 @@ def plan_figure(result: DrawnRun) -> Figure:
 
 def _path(axes: Axes, r: DrawnRun) -> None:
     maze.walls(axes, r.arena, (t for t in r.arena.layout.objects))
-    for item in r.arena.objects.slots:
-        if r.obstacle_at is not None and item is not None and item.name == "obstacle":
+    for item in r.arena.objects.all():
+        if r.obstacle_at is not None and item.name == "obstacle":
             look = {"facecolor": COLOR.obstacle, "edgecolor": COLOR.obstacle_edge, "linewidth": 0.6}
             place = maze.box(r.arena, item, **look)
             axes.add_patch(place)

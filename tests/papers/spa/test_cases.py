@@ -100,11 +100,8 @@ def test_every_condition_has_a_world_for_all_its_trials():
 def test_obstacles_are_at_the_positions_of_the_paper(what, rows, columns):
     c = cases.conditions(True)[f"{what}/planner/low"]
     arena = cases.world(c)
-    item, times = next(
-        (t, w)
-        for t, w in zip(arena.objects.slots, arena.objects.windows, strict=True)
-        if t and t.name == cases.OBSTACLES[what][0]
-    )
+    slot = next(s for s in arena.objects.slots if s and s.name == cases.OBSTACLES[what][0])
+    item, times = slot.item(7), slot.windows
     low, high = place(rows[1], columns[0]), place(rows[0], columns[1])
     np.testing.assert_allclose(np.asarray(item.box) * 100, [*low, *high])
     onset, duration = cases.windows(what)[7]

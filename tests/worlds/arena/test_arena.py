@@ -283,6 +283,124 @@ def test_invalid_changes_of_an_arena_are_refused(change: Any, error: type[Except
         assert world.describe() == before
 
 
+# ------------------------------------------------------------------------------------ an arena for each trial
+
+
+def drawn(*blocks: tuple[str, float, float, tuple[float, float, float]], **more: Any) -> dict[str, Any]:
+    """Return a layout of blocks: name, x, y and colour."""
+    listed = [{"name": n, "center": [x, y], "size": [0.2, 0.2], "color": list(c)} for n, x, y, c in blocks]
+    return {**EMPTY, "start": [1.5, 1.5], "blocks": listed, **more}
+
+
+RED, GREEN, BLUE = (0.9, 0.1, 0.1), (0.1, 0.9, 0.1), (0.1, 0.1, 0.9)
+OWN = [
+    drawn(("red", 1.9, 1.5, RED)),
+    drawn(("green", 2.3, 1.5, GREEN), ("red", 0.5, 0.5, BLUE), start=[1.4, 1.5]),
+    drawn(),
+]
+ABOVE = dd.Axis("x", 0, 3, 31, unit="m"), dd.Axis("y", 0, 3, 31, unit="m"), dd.Axis("channel", 0, 2, 3)
+
+
+def test_each_trial_has_the_arena_of_its_own_layout() -> None:
+    """It drives, senses and is seen as in an arena with that layout alone."""
+    many = begun(OWN, trials=[0, 1, 2])
+    poses = drive(many, 160, 900, 900)
+    for k, layout in enumerate(OWN):
+        alone = begun(layout, trials=[k])
+        np.testing.assert_allclose(poses[k], drive(alone, 160, 900, 900)[0], atol=1e-6)
+        for sensor, axes in (("infrared", (EIGHT,)), ("obstacles", ABOVE[:2]), ("above", ABOVE)):
+            a, b = (w.sense(sensor, axes, 0.0) for w in (many, alone))
+            np.testing.assert_allclose(a[k], b[0], rtol=1e-4, atol=1e-4)
+    assert poses[0, -1, 0] < 1.8 - 0.0369 < poses[1, -1, 0] < 2.2 - 0.0369 < poses[2, -1, 0]
+
+
+def test_the_step_of_a_batch_has_the_arena_of_each_trial() -> None:
+    together = dd.simulate(avoiding(), 64 * 60, trials=3, world=Arena(OWN), record=["pose.output"])
+    for k, layout in enumerate(OWN):
+        alone = dd.simulate(avoiding(), 64 * 60, trials=[k], world=Arena(layout), record=["pose.output"])
+        a, b = (d["pose.output"].values for d in (together.isel(trial=k), alone.isel(trial=0)))
+        np.testing.assert_allclose(a, b, atol=1e-5)
+
+
+def test_an_object_is_placed_and_moved_in_each_trial_to_its_own_place() -> None:
+    world = begun(EMPTY, start=(1.5, 1.5, 0.0), trials=[0, 1])
+    places, sizes = [(1.9, 1.5), (2.3, 1.5)], [(0.2, 0.2), (0.4, 0.2)]
+    world.place("block", places, sizes, [RED, GREEN], windows=[(0, 64e3), (0, 32e3)])
+    poses = drive(world, 160, 900, 900)
+    assert poses[0, -1, 0] < 1.8 - 0.0369 < poses[1, -1, 0] < 2.1 - 0.0369
+    seen = world.sense("above", ABOVE, 0.0)
+    np.testing.assert_allclose(seen[0, 19, 15], RED, atol=1e-5)
+    np.testing.assert_allclose(seen[1, 23, 15], GREEN, atol=1e-5)
+    world.move("block", [(0.5, 0.5), (1.0, 0.5)])
+    seen = world.sense("obstacles", ABOVE[:2], 0.0)
+    np.testing.assert_allclose(seen[[0, 0, 1, 1], [5, 10, 5, 10], 5], [1, 0, 0, 1], atol=1e-5)
+    world.move("block", (1.0, 1.0))
+    np.testing.assert_allclose(world.sense("obstacles", ABOVE[:2], 0.0)[:, 10, 10], [1, 1], atol=1e-5)
+
+
+def test_an_arena_for_each_trial_is_described_arranged_and_drawn() -> None:
+    world = Arena(OWN)
+    world.place("block", [(1.0, 2.0), (2.0, 2.0), (2.5, 2.0)], (0.1, 0.1), height=[0.1, 0.2, 0.3])
+    again = Arena.again(world.describe())
+    assert again.describe() == world.describe()
+    for name, values in world.own([2, 1]).items():
+        np.testing.assert_array_equal(again.own([2, 1])[name], values)
+    before, kept = world.describe(), world.arrangement()
+    world.move("red", (2.5, 2.5))
+    world.remove("block")
+    world.arrange(kept)
+    assert world.describe() == before
+    world.reset(0, [1])
+    scene = world.scene()
+    assert [b.name for b in scene.boxes] == ["red", "green", "block"]
+    assert scene.boxes[0].center == (0.5, 0.5) and scene.boxes[2].center == (2.0, 2.0)
+
+
+def test_heights_are_those_of_each_trial() -> None:
+    low, high = ({**EMPTY, "arena": {**EMPTY["arena"], "height": h}} for h in (0.1, 0.4))
+    world = Arena([low, high])
+    world.place("stated", (1.0, 1.0), (0.1, 0.1), height=[0.2, 0.3])
+    world.place("as the walls", (2.0, 2.0), (0.1, 0.1))
+    heights = world.own([1, 0])["heights"]
+    np.testing.assert_allclose(heights[:, [0, 1, -1]], [[0.3, 0.4, 0.4], [0.2, 0.1, 0.1]])
+
+
+def test_starts_that_are_not_stated_are_free_places_of_each_arena() -> None:
+    free = [{**EMPTY}, {**EMPTY, "blocks": [{"center": [1.5, 1.5], "size": [1, 1]}]}]
+    world = Arena(free)
+    assert world.starts[0, :2] == pytest.approx([1.5, 1.5], abs=0.01)
+    assert np.abs(world.starts[1, :2] - 1.5).max() > 0.5
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: Arena([]), "the list of layouts is empty"),
+        (
+            lambda: Arena([EMPTY, "blocks"]),
+            r"the arena of trial 1 has the border .*Give all layouts the same",
+        ),
+        (lambda: Arena([EMPTY, {**EMPTY, "goal": [1, 1]}]), "layout of trial 0 has no goal"),
+        (lambda: Arena(OWN, start=(2.3, 1.5, 0)), r"start of trial 1: \(2.3, 1.5\) lies inside 'green'"),
+        (lambda: Arena(OWN, goal=(1.9, 1.5)), r"goal of trial 0: \(1.9, 1.5\) lies inside 'red'"),
+        (
+            lambda: Arena([EMPTY, CLOSED], start=(0.5, 0.5, 0), goal=(2.5, 0.5)),
+            r"goal of trial 1: \(2.5, 0.5\) is out of reach",
+        ),
+        (lambda: Arena(OWN).reset(0, [3]), "there are 3 of them, and trial 3 is run"),
+        (
+            lambda: Arena(EMPTY).place("p", [(1, 1), (2, 2)], [(1, 1)] * 3),
+            "p.center: has 2 rows, and another value has 3",
+        ),
+        (lambda: Arena(EMPTY).place("p", [(1, 1), (2, 2)], [(1, 1), (0, 1)]), "p: has the size"),
+        (lambda: Arena(OWN).move("green", [(1, 1), (2, 2)]), "green: got 2 places for 3 trials"),
+    ],
+)
+def test_invalid_arenas_of_trials_are_refused(make: Any, says: str) -> None:
+    with pytest.raises(WorldError, match=says):
+        make()
+
+
 # --------------------------------------------------------------------------------------------- what cannot be
 
 CLOSED = {**EMPTY, "walls": [{"name": "all across", "center": [1.5, 1.5], "size": [0.05, 4]}]}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import math
 from collections.abc import Hashable, Mapping, Sequence
@@ -15,7 +16,7 @@ from jax import Array
 from jax.typing import DTypeLike
 
 from deodar import codec
-from deodar.codec import Json, JsonObject
+from deodar.codec import JsonObject
 from deodar.element import Arrays
 from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
@@ -30,13 +31,16 @@ from deodar.worlds.arena.camera import colours_of, picture_rays, surfaces
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
-from deodar.worlds.arena.layout import UNITS, builtin, load, make
-from deodar.worlds.arena.objects import ArenaObjects
+from deodar.worlds.arena.layout import UNITS, ArenaObject, LayoutSource, builtin, load_each
+from deodar.worlds.arena.objects import ArenaObjects, made
 from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
 from deodar.worlds.arena.vehicles import VEHICLES, vehicle_of
 from deodar.worlds.arena.view import coloured, require_plane, sides
+
+Numbers = Sequence[float] | Sequence[Sequence[float]] | np.ndarray
+"""A value of some numbers, or a row of them for each trial."""
 
 CONTACTS = ("slide", "stick")
 GOAL = "goal"
@@ -84,6 +88,9 @@ class ArenaCopy(TypedDict):
 
     start: Array
     goal: Array
+    boxes: Array
+    colours: Array
+    heights: Array
     windows: Array
     keys: Arrays
 
@@ -106,7 +113,8 @@ class Arena(PureWorld):
 
     Parameters:
         layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME for one
-            arena of a file with several, or a dictionary.
+            arena of a file with several, or a dictionary; or a list of these, one for each trial, with the
+            same border.
         start: x, y and heading (rad), or a row of these for each trial; None: that of the layout, else the
             free place nearest the middle.
         goal: x and y, or a row for each trial; None: that of the layout.
@@ -146,7 +154,7 @@ class Arena(PureWorld):
 
     def __init__(
         self,
-        layout: str | Path | Mapping[str, Json] = "blocks",
+        layout: LayoutSource | Sequence[LayoutSource] = "blocks",
         start: Sequence[float] | np.ndarray | None = None,
         goal: Sequence[float] | np.ndarray | None = None,
         unit: str = "m",
@@ -160,7 +168,8 @@ class Arena(PureWorld):
         slip: float = 0.0,
         encoder_noise: float = 0.0,
     ) -> None:
-        self.layout = load(layout)
+        self.layouts = load_each(layout)
+        self.layout = self.layouts[0]
         if unit not in UNITS:
             raise WorldError(f"unit is {show(unit)}; expected one of {', '.join(UNITS)}")
         if contact not in CONTACTS:
@@ -181,25 +190,15 @@ class Arena(PureWorld):
             "encoder_noise": encoder_noise,
         }
         self.noise = {name: _number(name, value) for name, value in given.items()}
-        self.source = "" if isinstance(layout, Mapping) else str(layout)
-        self.objects = ArenaObjects(self.layout, self.period)
+        self.source = str(layout) if isinstance(layout, (str, Path)) else ""
+        self.objects = ArenaObjects(self.layouts, self.period)
         self.places = Places(self.layout.border, unit, self.scale, self.source)
-        first, where = self.layout.start, self.layout.goal
-        self.goals = (
-            rows_of("goal", goal, [self.scale] * 2)
-            if goal is not None
-            else None
-            if where is None
-            else np.asarray([where])
+        self.goals = self._goals() if goal is None else rows_of("goal", goal, [self.scale] * 2)
+        self.starts = self._settled(
+            [layout.start for layout in self.layouts]
+            if start is None
+            else list(rows_of("start", start, [self.scale, self.scale, 1.0]))
         )
-        wanted = (
-            rows_of("start", start, [self.scale, self.scale, 1.0])
-            if start is not None
-            else None
-            if first is None
-            else np.asarray([first])
-        )
-        self.starts = self._settled(wanted)
         self.sensors = signals(self.vehicle, unit, self.goals is not None)
 
     # ------------------------------------------------------------------------- objects, also changed in a run
@@ -207,35 +206,33 @@ class Arena(PureWorld):
     def place(
         self,
         name: str,
-        center: Sequence[float],
-        size: Sequence[float],
-        color: Sequence[float] = (0.72, 0.53, 0.3),
-        windows: Sequence[float] | np.ndarray | None = None,
-        height: float | None = None,
+        center: Numbers,
+        size: Numbers,
+        color: Numbers = (0.72, 0.53, 0.3),
+        windows: Numbers | None = None,
+        height: float | Sequence[float] | np.ndarray | None = None,
     ) -> None:
         """Add an object to the arena from the next period on, or replace the one of the same name.
+
+        Each argument except the name is one value for all trials, or a row for each trial.
 
         Args:
             name: name of the object.
             center: x and y of its middle.
             size: size along x and y.
             color: red, green and blue, 0 to 1.
-            windows: (start, stop) in ms of the run's time between which the object is present, or a row for
-                each trial; None: from now on.
+            windows: (start, stop) in ms of the run's time between which the object is present; None: from now
+                on. An object that appears several times is several objects.
             height: height of the object; None: that of the walls of the border.
         """
-        self.objects.place(make(name, center, size, color, self.scale, height), windows)
+        self.objects.place(made(name, center, size, color, self.scale, height), windows)
 
-    def move(self, name: str, center: Sequence[float]) -> None:
-        """Move an object; `center` is the new x and y of its middle.
+    def move(self, name: str, center: Numbers) -> None:
+        """Move an object; `center` is the new x and y of its middle, or a row for each trial.
 
         The name `goal` moves the goal, unless an object has that name.
         """
-        if (
-            name == GOAL
-            and self.goals is not None
-            and name not in [t.name for t in self.objects.slots if t is not None]
-        ):
+        if name == GOAL and self.goals is not None and name not in self.objects.names():
             self.aim(center)
         else:
             self.objects.move(name, center, self.scale)
@@ -244,8 +241,8 @@ class Arena(PureWorld):
         """Remove an object."""
         self.objects.remove(name)
 
-    def aim(self, goal: Sequence[float]) -> None:
-        """Move the goal of all copies to x and y.
+    def aim(self, goal: Numbers) -> None:
+        """Move the goal of all copies to x and y, or of each trial to its own row.
 
         Raises:
             WorldError: the position is inside an object or outside the arena, or the arena has no goal.
@@ -253,7 +250,7 @@ class Arena(PureWorld):
         if self.goals is None:
             raise WorldError("the arena has no goal to move", fix="Give it one: Arena(..., goal=(x, y))")
         goals = rows_of("goal", goal, [self.scale] * 2)
-        problems = self.places.misplaced(goals, "goal", 0.0, self.objects.permanent())
+        problems = self.places.misplaced(goals, "goal", 0.0, self._permanent())
         if problems:
             raise WorldError(problems)
         self.goals = goals
@@ -323,18 +320,18 @@ class Arena(PureWorld):
     # ------------------------------------------------------------------------------------------------- arrays
 
     def shared(self) -> dict[str, np.ndarray]:
-        numbers = {
+        return {
             name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()
         }
-        objects = self.objects
-        arrays = {"boxes": objects.boxes(), "colours": objects.colours(), "heights": objects.heights()}
-        return {**arrays, **numbers}
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         goals = np.zeros((1, 2)) if self.goals is None else self.goals
         return {
             "start": of(trials, self.starts, "start"),
             "goal": of(trials, goals, "goal"),
+            "boxes": self.objects.boxes(trials),
+            "colours": self.objects.colours(trials),
+            "heights": self.objects.heights(trials),
             "windows": self.objects.times(trials),
         }
 
@@ -345,14 +342,14 @@ class Arena(PureWorld):
             self.contact,
             self.place_every,
             self.scale,
-            len(self.objects.slots),
+            self.objects.room,
             self.goals is not None,
         )
 
     # ----------------------------------------------------------------------------------------------- one copy
 
     def start(self, shared: Arrays, own: ArenaCopy) -> Arrays:
-        zero = jnp.zeros((), shared["boxes"].dtype)
+        zero = jnp.zeros((), own["boxes"].dtype)
         state = {
             "position": own["start"][:2],
             "heading": wrapped(own["start"][2]),
@@ -363,7 +360,7 @@ class Arena(PureWorld):
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
 
     def advance(self, shared: Arrays, own: ArenaCopy, state: Arrays, motors: Arrays) -> Arrays:
-        boxes, tick = shared["boxes"], state["tick"] + jnp.uint32(1)
+        boxes, tick = own["boxes"], state["tick"] + jnp.uint32(1)
         deviates = self._deviates(own, tick, boxes.dtype)
         assert self.period is not None
         ordered = limited(self.vehicle, motors["left"], motors["right"]) * (self.period / 1000)
@@ -399,12 +396,11 @@ class Arena(PureWorld):
         self, shared: Arrays, own: ArenaCopy, body: Arrays, tick: Array, deviates: Arrays, held: Array
     ) -> Arrays:
         """Add the readings of the noisy sensors to the state, so that one period has one reading."""
-        boxes = shared["boxes"]
         seen = distances(
             self.vehicle.infrared,
             body["position"],
             body["heading"],
-            boxes,
+            own["boxes"],
             _there(own, tick),
             shared["reflection"],
         )
@@ -424,11 +420,11 @@ class Arena(PureWorld):
         if sensor in ("camera", "line"):
             return self._picture(shared, own, state, sensor, axes)
         require_plane(sensor, axes, sensor == "above")
-        one, other = sides(axes[:2], shared["boxes"], self.scale)
+        one, other = sides(axes[:2], own["boxes"], self.scale)
         one = one * _there(own, state["tick"])[:, None]
         if sensor == "obstacles":  # one matrix product, which needs no array over boxes and the plane
             return jnp.clip(jnp.einsum("bi,bj->ij", one, other, precision="highest"), 0.0, 1.0)
-        return coloured(one[:, :, None] * other[:, None, :], shared["colours"])
+        return coloured(one[:, :, None] * other[:, None, :], own["colours"])
 
     def _picture(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
         camera = self.vehicle.camera
@@ -436,43 +432,61 @@ class Arena(PureWorld):
         shown = surfaces(
             camera,
             (state["position"], state["heading"]),
-            shared["boxes"],
-            shared["heights"],
+            own["boxes"],
+            own["heights"],
             _there(own, state["tick"]),
             picture_rays(camera, sensor, axes),
         )
-        picture = colours_of(shown, shared["colours"])
+        picture = colours_of(shown, own["colours"])
         return picture if sensor == "camera" else picture[:, 0]
 
-    def _settled(self, starts: np.ndarray | None) -> np.ndarray:
-        """Check starts and goals, and return the starts; if none was given, choose one.
+    def _permanent(self) -> list[list[ArenaObject]]:
+        """Return the objects that are always present: of all trials, or of each."""
+        return [self.objects.permanent(k) for k in range(self.objects.trials)]
+
+    def _goals(self) -> np.ndarray | None:
+        """Return the goals of the layouts, m; None if they have none."""
+        found = [layout.goal for layout in self.layouts]
+        if None in found and any(goal is not None for goal in found):
+            raise WorldError(
+                f"the layout of trial {found.index(None)} has no goal, and that of another trial has one",
+                fix="State a goal in each layout or in none",
+            )
+        return None if None in found else np.asarray(found)
+
+    def _settled(self, wanted: Sequence[Sequence[float] | np.ndarray | None]) -> np.ndarray:
+        """Check starts and goals, and return the starts; choose those that are None.
 
         Raises:
             WorldError: a start or goal lies outside the arena or inside an object, a goal cannot be reached
                 from its start, or the vehicle fits nowhere.
         """
-        permanent, radius = self.objects.permanent(), self.vehicle.radius
-        room = Room(self.layout, radius, np.asarray([t.box for t in permanent]))
-        if starts is None:
-            found = room.near_middle()
+        permanent, radius = self._permanent(), self.vehicle.radius
+
+        @functools.lru_cache(maxsize=1)
+        def room(k: int) -> Room:
+            return Room(self.layout, radius, np.asarray([t.box for t in permanent[k]]))
+
+        given: list[Sequence[float] | np.ndarray] = []
+        for k, start in enumerate(wanted):
+            found = room(k % len(permanent)).near_middle() if start is None else ()
             if found is None:
                 raise WorldError(
                     f"the {self.vehicle.name} fits nowhere: it is {2 * radius / self.scale:g} {self.unit}"
                     " wide",
-                    where=self.source,
+                    where=self.source if len(wanted) == 1 else f"the layout of trial {k}",
                 )
-            starts = np.asarray([(*found, 0.0)])
+            given.append((*found, 0.0) if start is None else start)
+        starts = np.asarray(given)
         problems = self.places.misplaced(starts, "start", radius, permanent)
         if self.goals is not None:
             problems += self.places.misplaced(self.goals, "goal", 0.0, permanent)
-            for k in range(0 if problems else max(len(starts), len(self.goals))):
+            count = max(len(starts), len(self.goals), len(permanent))
+            for k in range(0 if problems else count):
                 start, goal = starts[k % len(starts)], self.goals[k % len(self.goals)]
-                if not room.joined(start[:2], goal):
-                    problems.append(
-                        self.places.fault(
-                            "goal", self.goals, k, f"is out of reach from {self.places.shown(start)}"
-                        )
-                    )
+                if not room(k % len(permanent)).joined(start[:2], goal):
+                    text = f"is out of reach from {self.places.shown(start)}"
+                    problems.append(self.places.fault("goal", self.goals, k, text, count))
         if problems:
             raise WorldError(problems)
         return starts
@@ -492,7 +506,11 @@ class Arena(PureWorld):
             ),
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
-            "layout": self.layout.to_data(),
+            "layout": (
+                self.layout.to_data()
+                if len(self.layouts) == 1
+                else [layout.to_data() for layout in self.layouts]
+            ),
             "things": self.objects.to_data(),
         }
         digest = hashlib.sha256(codec.line(said, ascii=True, sort=True).encode()).hexdigest()

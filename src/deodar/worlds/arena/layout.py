@@ -29,6 +29,9 @@ from deodar.parameters import real, show
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 """Units of length, in metres."""
 
+LayoutSource = str | Path | Mapping[str, Json]
+"""The name of an arena that comes with deodar, `FILE` or `FILE#NAME`, or data."""
+
 COLOURS = {"walls": (0.45, 0.45, 0.45), "boxes": (0.72, 0.53, 0.3), "blocks": (0.8, 0.2, 0.2)}
 """Lists of objects, and the colour of an object that states none."""
 
@@ -106,7 +109,28 @@ def builtin() -> JsonObject:
     return found
 
 
-def load(source: str | Path | Mapping[str, Json]) -> ArenaLayout:
+def load_each(source: LayoutSource | Sequence[LayoutSource]) -> tuple[ArenaLayout, ...]:
+    """Load one layout for all trials, or a list of layouts with one for each trial.
+
+    Raises:
+        WorldError: a layout does not exist or is invalid, or the borders differ.
+    """
+    if isinstance(source, (str, Path, Mapping)) or not isinstance(source, Sequence):
+        return (load(source),)
+    if not source:
+        raise WorldError("the list of layouts is empty", fix="Give one layout, or one for each trial")
+    found = tuple(load(one) for one in source)
+    for k, layout in enumerate(found):
+        if layout.border != found[0].border:
+            raise WorldError(
+                f"the arena of trial {k} has the border {show(layout.border)} m, and that of trial 0"
+                f" {show(found[0].border)} m",
+                fix="Give all layouts the same arena",
+            )
+    return found
+
+
+def load(source: LayoutSource) -> ArenaLayout:
     """Load a layout from data, the name of an arena that comes with deodar, `FILE` or `FILE#NAME`.
 
     Raises:

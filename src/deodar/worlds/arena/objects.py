@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,130 +22,264 @@ SPARE = 16
 ALWAYS = (0, 2**31 - 1)
 """The window of an object without windows: first period of presence, and the first one after it."""
 
+NEVER = (0, 0)
+"""The window of an object that a trial does not have."""
+
 BORDER = 4
 
 
-class ArenaObjects:
-    """The objects of a layout and those placed later, as arrays of fixed size.
+@dataclass(frozen=True)
+class ArenaSlot:
+    """An object of one name, with one row for all trials or a row for each.
 
     Attributes:
-        slots: object in each slot; None: the slot is free.
-        windows: for each object the first period in which it is present, and the first after that in which it
-            is not; one row, or one for each trial.
+        name: name of the object.
+        rows: the object; None in a trial that does not have it.
+        windows: the first period in which it is present, and the first after that in which it is not.
     """
 
-    def __init__(self, layout: ArenaLayout, period: float) -> None:
-        self.border = layout.border
-        self.wall_height = layout.height
-        self.period = period
-        self.room = len(layout.objects) + SPARE
-        self.slots: list[ArenaObject | None] = list(layout.objects) + [None] * SPARE
-        self.windows: list[np.ndarray] = [np.asarray([ALWAYS], np.int32) for _ in range(self.room)]
+    name: str
+    rows: tuple[ArenaObject | None, ...]
+    windows: np.ndarray
 
-    def place(self, item: ArenaObject, windows: npt.ArrayLike | None) -> None:
-        """Add an object, or replace the one of the same name; windows are in ms, or None."""
-        times = np.asarray([ALWAYS], np.int32)
+    def item(self, trial: int) -> ArenaObject | None:
+        """Return the object of a trial; a trial beyond the rows has the last one."""
+        return self.rows[min(trial, len(self.rows) - 1)]
+
+    def window(self, trial: int) -> tuple[int, int]:
+        """Return the window of a trial; a trial beyond the rows has the last one."""
+        start, stop = self.windows[min(trial, len(self.windows) - 1)].tolist()
+        return start, stop
+
+    def to_data(self) -> Json:
+        """Return plain data."""
+        windows, item = self.windows.tolist(), self.rows[0]
+        if len(self.rows) == 1 and item is not None:
+            numbers, height = _numbers(item)
+            return [self.name, *numbers, windows, *height]
+        rows = [None if t is None else [value for part in _numbers(t) for value in part] for t in self.rows]
+        return [self.name, rows, windows]
+
+    @classmethod
+    def from_data(cls, data: Any) -> ArenaSlot:
+        """Return the slot that `to_data` described."""
+        name, own = data[0], isinstance(data[1], list)
+        given, windows = (data[1], data[2]) if own else ([[*data[1:8], *data[9:]]], data[8])
+        rows = tuple(None if row is None else _object(name, row) for row in given)
+        return cls(name, rows, np.asarray(windows, np.int32))
+
+
+class ArenaObjects:
+    """The objects of one layout for all trials, or of one for each trial, and those placed later, as arrays
+    of fixed size.
+
+    Objects of one name are one object, which differs between trials. Their order is that of their first
+    occurrence in the layouts.
+
+    Attributes:
+        slots: what is in each slot; None: the slot is free.
+    """
+
+    def __init__(self, layouts: Sequence[ArenaLayout], period: float) -> None:
+        self.border = layouts[0].border
+        self.wall_heights = np.asarray([layout.height for layout in layouts])
+        self.period = period
+        by = [{t.name: t for t in layout.objects} for layout in layouts]
+        names = dict.fromkeys(name for objects in by for name in objects)
+        slots = [ArenaSlot(n, _folded([objects.get(n) for objects in by]), _always()) for n in names]
+        self.slots: list[ArenaSlot | None] = [*slots, *[None] * SPARE]
+
+    @property
+    def room(self) -> int:
+        """Number of slots."""
+        return len(self.slots)
+
+    @property
+    def trials(self) -> int:
+        """Number of trials for which objects that are always present differ; 1: all have the same."""
+        return max((len(s.rows) for s in self.slots if s is not None), default=1)
+
+    def names(self) -> list[str]:
+        """Return the names of all objects."""
+        return [s.name for s in self.slots if s is not None]
+
+    def place(self, rows: Sequence[ArenaObject], windows: npt.ArrayLike | None) -> None:
+        """Add an object, or replace the one of the same name.
+
+        Args:
+            rows: the object, one for all trials or one for each.
+            windows: in ms, or None.
+        """
+        name, times = rows[0].name, _always()
         if windows is not None:
-            what = f"windows of {item.name}"
+            what = f"windows of {name}"
             given = rows_of(what, windows, [1.0, 1.0])
             if not (given[:, 0] <= given[:, 1]).all():
                 raise WorldError("begins after it ends", where=what)
             times = np.clip(np.ceil(given / self.period - 0.5), *ALWAYS).astype(np.int32)
-        names = [t.name if t is not None else None for t in self.slots]
-        if item.name not in names and None not in names:
+        names = [s.name if s is not None else None for s in self.slots]
+        if name not in names and None not in names:
             raise WorldError(
                 f"the arena is full: {SPARE} objects besides those of its file",
-                where=item.name,
+                where=name,
                 fix="Remove one with remove(name)",
             )
-        k = names.index(item.name if item.name in names else None)
-        self.slots[k], self.windows[k] = item, times
+        self.slots[names.index(name if name in names else None)] = ArenaSlot(name, _folded(rows), times)
 
-    def move(self, name: str, center: Sequence[float], scale: float) -> None:
-        """Move an object; `center` is in units of `scale` metres."""
-        k = self._index(name)
-        old = self.slots[k]
-        assert old is not None
-        self.slots[k] = dc.replace(old, center=make(name, center, (1, 1), old.color, scale).center)
+    def move(self, name: str, center: Any, scale: float) -> None:
+        """Move an object; `center` is in units of `scale` metres, with a row for each trial if they
+        differ.
+        """
+        k, slot = self._slot(name)
+        places = [t.center for t in made(name, center, (1, 1), (0, 0, 0), scale)]
+        count = max(len(places), len(slot.rows))
+        if not {len(places), len(slot.rows)} <= {1, count}:
+            raise WorldError(f"got {len(places)} places for {len(slot.rows)} trials", where=name)
+        rows = [
+            None if t is None else dc.replace(t, center=places[n % len(places)])
+            for n in range(count)
+            for t in [slot.rows[n % len(slot.rows)]]
+        ]
+        self.slots[k] = dc.replace(slot, rows=_folded(rows))
 
     def remove(self, name: str) -> None:
         """Remove an object."""
-        self.slots[self._index(name)] = None
+        self.slots[self._slot(name)[0]] = None
 
-    def permanent(self) -> list[ArenaObject]:
-        """Return the objects that are always present."""
-        return [
-            t for t, w in zip(self.slots, self.windows, strict=True) if t is not None and (w == ALWAYS).all()
-        ]
+    def permanent(self, trial: int = 0) -> list[ArenaObject]:
+        """Return the objects of a trial that are always present."""
+        found = (s.item(trial) for s in self.slots if s is not None and (s.windows == ALWAYS).all())
+        return [item for item in found if item is not None]
 
     def present(self, period: int, trial: int) -> list[ArenaObject]:
         """Return the objects that are present in a period of a trial."""
-        rows = (
-            (t, w[min(trial, len(w) - 1)])
-            for t, w in zip(self.slots, self.windows, strict=True)
-            if t is not None
-        )
-        return [item for item, (start, stop) in rows if start <= period < stop]
+        found = ((s.item(trial), s.window(trial)) for s in self.slots if s is not None)
+        return [item for item, (start, stop) in found if item is not None and start <= period < stop]
+
+    def all(self, trial: int = 0) -> list[ArenaObject]:
+        """Return the objects that a trial has at any time."""
+        found = (s.item(trial) for s in self.slots if s is not None)
+        return [item for item in found if item is not None]
 
     # ------------------------------------------------------------------------------------------------- arrays
 
-    def boxes(self) -> np.ndarray:
-        """Return the boxes (n, 4) of the slots in metres, then the four sides of the border.
+    def boxes(self, trials: Sequence[int]) -> np.ndarray:
+        """Return the boxes (trials, n, 4) of the slots in metres, then the four sides of the border.
 
-        A free slot has a box far outside the arena.
+        A slot that a trial does not fill has a box far outside the arena.
         """
         left, low, right, high = self.border
         far = 10 * max(right - left, high - low)
         free = (right + 2 * far, high + 2 * far, right + 3 * far, high + 3 * far)
         x0, y0, x1, y1 = left - far, low - far, right + far, high + far
         sides = [(x0, y0, left, y1), (right, y0, x1, y1), (x0, y0, x1, low), (x0, high, x1, y1)]
-        return np.asarray([*(free if t is None else t.box for t in self.slots), *sides])
+        return self._stacked(trials, lambda t: t.box, free, sides)
 
-    def colours(self) -> np.ndarray:
-        """Return the colours (n, 3) of the rows of `boxes`."""
-        return np.asarray([*(OUTSIDE if t is None else t.color for t in self.slots), *([OUTSIDE] * BORDER)])
+    def colours(self, trials: Sequence[int]) -> np.ndarray:
+        """Return the colours (trials, n, 3) of the rows of `boxes`."""
+        return self._stacked(trials, lambda t: t.color, OUTSIDE, [OUTSIDE] * BORDER)
 
-    def heights(self) -> np.ndarray:
-        """Return the heights (n,) of the rows of `boxes` in metres."""
-        stated = [None if t is None else t.height for t in self.slots]
-        return np.asarray(
-            [*(self.wall_height if h is None else h for h in stated), *[self.wall_height] * BORDER]
+    def heights(self, trials: Sequence[int]) -> np.ndarray:
+        """Return the heights (trials, n) of the rows of `boxes` in metres."""
+        stated = self._stacked(
+            trials, lambda t: [np.nan if t.height is None else t.height], [np.nan], [[np.nan]]
         )
+        walls = of(trials, self.wall_heights[:, None], "layouts")
+        return np.where(np.isnan(stated[..., 0]), walls, stated[..., 0])
 
     def times(self, trials: Sequence[int]) -> np.ndarray:
         """Return the windows (trials, n, 2) of the rows of `boxes`, in periods."""
         out = np.zeros((len(trials), self.room + BORDER, 2), np.int32)
         out[:, self.room :] = ALWAYS
-        for k, (item, rows) in enumerate(zip(self.slots, self.windows, strict=True)):
-            if item is not None:
-                out[:, k] = of(trials, rows, f"windows of {item.name}")
+        for k, slot in enumerate(self.slots):
+            if slot is not None:
+                has = np.asarray([[t is not None] for t in slot.rows])
+                out[:, k] = of(trials, slot.windows, f"windows of {slot.name}")
+                out[:, k] = np.where(of(trials, has, slot.name), out[:, k], NEVER)
+        return out
+
+    def _stacked(
+        self,
+        trials: Sequence[int],
+        numbers: Callable[[ArenaObject], Sequence[float]],
+        free: Sequence[float],
+        border: Sequence[Sequence[float]],
+    ) -> np.ndarray:
+        """Return numbers (trials, n, ...) of the objects in all slots, and of the border."""
+        out = np.empty((len(trials), self.room + BORDER, len(free)))
+        out[:, self.room :] = border
+        for k, slot in enumerate(self.slots):
+            rows = (None,) if slot is None else slot.rows
+            given = np.asarray([free if t is None else numbers(t) for t in rows])
+            out[:, k] = of(trials, given, "" if slot is None else slot.name)
         return out
 
     def to_data(self) -> list[Json]:
         """Return the objects and their windows as plain data."""
-        return [
-            [t.name, *t.center, *t.size, *t.color, w.tolist(), *([] if t.height is None else [t.height])]
-            for t, w in zip(self.slots, self.windows, strict=True)
-            if t is not None
-        ]
+        return [s.to_data() for s in self.slots if s is not None]
 
     def to_slots(self) -> list[Json]:
         """Return what is in each slot as plain data, None for a free one; `restore` reads it, too."""
-        objects = iter(self.to_data())
-        return [None if t is None else next(objects) for t in self.slots]
+        return [None if s is None else s.to_data() for s in self.slots]
 
     def restore(self, data: Sequence[Any]) -> None:
         """Replace all objects by those that `to_data` or `to_slots` returned."""
-        self.slots = [
-            None if d is None else ArenaObject(d[0], (d[1], d[2]), (d[3], d[4]), (d[5], d[6], d[7]), *d[9:])
-            for d in data
-        ]
-        self.windows = [np.asarray([ALWAYS] if d is None else d[8], np.int32) for d in data]
-        self.slots += [None] * (self.room - len(data))
-        self.windows += [np.asarray([ALWAYS], np.int32)] * (self.room - len(data))
+        slots = [None if d is None else ArenaSlot.from_data(d) for d in data]
+        self.slots = [*slots, *[None] * (self.room - len(slots))]
 
-    def _index(self, name: str) -> int:
-        names = {t.name: k for k, t in enumerate(self.slots) if t is not None}
-        if name not in names:
-            raise UnknownName(f"nothing in the arena is called {name!r}", fix=did_you_mean(str(name), names))
-        return names[name]
+    def _slot(self, name: str) -> tuple[int, ArenaSlot]:
+        found = {s.name: (k, s) for k, s in enumerate(self.slots) if s is not None}
+        if name not in found:
+            raise UnknownName(f"nothing in the arena is called {name!r}", fix=did_you_mean(str(name), found))
+        return found[name]
+
+
+def made(
+    name: str, center: Any, size: Any, color: Any, scale: float, height: Any = None
+) -> list[ArenaObject]:
+    """Make an object from unchecked values, each of which may have a row for each trial.
+
+    Lengths are in units of `scale` metres.
+
+    Raises:
+        WorldError: a value is invalid, or the numbers of rows differ.
+    """
+    values = {"center": _rows(center), "size": _rows(size), "color": _rows(color)}
+    values["height"] = list(height) if isinstance(height, (list, tuple, np.ndarray)) else [height]
+    count = max(map(len, values.values()))
+    for what, rows in values.items():
+        if len(rows) not in (1, count):
+            raise WorldError(
+                f"has {len(rows)} rows, and another value has {count}",
+                where=f"{name}.{what}",
+                fix="Give one for all trials, or a row for each",
+            )
+    chosen = [{what: rows[k % len(rows)] for what, rows in values.items()} for k in range(count)]
+    return [make(name, scale=scale, **one) for one in chosen]
+
+
+def _rows(value: Any) -> list[Any]:
+    """Return the rows of a value that has one for each trial, else the value as the only row."""
+    plain = value.tolist() if isinstance(value, np.ndarray) else value
+    nested = isinstance(plain, (list, tuple)) and bool(plain)
+    return list(plain) if nested and all(isinstance(v, (list, tuple, np.ndarray)) for v in plain) else [plain]
+
+
+def _folded(rows: Sequence[ArenaObject | None]) -> tuple[ArenaObject | None, ...]:
+    """Return a single row where all are equal."""
+    return tuple(rows[:1] if all(row == rows[0] for row in rows) else rows)
+
+
+def _always() -> np.ndarray:
+    return np.asarray([ALWAYS], np.int32)
+
+
+def _numbers(item: ArenaObject) -> tuple[list[float], list[float]]:
+    """Return centre, size and colour, and the height, if one is stated."""
+    height = [] if item.height is None else [item.height]
+    return [*item.center, *item.size, *item.color], height
+
+
+def _object(name: str, numbers: Sequence[float]) -> ArenaObject:
+    x, y, w, h, r, g, b, *height = numbers
+    return ArenaObject(name, (x, y), (w, h), (r, g, b), *height)

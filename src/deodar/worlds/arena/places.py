@@ -52,30 +52,38 @@ class Places:
         self.border, self.unit, self.scale, self.source = border, unit, scale, source
 
     def misplaced(
-        self, rows: np.ndarray, what: str, radius: float, objects: Sequence[ArenaObject]
+        self, rows: np.ndarray, what: str, radius: float, objects: Sequence[Sequence[ArenaObject]]
     ) -> list[Problem]:
-        """Return problems of positions that are outside the arena or too near to an object for the radius."""
+        """Return problems of positions that are outside the arena or too near to an object for the radius.
+
+        Args:
+            rows: one position for all trials, or one for each; m.
+            what: what is there, in messages.
+            radius: free distance around it, m.
+            objects: the objects of all trials, or of each.
+        """
         problems: list[Problem] = []
         left, low, right, high = self.border
         needs = f"; the vehicle needs {radius / self.scale:g} {self.unit} around it" if radius else ""
-        for k, row in enumerate(rows):
-            x, y = float(row[0]), float(row[1])
+        count = max(len(rows), len(objects))
+        for k in range(count):
+            x, y = float(rows[k % len(rows), 0]), float(rows[k % len(rows), 1])
             if min(x - left, right - x, y - low, high - y) < radius:
                 span = ", ".join(
                     f"{a / self.scale:g} to {b / self.scale:g}" for a, b in ((left, right), (low, high))
                 )
-                problems.append(
-                    self.fault(what, rows, k, f"lies outside the arena, {span} {self.unit}{needs}")
-                )
+                text = f"lies outside the arena, {span} {self.unit}{needs}"
+                problems.append(self.fault(what, rows, k, text, count))
                 continue
-            inside = [t.name for t in objects if _distance(t.box, x, y) < max(radius, 1e-12)]
+            here = objects[k % len(objects)]
+            inside = [t.name for t in here if _distance(t.box, x, y) < max(radius, 1e-12)]
             if inside:
-                problems.append(self.fault(what, rows, k, f"lies inside {inside[0]!r}{needs}"))
+                problems.append(self.fault(what, rows, k, f"lies inside {inside[0]!r}{needs}", count))
         return problems
 
-    def fault(self, what: str, rows: np.ndarray, k: int, text: str) -> Problem:
-        """Return a problem of row `k`."""
-        place = what if len(rows) == 1 else f"{what} of trial {k}"
+    def fault(self, what: str, rows: np.ndarray, k: int, text: str, count: int) -> Problem:
+        """Return a problem of the position of trial `k` of `count`."""
+        place = what if count == 1 else f"{what} of trial {k}"
         return Problem(
             f"{self.source}: {place}" if self.source else place, f"{self.shown(rows[k % len(rows)])} {text}"
         )
