@@ -45,6 +45,7 @@ from deodar.couplings.gain_adaptation import GainAdaptation as GainAdaptation
 from deodar.couplings.hebbian import Hebbian as Hebbian
 from deodar.couplings.interaction import Interaction as Interaction
 from deodar.couplings.logarithm import Logarithm as Logarithm
+from deodar.couplings.obstacle_repulsion import ObstacleRepulsion as ObstacleRepulsion
 from deodar.couplings.peak_position import PeakPosition as PeakPosition
 from deodar.couplings.population_activity import PopulationActivity as PopulationActivity
 from deodar.couplings.product import Product as Product

@@ -85,7 +85,7 @@ def test_elements_with_an_external_input_are_fed_by_their_ids() -> None:
 def test_an_external_input_changes_when_the_world_is_inside_the_step() -> None:
     document = readings().document
     assert all(g.still for g in plan(document).groups)
-    assert not any(g.still for g in plan(document, embodied=True).groups)
+    assert not any(g.still for g in plan(document, readings="changing").groups)
 
 
 def masked(source: Sequence[dd.Axis], mask: Sequence[dd.Axis]) -> dd.Model:

@@ -152,9 +152,8 @@ class Executable:
             lifted,
             exact or precision == "float64",
             batch.size,
-            embodied=body is not None,
+            readings="constant" if body is None else "held" if body.holds else "changing",
             trials=batch.trials or 1,
-            holding=body is not None and body.holds,
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
         self.program = Program(

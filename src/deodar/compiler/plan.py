@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import Literal
 
 import numpy as np
 
@@ -27,6 +28,11 @@ from deodar.parameters import Parameter
 Partition = Callable[[Node, bool, frozenset[str], Strategy], Hashable]
 Leaf = tuple[str, str]
 """Element id and path of a traced leaf inside the element."""
+
+Readings = Literal["constant", "changing", "held"]
+"""How readings of sensors change during a chunk: not at all; at every step, with a world inside the step; or
+such a world holds each reading for several steps.
+"""
 
 
 @dc.dataclass
@@ -189,9 +195,8 @@ def plan(
     exact: bool = False,
     copies: int = 1,
     partition: Partition | None = None,
-    embodied: bool = False,
+    readings: Readings = "constant",
     trials: int = 1,
-    holding: bool = False,
 ) -> Plan:
     """The plan of a document.
 
@@ -202,9 +207,8 @@ def plan(
         exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
         copies: how many copies of the model run at once.
         partition: which nodes share a group; none: `by_structure`.
-        embodied: whether the world is inside the step, so that readings of sensors change during a chunk.
+        readings: how readings of sensors change during a chunk.
         trials: how many of the copies have the same parameters.
-        holding: whether a world inside the step holds its readings for several ticks.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
@@ -213,14 +217,14 @@ def plan(
     neutral = {
         n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes
     }
-    still = _still(nodes, embodied)
+    still = _still(nodes, readings != "constant")
     swept = _swept(nodes, lifted)
     found = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies)
     if copies // trials >= MANY > trials:
         for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
             found[i] = dc.replace(found[i], apart=True)
     nodes = shared(nodes, found)
-    between = _still(nodes, False) if holding else still
+    between = _still(nodes, False) if readings == "held" else still
     sensory = {n.id: between[n.id] and not still[n.id] and not n.element.external for n in nodes}
     groups, row = _groups(nodes, neutral, still, sensory, found, partition or by_structure)
     size = _place(groups, neutral)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import jax.numpy as jnp
-from jax import Array
+from jax import Array, lax
 
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import is_neutral
@@ -96,8 +96,16 @@ class ColorHistogram(Coupling):
         hue = self.axes[-1]
         turn, saturation, value = hue_saturation_value(inputs["input"])
         coloured = (saturation >= self.palest) & (value >= self.darkest) & (saturation > 0)
-        shares = jnp.maximum(0.0, 1.0 - jnp.abs(from_hues(hue, turn, at.dtype)) / hue.step)
-        y = jnp.mean(jnp.where(coloured[..., None], shares, 0.0), axis=1 - self._kept(at))
+        if self._kept(at) == 1:
+            turn, coloured = turn.T, coloured.T
+        counted = coloured / jnp.asarray(turn.shape[1], at.dtype)
+
+        def add(line: Array, y: Array) -> Array:
+            # one line at a time: an array of all pixels and hues would take ten times as long
+            shares = jnp.maximum(0.0, 1.0 - jnp.abs(from_hues(hue, turn[:, line], at.dtype)) / hue.step)
+            return y + counted[:, line, None] * shares
+
+        y = lax.fori_loop(0, turn.shape[1], add, jnp.zeros((turn.shape[0], hue.samples), at.dtype))
         y = along(constants["cells"], y, 0)
         return {"output": along(constants["smooth"], y, 1) if "smooth" in constants else y}
 
