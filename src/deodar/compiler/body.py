@@ -67,7 +67,7 @@ class Body:
             name: jnp.zeros(signal.shape or (), jnp.result_type(float))
             for name, signal in self.world.motors.items()
         }
-        return _rows({"now": now, "sensed": self._sensed(shared, own, now), "commands": commands})
+        return _rows({"now": now, "sensed": self._sensed(shared, own, now, {}), "commands": commands})
 
     def sensed(self, state: BodyState) -> Arrays:
         """Return the readings of the sensors."""
@@ -89,21 +89,23 @@ class Body:
             with errors_of(self.world, "advance"):
                 now = self.world.advance(shared, own, _copy(state["now"]), _copy(held))
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
-            return _rows({"now": now, "sensed": self._sensed(shared, own, now)})
+            return _rows({"now": now, "sensed": self._sensed(shared, own, now, self.sensed(state))})
 
         moved = lax.cond(
             (tick + jnp.uint32(1)) % period == 0, advance, lambda: {k: state[k] for k in ("now", "sensed")}
         )
         return {"now": moved["now"], "sensed": moved["sensed"], "commands": held}
 
-    def _sensed(self, shared: Arrays, own: PyTree, now: PyTree) -> Arrays:
+    def _sensed(self, shared: Arrays, own: PyTree, now: PyTree, before: Arrays) -> Arrays:
+        """Return the readings of the sensors; `before` are the last ones, which may be held."""
         dtype = shared_dtype(shared)
         out: Arrays = {}
         for ident, sensor in self.sensors.items():
-            axes = tuple(sensor.axes)
+            request = sensor.sensor, tuple(sensor.axes)
             with errors_of(self.world, "read"):
-                read = self.world.read(shared, own, now, sensor.sensor, axes)
-            out[ident] = jnp.broadcast_to(jnp.asarray(read, dtype), tuple(a.samples for a in axes))
+                out[ident] = jnp.asarray(
+                    self.world.reading(shared, own, now, request, before.get(ident)), dtype
+                )
         return out
 
 

@@ -95,6 +95,7 @@ class Exchange:
         self._last: float = 0
         self._due = self._origin = 0
         self._commands: Mapping[str, np.ndarray] | None = None
+        self._readings: Sequence[np.ndarray] | None = None
 
     def require(self, doc: Document) -> None:
         """Raise WorldError for a document with a sensor or motor that the world does not have."""
@@ -158,7 +159,8 @@ class Exchange:
             if not back and self._commands is not None:
                 with errors_of(self.world, "act"):
                     if isinstance(self.world, PureWorld) and self.world.exchanges:
-                        readings = self.world.exchange(self._commands, requests)
+                        before = None if self.unread else self._readings
+                        readings = self.world.exchange(self._commands, requests, before)
                     else:
                         self.world.act(self._commands, (now.time - (now.tick - self._last) * dt) * now.unit)
             self._commands = None
@@ -169,7 +171,7 @@ class Exchange:
                 readings = self.world.sense_all(requests, moment)
         for (ident, sensor), given in zip(self.sensors.items(), readings, strict=True):
             sensed[ident] = self._checked(sensor, given, dtype)
-        self.unread = False
+        self.unread, self._readings = False, readings
 
     def read_motors(self, tick: int, period: int, read: MotorReader) -> None:
         """Read and store the commands of the motors; called before steps from the tick of an exchange."""

@@ -13,11 +13,13 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import Array, lax
 from jax.typing import DTypeLike
 
 from deodar.element import Arrays
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, shape
+from deodar.numerics.copies import any_copy
 from deodar.numerics.noise import element_keys
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._base import World
@@ -62,6 +64,33 @@ class PureWorld(World):
     def advance(self, shared: Arrays, own: PyTree, state: PyTree, motors: Arrays) -> PyTree:
         """Return the state one period later; `motors` has the value of every motor."""
         raise NotImplementedError
+
+    def renews(self, state: PyTree, sensor: str) -> Array:
+        """Return whether a sensor whose signal has a period of its own has a new reading in this state, the
+        first one after `advance`.
+
+        Until then its reading is held and not computed. `read` returns the same reading all the while.
+        """
+        return jnp.ones((), bool)
+
+    def reading(
+        self, shared: Arrays, own: PyTree, state: PyTree, request: tuple[str, Axes], before: Array | None
+    ) -> Array:
+        """Return the reading of a sensor over axes; `before` is the last one, which is held if the sensor has
+        no new one in any copy, or None.
+        """
+        sensor, axes = request
+        signal = self.sensors.get(sensor)
+
+        def read() -> Array:
+            dtype = None if before is None else before.dtype
+            return jnp.broadcast_to(
+                jnp.asarray(self.read(shared, own, state, sensor, axes), dtype), shape(axes)
+            )
+
+        if before is None or signal is None or signal.period is None:
+            return read()
+        return lax.cond(any_copy(self.renews(state, sensor)), read, lambda: before)
 
     # ----------------------------------------------------------------------------------- computed on the host
 
@@ -116,24 +145,34 @@ class PureWorld(World):
         return methods == (PureWorld.act, PureWorld.sense, PureWorld.sense_all)
 
     def exchange(
-        self, motors: Mapping[str, np.ndarray], requests: Sequence[tuple[str, Axes]]
+        self,
+        motors: Mapping[str, np.ndarray],
+        requests: Sequence[tuple[str, Axes]],
+        before: Sequence[np.ndarray] | None = None,
     ) -> list[np.ndarray]:
         """Advance by one period, as `act` does, and return the readings of several sensors after it, in one
         call of a compiled function. After an error nothing changed.
+
+        `before` are the readings before this period; those of sensors with a period of their own are held.
         """
         names = self._names(requests)
+        slow = [self.sensors[sensor].period is not None for sensor, _ in names]
+        held = [a for a, is_slow in zip(before or [], slow, strict=False) if is_slow]
 
         def both(world: PureWorld) -> Callable[..., Any]:
-            read = _reading(world, names)
+            def advance(
+                shared: Arrays, own: PyTree, state: PyTree, commands: Arrays, held: Sequence[Array]
+            ) -> Any:
+                new, last = world.advance(shared, own, state, commands), iter(held)
+                return new, [
+                    world.reading(shared, own, new, name, next(last, None) if is_slow else None)
+                    for name, is_slow in zip(names, slow, strict=True)
+                ]
 
-            def advance(shared: Arrays, own: PyTree, state: PyTree, commands: Arrays) -> Any:
-                new = world.advance(shared, own, state, commands)
-                return new, read(shared, own, new)
-
-            return jax.vmap(advance, in_axes=(None, 0, 0, 0))
+            return jax.vmap(advance, in_axes=(None, 0, 0, 0, 0))
 
         self._state, seen = self.call(
-            ("exchange", *names), both, *self._values(), self._now(), self._commands(motors)
+            ("exchange", len(held), *names), both, *self._values(), self._now(), self._commands(motors), held
         )
         return [np.asarray(reading) for reading in seen]
 
@@ -215,10 +254,7 @@ def _reading(world: PureWorld, requests: Sequence[tuple[str, Axes]]) -> Callable
     """Return the function that reads several sensors of one copy."""
 
     def read(shared: Arrays, own: PyTree, state: PyTree) -> Any:
-        return [
-            jnp.broadcast_to(world.read(shared, own, state, sensor, axes), shape(axes))
-            for sensor, axes in requests
-        ]
+        return [world.reading(shared, own, state, request, None) for request in requests]
 
     return read
 

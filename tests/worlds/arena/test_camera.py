@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
+from deodar.worlds.arena import arena as arena_file
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.camera import AT_ONCE, BACKGROUND
+from deodar.worlds.arena.camera import AT_ONCE, BACKGROUND, colours_of
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.view import FLOOR, OUTSIDE
 
@@ -261,3 +263,95 @@ def test_heights_are_part_of_the_description() -> None:
     assert again.describe()["sha256"] == world.describe()["sha256"]
     np.testing.assert_allclose(again.objects.heights([0])[0], world.objects.heights([0])[0])
     assert sorted(set(again.objects.heights([0])[0].round(6))) == [0.07, 0.2]
+
+
+# ------------------------------------------------------------------------------- a camera with its own period
+
+
+def turning(sensors: tuple[str, ...] = ("camera", "line")) -> dd.Model:
+    """Return a model that turns its robot on the spot, and sees."""
+    model = dd.Model("turning", dt=16)
+    small = dd.Axis("column", 0, 15, 16), dd.Axis("row", 0, 11, 12), CHANNEL
+    for name in sensors:
+        model.add(dd.Sensor(name, small if name == "camera" else (small[0], CHANNEL), name))
+    model.add(dd.Sensor("heading", sensor="heading"))
+    for side, speed in (("left", -150.0), ("right", 150.0)):
+        model.add(dd.Boost(f"turn {side}", amplitude=speed)) >> model.add(dd.Motor(side, motor=side))
+    return model
+
+
+SLOW: dict[str, Any] = dict(camera_every=3, slip=0.2, start=(0.3, 0.3, 0.2))
+PORTS = ["camera.output", "line.output", "heading.output"]
+
+
+def test_a_picture_is_held_for_several_periods() -> None:
+    data = dd.simulate(turning(), 64 * 12, record=PORTS, every=16, world=Arena("blocks", **SLOW))
+    pictures, headings = data["camera.output"].values, data["heading.output"].values
+    changed = 1 + np.flatnonzero(np.ptp(np.diff(headings)[:, None], axis=1) + (np.abs(np.diff(headings)) > 0))
+    assert set(changed % 4) == {0}, "the robot turns in each period of 4 steps"
+    seen = 1 + np.flatnonzero(np.abs(np.diff(pictures, axis=0)).max(axis=(1, 2, 3)) > 0)
+    assert set(seen) <= {12, 24, 36, 48} and len(seen) >= 3
+
+
+@pytest.mark.parametrize(("precision", "limit"), [("float32", 0.002), ("float64", 0.0)])
+def test_pictures_inside_the_step_equal_those_of_a_session(precision: Any, limit: float) -> None:
+    """In single precision a pixel at an edge may show either side."""
+    model, options = turning(), dict(record=PORTS, every=16, precision=precision, seed=3)
+    inside, outside = (
+        dd.simulate(model, 64 * 14, world=world, **options)
+        for world in (Arena("blocks", **SLOW), beside(Arena("blocks", **SLOW)))
+    )
+    batch = dd.simulate(model, 64 * 14, world=Arena("blocks", **SLOW), trials=[0, 4], **options)
+    for port in PORTS:
+        for found in (inside[port].values, batch[port].values[0]):
+            assert np.mean(np.abs(found - outside[port].values) > 1e-4) <= limit, port
+    assert np.abs(batch["camera.output"].values[0] - batch["camera.output"].values[1]).max() > 0.1
+
+
+def beside(world: Arena) -> Arena:
+    world.inside = False
+    return world
+
+
+def test_a_snapshot_between_two_pictures_is_restored() -> None:
+    session = dd.Session(turning(), world=Arena("blocks", **SLOW))
+    session.step(4 * 4 + 2)
+    kept, seen = session.snapshot(), []
+    for _ in range(2):
+        session.restore(kept)
+        frames = []
+        for _ in range(12):
+            frames.append(np.array(session.read("camera")))
+            session.step(4)
+        seen.append(np.asarray(frames))
+    np.testing.assert_array_equal(*seen)
+    assert np.ptp(seen[0], axis=0).max() > 0.1
+
+
+def test_no_picture_is_computed_between_two_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A callback inside the compiled step counts the pictures that are computed."""
+    counted: list[int] = []
+
+    def counting(numbers: Any, colours: Any) -> Any:
+        jax.debug.callback(lambda _: counted.append(1), numbers[0, 0])
+        return colours_of(numbers, colours)
+
+    monkeypatch.setattr(arena_file, "colours_of", counting)
+    model, world = turning(("camera",)), Arena("blocks", period=48.0, camera_every=5)
+    for trials in ([0], [0, 1]):
+        taken = []
+        for periods in (10, 10, 25):  # the first run compiles
+            counted.clear()
+            dd.simulate(model, 48 * periods, record="camera.output", every=48, world=world, trials=trials)
+            jax.effects_barrier()
+            taken.append(len(counted))
+        assert taken[1:] == [len(trials) * (1 + 2), len(trials) * (1 + 5)], "one at the start"
+
+
+@pytest.mark.parametrize("every", [0, 1.5, True])
+def test_invalid_periods_of_the_camera_are_refused(every: Any) -> None:
+    with pytest.raises(WorldError, match=r"camera_every is .*expected a whole number of periods"):
+        Arena("blocks", camera_every=every)
+    assert Arena.open("blocks, camera_every=4").camera_every == 4
+    assert Arena.open("blocks, camera_every=4").sensors["camera"].period == 256.0
+    assert Arena.again(Arena("blocks", camera_every=4).describe()).camera_every == 4

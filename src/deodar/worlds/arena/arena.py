@@ -51,8 +51,10 @@ WRAP = 2.0**15
 """Encoders count from -WRAP to WRAP and then wrap around, like those of the e-puck (16 bits)."""
 
 
-def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
-    """Return the signals of a vehicle's sensors in an arena."""
+def signals(vehicle: Vehicle, unit: str, goal: bool, frame: float | None = None) -> dict[str, Signal]:
+    """Return the signals of a vehicle's sensors in an arena; `frame` is the period of its camera in ms, if it
+    has one of its own.
+    """
     out = {
         "infrared": Signal(
             vehicle.infrared.meaning, (vehicle.infrared.count,), vehicle.infrared.unit, each=True
@@ -76,9 +78,10 @@ def signals(vehicle: Vehicle, unit: str, goal: bool) -> dict[str, Signal]:
         out |= {
             "camera": Signal(
                 "picture of the camera: columns from the left, rows from the top, and red, green, blue",
+                period=frame,
                 each=True,
             ),
-            "line": Signal("one row of that picture, at the height of the camera", each=True),
+            "line": Signal("one row of that picture, at the height of the camera", period=frame, each=True),
         }
     return out | {"goal": Signal("x and y of the goal", (2,), unit, each=True)} if goal else out
 
@@ -131,6 +134,7 @@ class Arena(PureWorld):
         infrared_noise: factor on the noise of the infrared sensors; 0 removes it.
         slip: standard deviation of the distance that a wheel rolls in a period, as a share of that distance.
         encoder_noise: standard deviation of an encoder's count in a period, as a share of that count.
+        camera_every: number of periods for which a picture of the camera is kept.
 
     Shapes:
         `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and
@@ -167,6 +171,7 @@ class Arena(PureWorld):
         infrared_noise: float = 1.0,
         slip: float = 0.0,
         encoder_noise: float = 0.0,
+        camera_every: int = 1,
     ) -> None:
         self.layouts = load_each(layout)
         self.layout = self.layouts[0]
@@ -178,11 +183,8 @@ class Arena(PureWorld):
         self.vehicle = vehicle_of(vehicle)
         self.period = _number("period", period, above=0.0)
         self.reflection = _number("reflection", reflection, above=0.0)
-        if isinstance(place_every, bool) or not isinstance(place_every, (int, np.integer)) or place_every < 1:
-            raise WorldError(
-                f"place_every is {show(place_every)}; expected a whole number of periods, at least 1"
-            )
-        self.place_every = int(place_every)
+        self.place_every = _periods("place_every", place_every)
+        self.camera_every = _periods("camera_every", camera_every)
         given = {
             "place_noise": place_noise,
             "infrared_noise": infrared_noise,
@@ -199,7 +201,8 @@ class Arena(PureWorld):
             if start is None
             else list(rows_of("start", start, [self.scale, self.scale, 1.0]))
         )
-        self.sensors = signals(self.vehicle, unit, self.goals is not None)
+        frame = self.camera_every * self.period if self.camera_every > 1 else None
+        self.sensors = signals(self.vehicle, unit, self.goals is not None, frame)
 
     # ------------------------------------------------------------------------- objects, also changed in a run
 
@@ -341,6 +344,7 @@ class Arena(PureWorld):
             self.period,
             self.contact,
             self.place_every,
+            self.camera_every,
             self.scale,
             self.objects.room,
             self.goals is not None,
@@ -356,6 +360,8 @@ class Arena(PureWorld):
             "encoders": jnp.stack([zero, zero]),
             "touching": zero,
         }
+        if self.camera_every > 1:
+            state["frame"] = own["start"].at[2].set(state["heading"])
         tick = jnp.uint32(0)
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
 
@@ -381,6 +387,9 @@ class Arena(PureWorld):
             "encoders": counted - 2 * WRAP * jnp.round(counted / (2 * WRAP)),
             "touching": jnp.asarray(touched, boxes.dtype),
         }
+        if self.camera_every > 1:
+            pose = jnp.concatenate([position, new["heading"][None]])
+            new["frame"] = jnp.where(self._is_frame(tick), pose, state["frame"])
         return self._sensed(shared, own, new, tick, deviates, state["place"])
 
     def _deviates(self, own: ArenaCopy, tick: Array, dtype: DTypeLike) -> Arrays:
@@ -426,15 +435,25 @@ class Arena(PureWorld):
             return jnp.clip(jnp.einsum("bi,bj->ij", one, other, precision="highest"), 0.0, 1.0)
         return coloured(one[:, :, None] * other[:, None, :], own["colours"])
 
+    def renews(self, state: Arrays, sensor: str) -> Array:
+        return self._is_frame(state["tick"])
+
+    def _is_frame(self, tick: Array) -> Array:
+        return tick % jnp.uint32(self.camera_every) == 0
+
     def _picture(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
-        camera = self.vehicle.camera
+        """Return the last picture: with a period of its own the camera is where the vehicle was then."""
+        camera, pose, tick = self.vehicle.camera, (state["position"], state["heading"]), state["tick"]
         assert camera is not None
+        if self.camera_every > 1:
+            pose = state["frame"][:2], state["frame"][2]
+            tick = tick - tick % jnp.uint32(self.camera_every)
         shown = surfaces(
             camera,
-            (state["position"], state["heading"]),
+            pose,
             own["boxes"],
             own["heights"],
-            _there(own, state["tick"]),
+            _there(own, tick),
             picture_rays(camera, sensor, axes),
         )
         picture = colours_of(shown, own["colours"])
@@ -500,9 +519,12 @@ class Arena(PureWorld):
             "period": self.period,
             "contact": self.contact,
         }
+        # without settings of later versions that have their default, so that rows of older versions fit
+        later: JsonObject = {"camera_every": self.camera_every} if self.camera_every > 1 else {}
         said: JsonObject = {
             "settings": (
-                settings | {"reflection": self.reflection, "place_every": self.place_every, **self.noise}
+                settings
+                | {"reflection": self.reflection, "place_every": self.place_every, **self.noise, **later}
             ),
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
@@ -554,6 +576,12 @@ class Arena(PureWorld):
 def _there(own: ArenaCopy, tick: Array) -> Array:
     now = tick.astype(jnp.int32)
     return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
+
+
+def _periods(name: str, given: Any) -> int:
+    if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or given < 1:
+        raise WorldError(f"{name} is {show(given)}; expected a whole number of periods, at least 1")
+    return int(given)
 
 
 def _number(name: str, given: Any, above: float | None = None) -> float:

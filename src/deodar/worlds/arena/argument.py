@@ -11,7 +11,8 @@ WORDS = ("unit", "contact", "vehicle")
 PLACES = {"start": (2, 3), "goal": (2, 2)}
 """Smallest and largest count of numbers of a place; a start without a heading points along x."""
 
-NUMBERS = ("period", "reflection", "place_noise", "place_every", "infrared_noise", "slip", "encoder_noise")
+COUNTS = ("place_every", "camera_every")
+NUMBERS = (*COUNTS, "period", "reflection", "place_noise", "infrared_noise", "slip", "encoder_noise")
 
 
 def parse_argument(argument: str) -> tuple[str, Mapping[str, Any]]:
@@ -60,7 +61,7 @@ def _number(name: str, value: str, argument: str) -> float | int:
     number = _float(value)
     if number is None:
         raise WorldError(f"{name} is {value!r}; expected a number", where=f"arena:{argument}")
-    return int(number) if name == "place_every" and number.is_integer() else number
+    return int(number) if name in COUNTS and number.is_integer() else number
 
 
 def _float(word: str) -> float | None:
