@@ -109,11 +109,30 @@ const overlaps = (page: Page): Promise<string[]> =>
 const wires = (page: Page): Promise<number> =>
   panel(page, "Architecture").locator(".react-flow__edge").count();
 
+/** Wires that run behind a box. */
+const behind = (page: Page): Promise<string[]> =>
+  panel(page, "Architecture").evaluate((around) => {
+    const boxes = [...around.querySelectorAll(".graph-box, .graph-folded")].map((box) =>
+      box.getBoundingClientRect(),
+    );
+    return [...around.querySelectorAll<SVGPathElement>(".graph-wire")].flatMap((path) => {
+      const [length, matrix] = [path.getTotalLength(), path.getScreenCTM() as DOMMatrix];
+      const hidden = Array.from({ length: 200 }, (_, i) => {
+        const { x, y } = path.getPointAtLength((length * i) / 199).matrixTransform(matrix);
+        return boxes.some(
+          ({ left, right, top, bottom }) => x > left + 1 && x < right - 1 && y > top + 1 && y < bottom - 1,
+        );
+      });
+      return hidden.includes(true) ? [path.parentElement?.getAttribute("aria-label") ?? path.id] : [];
+    });
+  });
+
 async function readable(page: Page, least: number): Promise<void> {
   await expect.poll(async () => (await settled(page)).length).toBeGreaterThanOrEqual(least);
   const small = (await settled(page)).filter(({ size, height }) => Math.min(size, height) < SMALLEST);
   expect(small, "names that are too small").toEqual([]);
   expect(await overlaps(page), "boxes that overlap").toEqual([]);
+  expect(await behind(page), "wires behind boxes").toEqual([]);
 }
 
 /** Open another file, and wait for what it shows, but not for its program. */

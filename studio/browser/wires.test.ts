@@ -132,15 +132,22 @@ test("a click selects a wire, Delete removes it; an element is inserted into a w
   await observer.until(() => wires().length === 0);
 });
 
+/** A place on a wire: a part of its length, or a number of px from its begin or (negative) from its end. */
+async function onWire(name: string, part: number): Promise<{ x: number; y: number }> {
+  const wire = studio.page.getByRole("img", { name, exact: true });
+  return await wire.locator(".graph-wire").evaluate((path: SVGPathElement, at) => {
+    const length = path.getTotalLength();
+    const point = path.getPointAtLength(Math.abs(at) < 1 ? at * length : at < 0 ? length + at : at);
+    const matrix = path.getScreenCTM() as DOMMatrix;
+    return new DOMPoint(point.x, point.y).matrixTransform(matrix).toJSON() as { x: number; y: number };
+  }, part);
+}
+
 /** The place of an end of a wire, beside the port. */
 async function wireEnd(name: string, end: "source" | "target"): Promise<{ x: number; y: number }> {
   const { page } = studio;
   const wire = page.getByRole("img", { name, exact: true });
-  const at = await wire.locator(".graph-wire").evaluate((path: SVGPathElement, last) => {
-    const point = path.getPointAtLength(last ? path.getTotalLength() - 12 : 12);
-    const matrix = path.getScreenCTM() as DOMMatrix;
-    return new DOMPoint(point.x, point.y).matrixTransform(matrix).toJSON() as { x: number; y: number };
-  }, end === "target");
+  const at = await onWire(name, end === "target" ? -12 : 12);
   await page.mouse.move(at.x, at.y);
   await wire.locator(`.react-flow__edgeupdater-${end}`).waitFor({ state: "attached" });
   return at;
@@ -183,14 +190,16 @@ test("a box without connections that is dropped on a wire is inserted into it, a
   await pull(port("left", "output"), await middle(port("node", "input")));
   await page.mouse.up();
   await observer.until(() => wires().join() === "left.output node.input");
-  const wire = page.getByRole("img", { name: "left to node", exact: true }).locator(".graph-wire");
-  const to = await middle(wire);
+  const to = await onWire("left to node", 0.5);
+  const way = () => page.locator(".graph-wire").first().getAttribute("d");
+  const before = await way();
   const from = await middle(box(page, "u"));
   await page.mouse.move(from.x, from.y - 20);
   await page.mouse.down();
   await page.mouse.move(to.x, to.y - 60, { steps: 4 });
   await page.mouse.move(to.x, to.y, { steps: 4 });
   await page.locator(".graph-wire[data-picked]").waitFor();
+  expect(await way(), "the wire stays where it is").toBe(before);
   await page.mouse.up();
   await observer.until(() => wires().sort().join() === "left.output u.input,u.output node.input");
   await page.keyboard.press("Control+z");

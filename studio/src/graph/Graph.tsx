@@ -13,7 +13,7 @@ import {
   type NodeTypes,
 } from "@xyflow/react";
 import "@xyflow/react/dist/base.css";
-import { useCallback, useEffect, useRef, useState } from "react";
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { copyDragged } from "../build/dragging";
 import { insertDropped, markWire } from "../build/inserting";
 import { RenameBox } from "../build/RenameBox";
@@ -34,6 +34,7 @@ import { Box } from "./Box";
 import { ElementCard } from "./ElementCard";
 import { CommentBox } from "./CommentBox";
 import { Controls, GLIDE_MS } from "./Controls";
+import { withCourses } from "./courses";
 import { EmptyHint } from "./EmptyHint";
 import { Folded } from "./Folded";
 import { GroupFrame } from "./GroupFrame";
@@ -97,7 +98,7 @@ function Canvas({ structure }: { structure: Structure }) {
     useStudio.getState().select([element]);
     center(element);
   });
-  const wiring = useWires(now.wires);
+  const wiring = useWires(useMemo(() => withCourses(now), [now]));
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
   useZoomLook(around);

@@ -1,27 +1,17 @@
 // A connection on the canvas, with the couplings that are drawn on it.
 
-import {
-  BaseEdge,
-  EdgeLabelRenderer,
-  useInternalNode,
-  useStoreApi,
-  type EdgeProps,
-  type InternalNode,
-} from "@xyflow/react";
+import { BaseEdge, EdgeLabelRenderer, type EdgeProps } from "@xyflow/react";
 import { memo } from "react";
 import { usePicked } from "../build/picked";
 import { useStudio } from "../store";
 import { Pill } from "./Pill";
 import { markOf } from "./SignMarks";
-import type { Rect } from "./layout";
+import type { Point } from "./layout";
 import type { Wire } from "./scene";
-import { course } from "./wirePath";
+import { type Course, direct } from "./wirePath";
 
 export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   const { id, source, target, sourceX, sourceY, targetX, targetY, data } = props;
-  const from = useInternalNode(source);
-  const to = useInternalNode(target);
-  const flow = useStoreApi();
   const touched = useStudio(
     ({ selected }) =>
       selected.includes(source) ||
@@ -30,17 +20,10 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   );
   const picked = usePicked((state) => state.wires.includes(id));
   const over = usePicked((state) => state.over === id);
-  if (from === undefined || to === undefined || data === undefined) {
+  if (data === undefined) {
     return null;
   }
-  const { path, middle } = course(
-    { x: sourceX, y: sourceY },
-    { x: targetX, y: targetY },
-    rect(from),
-    rect(to),
-    data.lane,
-    () => boxes(flow.getState().nodeLookup),
-  );
+  const { path, middle } = courseNow(data.course, { x: sourceX, y: sourceY }, { x: targetX, y: targetY });
   const several = data.count > 1;
   return (
     <>
@@ -75,11 +58,14 @@ export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
   );
 });
 
-function rect({ internals, measured }: InternalNode): Rect {
-  return { ...internals.positionAbsolute, width: measured.width ?? 0, height: measured.height ?? 0 };
+// The border of a box moves its ports by less than this.
+const MOVED = 3;
+
+// While a box is dragged, only its own wires move.
+function courseNow(known: Course | null, from: Point, to: Point): Course {
+  return known !== null && same(known.from, from) && same(known.to, to) ? known : direct(from, to);
 }
 
-// Frames are no obstacle: edges lead into them. Nor is a box that is dragged: it may be dropped on the edge.
-function boxes(nodes: Map<string, InternalNode>): Rect[] {
-  return [...nodes.values()].filter((node) => node.type !== "frame" && node.dragging !== true).map(rect);
+function same(a: Point, b: Point): boolean {
+  return Math.abs(a.x - b.x) < MOVED && Math.abs(a.y - b.y) < MOVED;
 }

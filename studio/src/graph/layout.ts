@@ -22,7 +22,7 @@ export const FOLDED: Size = { width: 168, height: 64 };
 export const PANEL: Size = { width: 950, height: 400 };
 
 // The width of the number of connections that an edge stands for.
-const COUNT = 24;
+export const COUNT = 24;
 
 // Gaps between boxes; edges and pills take little room between the boxes that they pass, because room makes
 // all boxes smaller.

@@ -1,7 +1,11 @@
 import { expect, test } from "vitest";
 import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
+import { boxSize } from "./boxes";
+import { withCourses } from "./courses";
+import type { Point } from "./layout";
+import type { ElementView } from "../protocol";
 import { differ, moved } from "./moved";
-import { foldedAround, groupNode, scene } from "./scene";
+import { foldedAround, groupNode, PORT, scene } from "./scene";
 
 const KINDS = kindsOf(
   fakeKind("Field", "elements", { title: "Neural field" }),
@@ -87,12 +91,17 @@ test("the wire of a folded group has the signs of all that it stands for", () =>
   expect(wires).toEqual(["±"]);
 });
 
-test("backward edges have different lanes", () => {
+test("all wires have courses, from port to port; those back run side by side", () => {
   const elements = [fakeElement("a"), fakeElement("b")];
-  const { wires } = scene(fakeDocument(elements, fakeConnections("a b", "b b", "b a", "a a")), KINDS);
-  const back = wires.filter((w) => w.source === w.target || w.target === "a").map((w) => w.data?.lane);
-  expect(back).toHaveLength(3);
-  expect(wires.find((w) => w.source === "b" && w.target === "a")?.data?.lane).toBeGreaterThan(0);
+  const wired = scene(fakeDocument(elements, fakeConnections("a b", "b b", "b a", "a a")), KINDS);
+  const found = withCourses(wired).map(({ data }) => data?.course);
+  expect(found).toHaveLength(4);
+  expect(new Set(found.map((course) => course?.path)).size).toBe(4);
+  const [{ x, y }, { width, height }] = [
+    wired.places.elements.get("a") as Point,
+    boxSize(elements[0] as ElementView),
+  ];
+  expect(found[0]?.from).toEqual({ x: x + width + PORT / 2, y: y + height / 2 });
 });
 
 test("an invalid layout is ignored", () => {

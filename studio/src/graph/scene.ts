@@ -7,9 +7,9 @@ import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes"
 import { chains, type Chain } from "./chains";
 import { type CanvasComment, readComments } from "./comments";
 import { elementFamily, type ElementFamily } from "./family";
-import { FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
-import { lanes } from "./lanes";
+import { COUNT, FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
 import { signText, together, type Sign } from "./sign";
+import type { Course } from "./wirePath";
 import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
 
 export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
@@ -36,14 +36,15 @@ export type GroupData = {
   outputs: FoldedPort[];
 };
 // `chains`: what a wire stands for; those of a folded group are one. `shared`: whether an arrow ends at the
-// same port.
+// same port. `room`: the width of what is drawn on the wire. `course`: null until all are led.
 export type WireData = {
   pills: string[];
   reads: string;
   sign: Sign;
   shared: boolean;
   count: number;
-  lane: number;
+  room: number;
+  course: Course | null;
   chains: Chain[];
 };
 
@@ -66,6 +67,9 @@ export type GraphScene = {
 export const groupNode = (key: string): string => `group:${key}`;
 export const groupKey = (node: string): string => node.slice("group:".length);
 
+// The size of a port, in graph.css too.
+export const PORT = 7;
+
 export const PILL = { height: 22, gap: 4, letter: 6.6, pad: 34, most: 132 };
 
 // `panel` is the size of the canvas, whose shape the layout takes.
@@ -78,12 +82,11 @@ export function scene(structure: Structure, kinds: Map<string, Kind>, panel?: Si
   const bonds = chained.edges.map((e) => ({
     source: e.source,
     target: e.target,
-    room: pillsWidth(e.couplings.map((id) => names.get(id)?.name ?? "")),
+    room: widthOf(e, names),
   }));
   const where = places(found.root, sizes, bonds, readBoxes(layout), panel);
   const borders = foldedPorts(chained.edges, found, names);
   const wires = wiresOf(chained.edges, found, names);
-  lanes(wires, (node) => rectOf(node, where, sizes));
   return {
     nodes: [
       ...nodesOf(found.root, names, kinds, sizes, where, borders),
@@ -102,6 +105,10 @@ export function pillsWidth(names: string[]): number {
     (sum, name) => sum + PILL.gap + Math.min(PILL.most, PILL.pad + PILL.letter * name.length),
     0,
   );
+}
+
+function widthOf({ couplings }: Chain, names: Map<string, ElementView>): number {
+  return pillsWidth(couplings.map((id) => names.get(id)?.name ?? ""));
 }
 
 // Folded groups hide their elements; an open group is a frame and precedes its elements, because xyflow
@@ -231,10 +238,10 @@ function ports(names: string[], type: "source" | "target", { width, height }: Si
     id: id === "" ? null : id,
     type,
     position: left ? Position.Left : Position.Right,
-    x: (left ? 0 : width) - 4,
-    y: portHeight(height, n, names.length) - 4,
-    width: 8,
-    height: 8,
+    x: (left ? 0 : width) - PORT / 2,
+    y: portHeight(height, n, names.length) - PORT / 2,
+    width: PORT,
+    height: PORT,
   }));
 }
 
@@ -293,6 +300,7 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       known.count += 1;
       known.chains.push(edge);
       known.pills = [];
+      known.room = COUNT;
       continue;
     }
     const data = {
@@ -301,7 +309,8 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
       sign: edge.sign,
       shared: false,
       count: 1,
-      lane: 0,
+      room: widthOf(edge, names),
+      course: null,
       chains: [edge],
     };
     const called = [
@@ -332,12 +341,6 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
     }
   }
   return all;
-}
-
-function rectOf(node: string, where: Places, sizes: Map<string, Size>): Rect {
-  const key = node.startsWith("group:") ? node.slice("group:".length) : null;
-  const group = key === null ? undefined : where.groups.get(key);
-  return group ?? { ...(where.elements.get(node) ?? { x: 0, y: 0 }), ...(sizes.get(node) ?? FOLDED) };
 }
 
 // The folded groups that hide an element, so that it can be shown.
