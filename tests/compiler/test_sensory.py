@@ -50,3 +50,36 @@ def test_they_have_the_values_that_a_session_computes_outside_the_step(watch: st
     values = inside.values[watch]
     np.testing.assert_allclose(values, outside.values[watch], atol=2e-4)
     assert np.ptp(values[32:], axis=0).max() > 1e-3  # readings change
+
+
+def test_a_sensor_of_a_longer_period_has_couplings_of_that_period() -> None:
+    """The histogram follows from the camera alone; the product reads the infrared sensors, too."""
+    hue, column = dd.Axis("hue", 0, 360, 12, periodic=True), dd.Axis("column", 0, 11, 12)
+    m = dd.Model("eye", dt=5)
+    camera = dd.Sensor("eye", [column, dd.Axis("row", 0, 8, 9), dd.Axis("rgb", 0, 2, 3)], sensor="camera")
+    m.add(camera) >> m.add(dd.ColorHistogram([column, hue], name="colours"))
+    m.add(dd.Sensor("distance", [dd.Axis("of", 0, 5, 6)], sensor="infrared")) >> m.add(
+        dd.Project([], reduce="min", name="nearest")
+    )
+    m["colours"] >> m.add(dd.Product(name="product"))
+    m.connect("nearest", "product.factor")
+    m["product"] >> m.add(dd.Field("u", [column, hue], resting_level=-1.0))
+    for side, speed in (("left", 200.0), ("right", 400.0)):
+        m.add(dd.Boost(f"speed {side}", [], speed)) >> m.add(dd.Motor(side, motor=side))
+    layout = {
+        "unit": "mm",
+        "arena": {"x": [-300, 300], "y": [-300, 300]},
+        "blocks": [{"name": "red", "center": [100, 40], "size": [50, 50], "color": [1, 0, 0]}],
+    }
+    arena = dd.Arena(layout, (0, 0, 0), unit="mm", vehicle="khepera", period=20, camera_every=4)
+    body = embodied(m.document, arena)
+    program = executable(m, body=body).program
+    paths = {n: [program.plan.groups[c.group].like.path for c in program.sensory[n]] for n in program.sensory}
+    assert paths[4] == ["colours"] and {"nearest", "product"} <= set(paths[1])
+    watch = ["colours.output", "product.output", "u.activation"]
+    [inside] = run_batch(m, 800.0, [0], watch, world=arena, every=5.0)
+    outside = dd.run_trial(m, 800.0, arena, watch=watch, every=5.0)
+    for name in watch:
+        np.testing.assert_allclose(inside.values[name], outside.values[name], rtol=2e-4, atol=2e-4)
+    changes = np.abs(np.diff(inside.values["colours.output"], axis=0)).sum((1, 2)) > 0
+    assert changes.any() and not changes[np.arange(len(changes)) % 16 != 15].any()

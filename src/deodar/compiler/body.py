@@ -61,6 +61,13 @@ class Body:
             *((ident, sensor.sensor, tuple(sensor.axes)) for ident, sensor in sorted(self.sensors.items())),
         )
 
+    def periods(self, ident: str) -> int:
+        """Return the number of periods of the world for which a reading of a sensor is held."""
+        signal = self.world.sensors.get(self.sensors[ident].sensor)
+        if signal is None or signal.period is None or self.world.period is None:
+            return 1
+        return max(1, round(signal.period / self.world.period))
+
     def begin(self, shared: Arrays, own: PyTree, now: PyTree) -> BodyState:
         """Return the state of a copy at the start."""
         commands = {

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
+import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar, cast
@@ -134,14 +135,7 @@ class Program:
         self.moving = [
             c for c in plan.calls if not (plan.groups[c.group].still or plan.groups[c.group].sensory)
         ]
-        self.sensing = [
-            c
-            for c in plan.calls
-            if plan.groups[c.group].sensory or plan.groups[c.group].like.element.external
-        ]
-        self.sensory = [
-            (g, port) for g, group in enumerate(plan.groups) if group.sensory for port in group.like.outs
-        ]
+        self.sensory = self._by_period()
         self.rebuilt = [self._swept_constants(group) for group in plan.groups]
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
@@ -213,10 +207,11 @@ class Program:
 
     def unperceived(self) -> Arrays:
         """Return what follows from readings before the first is made."""
+        keys = self._keys([call for calls in self.sensory.values() for call in calls])
         groups = self.plan.groups
         return {
-            array_key(g, port): jnp.zeros((groups[g].rows, *shape(groups[g].like.outs[port])), self.dtype)
-            for g, port in self.sensory
+            key: jnp.zeros((groups[g].rows, *shape(groups[g].like.outs[port])), self.dtype)
+            for key, (g, port) in keys.items()
         }
 
     def perceive(
@@ -225,18 +220,56 @@ class Program:
         """Return what follows from readings of the world: computed when the readings are new, and at the tick
         `start` of the chunk, since parameters may have changed before it.
         """
+        now = dict(perceived)
+        seeing = self._seeing(chunk, state) if self.sensory else chunk
+        for periods, calls in self.sensory.items():
+            held = {key: now[key] for key in self._keys(calls)}
+            period = jnp.uint32(periods) * jnp.maximum(chunk.clock["period"], jnp.uint32(1))
+            # the predicate is that of all copies, like the one of `draw`
+            now |= lax.cond(
+                (tick % period == 0) | (tick == start),
+                functools.partial(self._perceive, calls, seeing, now, tick),
+                lambda held=held: held,
+            )
+        return now
 
-        def anew() -> Arrays:
-            seeing, buffers = self._seeing(chunk, state), dict(chunk.still)
-            for call in self.sensing:
-                self._output(call, buffers, seeing, {}, tick)
-            return {array_key(g, port): buffers[g, port, 0] for g, port in self.sensory}
+    def _perceive(self, calls: Sequence[Call], chunk: Chunk, perceived: Arrays, tick: Array) -> Arrays:
+        buffers = {**chunk.still, **self._perceived(perceived)}
+        sensors = [c for c in self.moving if self.plan.groups[c.group].like.element.external]
+        for call in (*sensors, *calls):
+            self._output(call, buffers, chunk, {}, tick)
+        return {key: buffers[g, port, 0] for key, (g, port) in self._keys(calls).items()}
 
-        if not self.sensory:
-            return perceived
-        period = jnp.maximum(chunk.clock["period"], jnp.uint32(1))
-        # the predicate is that of all copies, like the one of `draw`
-        return lax.cond((tick % period == 0) | (tick == start), anew, lambda: perceived)
+    def _keys(self, calls: Sequence[Call]) -> dict[str, tuple[int, str]]:
+        """Return the group and port of each output of sensory groups, by the key of its values."""
+        slots = [(c.group, port) for c in calls for port in self.plan.groups[c.group].like.outs]
+        return {array_key(g, port): (g, port) for g, port in slots}
+
+    def _perceived(self, perceived: Arrays) -> Buffers:
+        """Return what follows from readings as buffers."""
+        keys = self._keys([call for calls in self.sensory.values() for call in calls])
+        return {(g, port, 0): perceived[key] for key, (g, port) in keys.items()}
+
+    def _by_period(self) -> dict[int, list[Call]]:
+        """Return the calls of sensory groups by the periods of the world after which they change, the longest
+        first: what changes rarely comes before what reads it.
+        """
+        groups, known = self.plan.groups, dict[int, int]()
+
+        def periods(g: int) -> int:
+            if g not in known:
+                like = groups[g].like
+                sources = {r.source[0] for port in like.reads for r in self.plan.reads[g, port]}
+                known[g] = (
+                    self.body.periods(like.id)
+                    if self.body is not None and like.element.external
+                    else math.gcd(*(periods(source) for source in sources))
+                )
+            return known[g]
+
+        calls = [c for c in self.plan.calls if groups[c.group].sensory]
+        found = sorted({periods(c.group) for c in calls}, reverse=True)
+        return {n: [c for c in calls if periods(c.group) == n] for n in found}
 
     def step(
         self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array, perceived: Arrays
@@ -244,8 +277,7 @@ class Program:
         """The state at tick + 1: every output at t is read, then all new states are committed together."""
         chunk = self._seeing(chunk, state)
         buffers, old = dict(chunk.still), state["groups"]
-        for g, port in self.sensory:
-            buffers[g, port, 0] = perceived[array_key(g, port)]
+        buffers |= self._perceived(perceived)
         new, held = list(old), dict(state["held"])
         for call in self.moving:
             group = self.plan.groups[call.group]
