@@ -178,3 +178,30 @@ def test_the_past_of_the_world_is_shown_with_the_path_up_to_that_moment(file: Pa
 
     with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         play(address, story)
+
+
+def test_a_world_in_another_unit_of_length_is_refused_and_its_warnings_are_shown(tmp_path: Path) -> None:
+    model = dd.Model("planning", dt=64)
+    plane = [dd.Axis("x", 0, 120, 25, unit="cm"), dd.Axis("y", 0, 80, 17, unit="cm")]
+    place = model.add(dd.Sensor("place", [dd.Axis("of", 0, 1, 2)], sensor="place"))
+    place >> model.add(dd.SpaceCode(plane, 5.0, name="own place"))
+    model.add(dd.Sensor("map", plane, sensor="obstacles"))
+    dd.save(model, tmp_path / "planning.json")
+
+    async def story(one: Page) -> None:
+        await one.runs()
+        (problem,) = one.document["problems"]
+        assert "100 times too small" in problem["what"] and "unit=cm" in problem["fix"], problem
+        assert problem["element"], "the box of the element shows it"
+        await one.do("use_world", kind="Arena", path="blocks", settings={"unit": "cm"})
+        await one.runs()
+        await one.until(lambda: not one.document["problems"] and one.said["scene"]["scene"])
+        answer = await one.ask("use_world", kind="Arena", path="blocks", settings={"unit": "mm"})
+        assert "10 times too large" in answer["problems"][0]["what"]
+        assert one.said["scene"]["scene"]["unit"] == "cm", "the world in use stays"
+        await one.do("use_world", kind="Arena", path="z", settings={"unit": "cm"})
+        await one.until(lambda: "barely overlap" in one.document["problems"][0]["what"])
+        assert {p["severity"] for p in one.document["problems"]} == {"warning"}
+
+    with studio(tmp_path, tmp_path / "planning.json", world=Arena("blocks")) as address:
+        play(address, story)

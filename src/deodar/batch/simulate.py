@@ -19,6 +19,7 @@ from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
 from deodar.model.model import Handle, Model
 from deodar.parameters import real
 from deodar.recording.probe import Probe
+from deodar.session import agreement
 from deodar.session.run import MOST_STEPS
 from deodar.session.session import require_model
 from deodar.worlds._base import World
@@ -124,6 +125,7 @@ def simulate(
             stacklevel=2,
         )
         progress = True if progress is None else progress
+    agreement.warn(model.document, world, stacklevel=2)
     request = SimulationRequest(
         duration, dt, seed, record, every, trials, sweep, precision, workers, batch, device, accuracy
     )

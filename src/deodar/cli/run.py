@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from deodar.model.document import Document
     from deodar.model.model import Model
     from deodar.recording.repeat import Difference, Repetition
+    from deodar.worlds._base import World
 
 HELP = "run a model and record it, or run a record again and compare"
 EPILOG = """\
@@ -169,7 +170,7 @@ def _simulate(args: argparse.Namespace) -> int:
     model = load(args.file, trust=args.trust)
     for path, value in args.set or ():
         model.set(path, value)
-    _show_warnings(model, args.file)
+    _show_warnings(model, args.file, _options.world(args.world))
     place = _Place(args, model.name)
     step = model.document.step if args.dt is None else args.dt
 
@@ -263,9 +264,12 @@ def _confirm(
     )
 
 
-def _show_warnings(model: Model, file: Path) -> None:
-    """Print the first warnings of the check on stderr; they do not prevent the run."""
-    found = [p for p in model.check() if p.severity == "warning"]
+def _show_warnings(model: Model, file: Path, world: World | None) -> None:
+    """Print the first warnings of the check and of the world on stderr; they do not prevent the run."""
+    # start-up time: this brings JAX
+    from deodar.session import agreement
+
+    found = [p for p in (*agreement.judge(model.document, world), *model.check()) if p.severity == "warning"]
     for warning in found[:WARNINGS]:
         print(f"deodar run: warning: {warning}", file=sys.stderr)
     if len(found) > WARNINGS:

@@ -24,7 +24,7 @@ from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
-from deodar.session import memory
+from deodar.session import agreement, memory
 from deodar.session.exchange import embodied
 from deodar.session.run import Run, whole
 from deodar.session.session import require_model, require_seed
@@ -115,6 +115,7 @@ def run_batch(
             f"the world {type(world).__name__} cannot be computed for a batch of copies",
             fix="Run them one by one: dd.run_trial(...)",
         )
+    agreement.warn(doc, world, stacklevel=2)
     if world is not None and values:
         raise WorldError(
             "trials in a world have the same parameters in one batch",

@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 
 from deodar.errors import AxesError, Problem, UnknownName, did_you_mean
+from deodar.numerics import units
 from deodar.parameters import FrozenArray, is_text, real, show
 
 MOST_SAMPLES = 1_000_000
@@ -22,6 +23,11 @@ FARTHEST = 1e30
 
 FINEST = 1e-6
 """Smallest range relative to the bounds; smaller ranges are within the rounding of single precision."""
+
+APART = 0.1
+"""Overlap of two ranges, as a share of the longer one, below which one of them probably has another unit or
+origin (a guess).
+"""
 
 
 @dataclass(frozen=True)
@@ -185,3 +191,39 @@ def wrong_shape(
             f"{name} has shape {list(value.shape)}, {owner} {list(needed)} samples",
             f"Give {name} the shape {list(needed)}",
         )
+
+
+def barely_overlap(
+    axis: Axis, bounds: tuple[float, float], what: str, unit: str = ""
+) -> Iterator[tuple[str, str]]:
+    """Yield the problem, and what to type, if an axis and a range have little in common.
+
+    Args:
+        axis: the axis.
+        bounds: lower and upper bound of the range, in the unit of the axis.
+        what: what has the range, in the plural.
+        unit: unit in which the range is given because the axis states none; "" if it states one.
+    """
+    if _overlap(axis, bounds) >= APART:
+        return
+    stated, given = f" {axis.unit}" if axis.unit else "", units.parse(unit)
+    fitting = [
+        u.symbol
+        for u in units.UNITS
+        if given is not None
+        and u.quantity == given.quantity
+        and _overlap(axis, (bounds[0] * given.size / u.size, bounds[1] * given.size / u.size)) >= APART
+    ]
+    yield (
+        f"{what} run from {bounds[0]:.4g} to {bounds[1]:.4g} {unit or axis.unit}".rstrip()
+        + f", and the axis {axis.name!r} from {axis.lower:g} to {axis.upper:g}{stated}: they barely overlap",
+        f"Write unit={fitting[0]!r} for the axis if its values are in {fitting[0]}"
+        if fitting
+        else "Choose a world that covers the axis, or change the bounds of the axis",
+    )
+
+
+def _overlap(axis: Axis, bounds: tuple[float, float]) -> float:
+    """Return the length that an axis and a range have in common, as a share of the longer one."""
+    common = min(axis.upper, bounds[1]) - max(axis.lower, bounds[0])
+    return max(common, 0.0) / max(axis.range, bounds[1] - bounds[0])

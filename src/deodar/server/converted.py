@@ -51,6 +51,7 @@ class Converted:
         elements: its elements as sent to the page, in their order, by id.
         problems: problems of its structure, without warnings.
         nodes: its resolved nodes, for the warnings.
+        warnings: its warnings in the present world.
     """
 
     document: Document
@@ -60,6 +61,7 @@ class Converted:
     elements: Mapping[str, ElementView]
     problems: Sequence[Problem]
     nodes: Sequence[Node]
+    warnings: Sequence[Problem] = ()
 
 
 def convert(doc: Document, before: Converted | None = None) -> Converted:

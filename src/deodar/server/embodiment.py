@@ -23,6 +23,7 @@ from deodar.recording.opened import opened
 from deodar.recording.provenance import described
 from deodar.server import scene
 from deodar.server.to_page import WorldPreview
+from deodar.session import agreement
 from deodar.session.exchange import used
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
@@ -154,6 +155,11 @@ def problems(doc: Document, world: World | None) -> Sequence[Problem]:
     except WorldError as error:
         return error.problems
     return ()
+
+
+def warnings(doc: Document, world: World | None) -> list[Problem]:
+    """Return the warnings about a document in a world."""
+    return [p for p in agreement.judge(doc, world) if p.severity == "warning"]
 
 
 def _lacks(element: object, world: World | None) -> str:

@@ -40,6 +40,7 @@ from deodar.server.recent_changes import DocumentChange, RecentChanges
 from deodar.server.state_store import StateStore
 from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem, Opened
 from deodar.server.workspace import Workspace
+from deodar.session.exchange import used
 from deodar.session.session import Session
 from deodar.session.session_at import session_at
 from deodar.worlds._base import World
@@ -658,11 +659,14 @@ class OpenProject:
         """Use another world, at once or, if the document has no sensors, as soon as a document has some.
 
         Raises:
-            WorldError: the world lacks a sensor or motor of the document.
+            WorldError: the world lacks a sensor or motor of the document, or gives it over other axes or in
+                another unit, so that a document that runs would not run; the world in use stays.
         """
         model, session = self._require_model(), self.engine.session
         doc = model.document
         unfinished = bool(self._conversion(doc).problems)
+        if not unfinished and not embodiment.missing(world, doc):
+            used(doc, world)
         self.embodiment.choose(world, kind, name, doc)
         self._converted.clear()  # its problems may be those with another world
         if session is None:
@@ -838,20 +842,22 @@ class OpenProject:
         made = converted.convert(doc, before)
         if made.problems or self.record is not None:
             return made
-        return dc.replace(made, problems=self._world_problems(doc))
+        world = self._present_world(doc)
+        wrong = embodiment.problems(doc, world)
+        return dc.replace(made, problems=wrong, warnings=() if wrong else embodiment.warnings(doc, world))
 
-    def _world_problems(self, doc: Document) -> Sequence[Wrong]:
+    def _present_world(self, doc: Document) -> World | None:
+        """Return the world that a document would run in."""
         session = self.engine.session
-        return embodiment.problems(
-            doc, self.embodiment.world(doc, None if session is None else session.world)
-        )
+        return self.embodiment.world(doc, None if session is None else session.world)
 
     def _check(self, doc: Document) -> Sequence[Wrong]:
         """Return the problems of a document, or else its warnings."""
         found = check(doc)
         if any(p.severity == "problem" for p in found):
             return found
-        return self._world_problems(doc) or found
+        world = self._present_world(doc)
+        return embodiment.problems(doc, world) or [*embodiment.warnings(doc, world), *found]
 
     def _edited(self, before: Document, cost: Cost) -> None:
         """Start a new version after an edit, which pages receive as a patch."""

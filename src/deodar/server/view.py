@@ -82,7 +82,7 @@ def document(
         groups=[list(g) for g in doc.groups],
         parameters=converted.parameters(doc),
         layout=dict(doc.layout),
-        problems=problems(made.problems or judge(doc, made.nodes), doc),
+        problems=problems(made.problems or [*made.warnings, *judge(doc, made.nodes)], doc),
         unsaved=unsaved,
         undo=undo,
         redo=redo,

@@ -21,6 +21,7 @@ from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, shape
 from deodar.parameters import show
 from deodar.recording import stored
+from deodar.session import agreement
 from deodar.worlds._base import Signal, World, fitting
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
@@ -285,7 +286,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
 
     Raises:
         WorldError: the document has a sensor and there is no world; the world lacks a sensor or motor, or has
-            it over other axes; or two elements drive one motor.
+            it over other axes or in another unit; or two elements drive one motor.
     """
     if world is not None and not isinstance(world, World):
         raise WorldError(
@@ -321,6 +322,9 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
                 world.require_motor(name)
                 _fit(e.path, name, world.motors, tuple(e.element.axes))
                 motors[e.id] = e.element
+    wrong = [p for p in agreement.judge(doc, world) if p.severity == "problem"]
+    if wrong:
+        raise WorldError(wrong)
     return sensors, motors
 
 

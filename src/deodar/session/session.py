@@ -27,7 +27,7 @@ from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described
-from deodar.session import memory, rearrange
+from deodar.session import agreement, memory, rearrange
 from deodar.session.changes import LeafChange, changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
@@ -104,6 +104,7 @@ class Session:
         self._run = Run(
             self.compiled(doc), doc, float(step), require_seed(seed), [require_seed(trial)], world
         )
+        agreement.warn(doc, world, stacklevel=2)
 
     # ------------------------------------------------------------------------------------------------ running
 

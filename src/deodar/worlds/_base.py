@@ -5,14 +5,14 @@ A model refers to sensors and motors by name; a world provides them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
 from deodar.codec import Json
-from deodar.errors import WorldError, did_you_mean
+from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes, shape
 from deodar.worlds._scene import Scene
 
@@ -29,6 +29,7 @@ class Signal:
         period: ms between two new values; None: the period of the world.
         each: True if each copy of a model has its own signal (its own robot), False if all copies share one
             (one camera).
+        bounds: smallest and largest value of each sample without noise, where they are known.
     """
 
     meaning: str
@@ -36,6 +37,7 @@ class Signal:
     unit: str = ""
     period: float | None = None
     each: bool = False
+    bounds: tuple[tuple[float, float], ...] | None = None
 
     def __str__(self) -> str:
         samples = (
@@ -198,6 +200,13 @@ class World:
                 f"the world {type(self).__name__} has no motor {motor!r}",
                 fix=_hint(motor, self.motors, "motors"),
             )
+
+    def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
+        """Yield what is wrong with the axes over which a model reads a sensor, besides their shape.
+
+        Problems prevent a run, warnings do not; the caller fills in `where`.
+        """
+        return iter(())
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:

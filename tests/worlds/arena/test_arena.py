@@ -519,3 +519,14 @@ def test_a_world_that_becomes_infinite_inside_the_step_is_named():
         dd.errors.NotFinite, match=r"^position of the world Broken became infinite or undefined in step 8 "
     ):
         dd.simulate(model, 64 * 30, world=Broken(), record="heading.output")
+
+
+def test_an_object_far_outside_is_refused_because_its_lengths_have_another_unit() -> None:
+    world = begun("blocks")
+    for change in (
+        lambda: world.place("crate", center=(60, 15), size=(8, 8)),
+        lambda: world.move("red", (30, 40)),
+    ):
+        with pytest.raises(WorldError, match=r"m outside the arena, 0 to 1.2, 0 to 0.8 m. Give lengths in m"):
+            change()
+    world.place("parked", center=(-0.5, -0.5), size=(0.05, 0.05))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import math
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypedDict
 
@@ -18,7 +18,7 @@ from jax.typing import DTypeLike
 from deodar import codec
 from deodar.codec import JsonObject
 from deodar.element import Arrays
-from deodar.errors import WorldError, did_you_mean
+from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
 from deodar.parameters import real, show
@@ -37,7 +37,7 @@ from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
 from deodar.worlds.arena.vehicles import VEHICLES, vehicle_of
-from deodar.worlds.arena.view import coloured, require_plane, sides
+from deodar.worlds.arena.view import coloured, judge_plane, require_plane, sides
 
 Numbers = Sequence[float] | Sequence[Sequence[float]] | np.ndarray
 """A value of some numbers, or a row of them for each trial."""
@@ -51,15 +51,28 @@ WRAP = 2.0**15
 """Encoders count from -WRAP to WRAP and then wrap around, like those of the e-puck (16 bits)."""
 
 
-def signals(vehicle: Vehicle, unit: str, goal: bool, frame: float | None = None) -> dict[str, Signal]:
-    """Return the signals of a vehicle's sensors in an arena; `frame` is the period of its camera in ms, if it
-    has one of its own.
+def signals(
+    vehicle: Vehicle,
+    unit: str,
+    goal: bool,
+    frame: float | None = None,
+    border: Sequence[float] | None = None,
+) -> dict[str, Signal]:
+    """Return the signals of a vehicle's sensors in an arena.
+
+    Args:
+        vehicle: the vehicle.
+        unit: unit of lengths.
+        goal: whether the arena has a goal.
+        frame: period of the camera in ms, if it has one of its own.
+        border: lower x, lower y, upper x and upper y, in `unit`, if they are known.
     """
+    plane = None if border is None else ((border[0], border[2]), (border[1], border[3]))
     out = {
         "infrared": Signal(
             vehicle.infrared.meaning, (vehicle.infrared.count,), vehicle.infrared.unit, each=True
         ),
-        "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True),
+        "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True, bounds=plane),
         "heading": Signal("heading; 0 along x, counter-clockwise", (), "rad", each=True),
         "pose": Signal(
             "true x, y and heading, for records and figures", (3,), f"{unit}, {unit}, rad", each=True
@@ -83,7 +96,8 @@ def signals(vehicle: Vehicle, unit: str, goal: bool, frame: float | None = None)
             ),
             "line": Signal("one row of that picture, at the height of the camera", period=frame, each=True),
         }
-    return out | {"goal": Signal("x and y of the goal", (2,), unit, each=True)} if goal else out
+    goals = {"goal": Signal("x and y of the goal", (2,), unit, each=True, bounds=plane)}
+    return out | goals if goal else out
 
 
 class ArenaCopy(TypedDict):
@@ -202,7 +216,8 @@ class Arena(PureWorld):
             else list(rows_of("start", start, [self.scale, self.scale, 1.0]))
         )
         frame = self.camera_every * self.period if self.camera_every > 1 else None
-        self.sensors = signals(self.vehicle, unit, self.goals is not None, frame)
+        border = [v / self.scale for v in self.layout.border]
+        self.sensors = signals(self.vehicle, unit, self.goals is not None, frame, border)
 
     # ------------------------------------------------------------------------- objects, also changed in a run
 
@@ -228,7 +243,9 @@ class Arena(PureWorld):
                 on. An object that appears several times is several objects.
             height: height of the object; None: that of the walls of the border.
         """
-        self.objects.place(made(name, center, size, color, self.scale, height), windows)
+        rows = made(name, center, size, color, self.scale, height)
+        self.places.require_near(name, [row.center for row in rows])
+        self.objects.place(rows, windows)
 
     def move(self, name: str, center: Numbers) -> None:
         """Move an object; `center` is the new x and y of its middle, or a row for each trial.
@@ -238,6 +255,8 @@ class Arena(PureWorld):
         if name == GOAL and self.goals is not None and name not in self.objects.names():
             self.aim(center)
         else:
+            rows = made(name, center, (1, 1), (0, 0, 0), self.scale)
+            self.places.require_near(name, [row.center for row in rows])
             self.objects.move(name, center, self.scale)
 
     def remove(self, name: str) -> None:
@@ -440,6 +459,16 @@ class Arena(PureWorld):
 
     def _is_frame(self, tick: Array) -> Array:
         return tick % jnp.uint32(self.camera_every) == 0
+
+    def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
+        try:
+            if sensor in ("camera", "line") and self.vehicle.camera is not None:
+                picture_rays(self.vehicle.camera, sensor, axes)
+            if sensor in ("obstacles", "above"):
+                require_plane(sensor, axes, sensor == "above")
+                yield from judge_plane(axes[:2], self.layout.border, self.scale, self.unit)
+        except WorldError as error:
+            yield from error.problems
 
     def _picture(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
         """Return the last picture: with a period of its own the camera is where the vehicle was then."""

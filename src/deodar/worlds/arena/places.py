@@ -12,6 +12,9 @@ from deodar.errors import Problem, WorldError
 from deodar.parameters import show
 from deodar.worlds.arena.layout import ArenaObject
 
+FAR = 2.0
+"""Largest distance of an object from the border, in lengths of its longer side."""
+
 
 def rows_of(what: str, given: npt.ArrayLike, scale: Sequence[float]) -> np.ndarray:
     """Convert a value to rows with one finite number per scale, multiplied by the scales."""
@@ -80,6 +83,24 @@ class Places:
             if inside:
                 problems.append(self.fault(what, rows, k, f"lies inside {inside[0]!r}{needs}", count))
         return problems
+
+    def require_near(self, name: str, centers: Sequence[Sequence[float]]) -> None:
+        """Raise WorldError if a middle of an object (m) lies so far outside that its unit must be wrong.
+
+        An object that waits outside the border for its time is not that far away.
+        """
+        left, low, right, high = self.border
+        for x, y in centers:
+            apart = math.hypot(max(left - x, x - right, 0.0), max(low - y, y - high, 0.0))
+            if apart > FAR * max(right - left, high - low):
+                spans = ((left, right), (low, high))
+                span = ", ".join(f"{a / self.scale:g} to {b / self.scale:g}" for a, b in spans)
+                raise WorldError(
+                    f"{self.shown(np.asarray([x, y]))} lies {apart / self.scale:.4g} {self.unit} outside the"
+                    f" arena, {span} {self.unit}",
+                    where=name,
+                    fix=f"Give lengths in {self.unit}, or choose the unit: dd.Arena(..., unit='cm')",
+                )
 
     def fault(self, what: str, rows: np.ndarray, k: int, text: str, count: int) -> Problem:
         """Return a problem of the position of trial `k` of `count`."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import jax.numpy as jnp
 from jax import Array
 
-from deodar.errors import WorldError
-from deodar.numerics.axes import Axes, Axis
-from deodar.worlds.arena.layout import UNITS
+from deodar.errors import Problem, WorldError
+from deodar.numerics import units
+from deodar.numerics.axes import Axes, Axis, barely_overlap
 
 FLOOR = (0.96, 0.96, 0.94)
 OUTSIDE = (0.25, 0.25, 0.25)
@@ -25,10 +27,45 @@ def sides(axes: Axes, boxes: Array, scale: float) -> tuple[Array, Array]:
     """
     across = 0 if axes[1].name != "x" else 1
     one, other = (
-        _along(axes[d], boxes[:, k], boxes[:, k + 2], UNITS.get(axes[d].unit, scale))
+        _along(axes[d], boxes[:, k], boxes[:, k + 2], metres(axes[d], scale))
         for d, k in ((0, across), (1, 1 - across))
     )
     return one, other
+
+
+def metres(axis: Axis, scale: float) -> float:
+    """Return the metres per unit of an axis; `scale` for an axis that states no unit of length."""
+    unit = units.parse(axis.unit)
+    return unit.size if unit is not None and unit.quantity == "length" else scale
+
+
+def judge_plane(
+    axes: Axes, border: tuple[float, float, float, float], scale: float, unit: str
+) -> Iterator[Problem]:
+    """Yield what is wrong with two axes over which an arena is seen: a unit that is no length, or values that
+    barely overlap the arena.
+
+    Args:
+        axes: two axes; x is the one named x, else the first.
+        border: lower x, lower y, upper x, upper y, m.
+        scale: metres per unit of the arena.
+        unit: unit of the arena.
+    """
+    across = 0 if axes[1].name != "x" else 1
+    for d, k in ((0, across), (1, 1 - across)):
+        axis = axes[d]
+        stated = units.parse(axis.unit)
+        if axis.unit and (stated is None or stated.quantity != "length"):
+            yield Problem(
+                "",
+                f"is seen along the axis {axis.name!r} in {axis.unit!r}, which is no unit of length",
+                f"Write unit={unit!r}, or no unit: values then are in the unit of the arena",
+            )
+            continue
+        size = metres(axis, scale)
+        bounds = border[k] / size, border[k + 2] / size
+        for what, fix in barely_overlap(axis, bounds, "the walls of the arena", "" if axis.unit else unit):
+            yield Problem("", what, fix, "warning")
 
 
 def _along(axis: Axis, lower: Array, upper: Array, scale: float) -> Array:
