@@ -78,7 +78,7 @@ def test_float32_normals_agree_with_float64():
 @pytest.mark.parametrize("word", [0, 1, 511, 512, 2**31, 2**32 - 513, 2**32 - 1])
 def test_extreme_integers_give_finite_deviates(word):
     """Uniform deviates lie strictly between 0 and 1, so that no logarithm diverges."""
-    uniform = float(noise._uniform(jnp.uint32(word)))
+    uniform = float(noise.uniform(jnp.uint32(word)))
     assert uniform == ((word >> 9) + 0.5) / 2**23
     for dtype in (jnp.float32, jnp.float64):
         with jax.enable_x64(dtype == jnp.float64):

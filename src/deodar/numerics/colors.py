@@ -31,6 +31,15 @@ def hue_saturation_value(picture: Array) -> tuple[Array, Array, Array]:
     return hue, saturation, value
 
 
+def red_green_blue(hue: Array, chroma: Array, value: Array) -> Array:
+    """Return the channels, as an additional last axis, of colours with a hue (in turns, red 0), a chroma
+    (value minus smallest channel) and a value (largest channel).
+    """
+    sector = 6.0 * (hue - jnp.floor(hue))
+    full = (jnp.abs(sector - 3.0) - 1.0, 2.0 - jnp.abs(sector - 2.0), 2.0 - jnp.abs(sector - 4.0))
+    return jnp.stack([value - chroma * (1.0 - jnp.clip(f, 0.0, 1.0)) for f in full], axis=-1)
+
+
 def from_hues(axis: Axis, turn: Array, dtype: DTypeLike) -> Array:
     """Return the distances of the samples of a hue axis from hues (as shares of a turn), as an additional
     last axis; of both distances on the circle the shorter one.

@@ -74,8 +74,23 @@ def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarr
 
 def bits(cells: int, key: Array, block: Array) -> tuple[Array, Array]:
     """Return two uint32 for each cell: counter (cell, block)."""
+    return words(cells, 0, key, block)
+
+
+def words(cells: int, first: int, key: Array, block: Array) -> tuple[Array, Array]:
+    """Return two uint32 for each of the cells from number `first` on: counter (cell, block)."""
     counter = jnp.arange(cells, dtype=jnp.uint32)
+    if first:
+        counter = counter + jnp.uint32(first)
     return threefry(counter, jnp.full((cells,), block, jnp.uint32), key[0], key[1])
+
+
+def box_muller(one: Array, two: Array, dtype: DTypeLike) -> tuple[Array, Array]:
+    """Return two independent standard normal deviates from two uniform numbers in (0, 1], in `dtype`:
+    sqrt(-2 ln one) sin(2 pi two) and the same with the cosine.
+    """
+    radius = _length(one, dtype)
+    return radius * _sine(two, dtype), radius * _cosine(two, dtype)
 
 
 @functools.partial(jax.jit, static_argnames=("shape", "dtype"))
@@ -89,7 +104,7 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
     """
     a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
     odd = (tick & jnp.uint32(1)).astype(bool)
-    radius, turn = _radius(a, dtype), _uniform(b)
+    radius, turn = _radius(a, dtype), uniform(b)
     wave = jnp.where(odd, _cosine(turn, dtype), _sine(turn, dtype))
     return (radius * wave).reshape(shape)
 
@@ -103,7 +118,7 @@ def block(cells: int, key: Array, tick: Array, dtype: DTypeLike) -> Array:
     rounding.
     """
     a, b = bits(cells, key, tick >> jnp.uint32(1))
-    radius, turn = _radius(a, dtype), _uniform(b)
+    radius, turn = _radius(a, dtype), uniform(b)
     return lax.complex(radius * _sine(turn, dtype), radius * _cosine(turn, dtype))
 
 
@@ -161,16 +176,20 @@ def over(axes: Axes, deviates: Array, filters: Sequence[Array] | None) -> Array:
     return convolution.separable(filters, deviates)
 
 
-def _uniform(word: Array) -> Array:
+def uniform(word: Array) -> Array:
     """Return a uniform number in (0, 1) from the upper 23 bits, exact in float32."""
     one_to_two = lax.bitcast_convert_type((word >> 9) | jnp.uint32(0x3F800000), jnp.float32)
     return one_to_two - jnp.float32(1.0 - 2.0**-24)
 
 
 def _radius(word: Array, dtype: DTypeLike) -> Array:
+    return _length(uniform(word), dtype)
+
+
+def _length(share: Array, dtype: DTypeLike) -> Array:
     if dtype == jnp.float64:
-        return jnp.sqrt(-2.0 * jnp.log(_uniform(word).astype(dtype)))
-    return jnp.sqrt(jnp.maximum(jnp.float32(-2.0) * _log(_uniform(word)), jnp.float32(0)))
+        return jnp.sqrt(-2.0 * jnp.log(share.astype(dtype)))
+    return jnp.sqrt(jnp.maximum(jnp.float32(-2.0) * _log(share), jnp.float32(0)))
 
 
 def _sine(turn: Array, dtype: DTypeLike) -> Array:

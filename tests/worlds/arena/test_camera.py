@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import colorsys
 import math
 from typing import Any
 
@@ -13,8 +14,9 @@ import deodar as dd
 from deodar.errors import WorldError
 from deodar.worlds.arena import arena as arena_file
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.camera import AT_ONCE, BACKGROUND, colours_of
+from deodar.worlds.arena.camera import AT_ONCE
 from deodar.worlds.arena.epuck import EPUCK
+from deodar.worlds.arena.picture_noise import BACKGROUND, picture
 from deodar.worlds.arena.view import FLOOR, OUTSIDE
 
 CAMERA = EPUCK.camera
@@ -280,7 +282,7 @@ def turning(sensors: tuple[str, ...] = ("camera", "line")) -> dd.Model:
     return model
 
 
-SLOW: dict[str, Any] = dict(camera_every=3, slip=0.2, start=(0.3, 0.3, 0.2))
+SLOW: dict[str, Any] = dict(camera_every=3, slip=0.2, start=(0.3, 0.3, 0.2), hue_noise=5.0, clutter=0.2)
 PORTS = ["camera.output", "line.output", "heading.output"]
 
 
@@ -332,11 +334,11 @@ def test_no_picture_is_computed_between_two_frames(monkeypatch: pytest.MonkeyPat
     """A callback inside the compiled step counts the pictures that are computed."""
     counted: list[int] = []
 
-    def counting(numbers: Any, colours: Any) -> Any:
+    def counting(numbers: Any, *others: Any) -> Any:
         jax.debug.callback(lambda _: counted.append(1), numbers[0, 0])
-        return colours_of(numbers, colours)
+        return picture(numbers, *others)
 
-    monkeypatch.setattr(arena_file, "colours_of", counting)
+    monkeypatch.setattr(arena_file, "picture", counting)
     model, world = turning(("camera",)), Arena("blocks", period=48.0, camera_every=5)
     for trials in ([0], [0, 1]):
         taken = []
@@ -355,3 +357,127 @@ def test_invalid_periods_of_the_camera_are_refused(every: Any) -> None:
     assert Arena.open("blocks, camera_every=4").camera_every == 4
     assert Arena.open("blocks, camera_every=4").sensors["camera"].period == 256.0
     assert Arena.again(Arena("blocks", camera_every=4).describe()).camera_every == 4
+
+
+# ------------------------------------------------------------------------------------------------------ noise
+
+
+def wall(trials: Any = (0,), **noise: float) -> Arena:
+    """Return an arena whose camera sees, in the upper half of its picture, a block with a hue of 120
+    degrees.
+    """
+    layout = {
+        "arena": {"x": [-2, 2], "y": [-2, 2]},
+        "blocks": [block("wall", 0.5, 0, [0.5, 3], 2.0, (0.2, 0.7, 0.2))],
+    }
+    world = Arena(layout, start=(0.0, 0.0, 0.0), **noise)
+    world.reset(5, trials)
+    return world
+
+
+def hues(picture: np.ndarray) -> np.ndarray:
+    """Return hue in degrees from -180 to 180, saturation and value of each pixel."""
+    flat = np.asarray([colorsys.rgb_to_hsv(*p) for p in picture.reshape(-1, 3).tolist()])
+    flat[:, 0] = (flat[:, 0] * 360 + 180) % 360 - 180
+    return flat.reshape(picture.shape)
+
+
+def pictures(world: Arena, count: int, axes: Any = AXES) -> np.ndarray:
+    """Return pictures (copies, count, columns, rows, 3) in following periods."""
+    seen = []
+    for _ in range(count):
+        seen.append(world.sense("camera" if len(axes) == 3 else "line", axes, 0.0))
+        world.act({}, 0.0)
+    return np.stack(seen, 1)
+
+
+def test_pixel_noise_has_its_standard_deviation_in_each_channel() -> None:
+    found = pictures(wall([0, 1], pixel_noise=0.04), 3)[..., :30, :] - np.asarray((0.2, 0.7, 0.2), np.float32)
+    np.testing.assert_allclose(found.std(axis=(0, 1, 2, 3)), 0.04, rtol=0.02)
+    assert np.abs(found.mean(axis=(0, 1, 2, 3))).max() < 0.001
+    between = np.corrcoef(found.reshape(-1, 3).T) - np.eye(3)
+    frames = np.corrcoef(found.reshape(6, -1)) - np.eye(6)
+    pixels = np.corrcoef(found[..., 1:, :].ravel(), found[..., :-1, :].ravel())[0, 1]
+    assert max(np.abs(between).max(), np.abs(frames).max(), abs(pixels)) < 0.03
+    line = pictures(wall(pixel_noise=0.04), 1, (COLUMNS, CHANNEL))[0, 0] - np.asarray((0.2, 0.7, 0.2))
+    alike = np.corrcoef(line[:30].ravel(), found[0, 0, 0].ravel())[0, 1]
+    assert abs(alike) < 0.3, "the line has noise of its own"
+
+
+def test_pixels_stay_between_0_and_1() -> None:
+    found = pictures(wall(pixel_noise=1.0), 1)
+    assert found.min() == 0 and found.max() == 1 and np.isfinite(found).all()
+
+
+def test_hue_noise_changes_the_hue_alone() -> None:
+    found = hues(pictures(wall(hue_noise=6.0), 2)[..., :30, :])
+    np.testing.assert_allclose(found[..., 0].std(), 6.0, rtol=0.02)
+    np.testing.assert_allclose(found[..., 0].mean(), 120.0, atol=0.2)
+    np.testing.assert_allclose(found[..., 1], 5 / 7, atol=1e-5)
+    np.testing.assert_allclose(found[..., 2], 0.7, atol=1e-6)
+    assert abs(np.corrcoef(found[0, 0, :, :, 0].ravel(), found[0, 1, :, :, 0].ravel())[0, 1]) < 0.03
+
+
+@pytest.mark.parametrize("share", [0.05, 0.3, 1.0])
+def test_a_share_of_the_pixels_are_outliers_with_any_hue(share: float) -> None:
+    found = hues(pictures(wall(hue_noise=6.0, outliers=share), 4)[..., :30, :]).reshape(-1, 3)
+    away = found[:, 1] > 0.99
+    np.testing.assert_allclose(away.mean(), share, atol=4 * math.sqrt(share * (1 - share) / len(away)) + 1e-9)
+    counts = np.histogram(found[away, 0], bins=12, range=(-180, 180))[0]
+    np.testing.assert_allclose(counts / away.sum(), 1 / 12, atol=4 * math.sqrt(1 / 12 / away.sum()))
+    np.testing.assert_allclose(found[away, 2], 1.0, atol=1e-6)
+    if share < 1:
+        np.testing.assert_allclose(found[~away, 0].std(), 6.0, rtol=0.03)
+
+
+def test_strips_of_clutter_cover_a_share_of_the_background() -> None:
+    world = room(block("red", 0.5, 0.0, [0.1, 0.05], 0.2, (0.5, 0.1, 0.1)), clutter=0.25)
+    fine = dd.Axis("column", 0, 159, 160), dd.Axis("row", 0, 119, 120), CHANNEL
+    clean = shot(room(block("red", 0.5, 0.0, [0.1, 0.05], 0.2, (0.5, 0.1, 0.1))), fine)
+    world.reset(5, range(12))
+    seen = pictures(world, 2, fine)
+    np.testing.assert_array_equal(seen[:, 0], seen[:, 1])
+    covered = (np.abs(seen[:, 0] - clean) > 1e-3).any(axis=-1)
+    red = (np.abs(clean - (0.5, 0.1, 0.1)) < 1e-6).all(axis=-1)
+    assert red.any() and not covered[:, red].any()
+    free = ~red.any(axis=1)
+    np.testing.assert_allclose(covered[:, free].sum(axis=2), 30, atol=1)
+    found = hues(np.where(covered[..., None], seen[:, 0], 0.0))
+    strips = [
+        found[k, 8 * n : 8 * n + 8][covered[k, 8 * n : 8 * n + 8]] for k in range(12) for n in range(20)
+    ]
+    assert all(np.ptp(s[:, 0]) < 1e-3 for s in strips if len(s))
+    chosen = np.asarray([s[0, 0] for s in strips if len(s)])
+    assert len(np.unique(chosen.round(3))) > 0.95 * len(chosen), "trials and strips differ"
+    below = np.asarray([np.flatnonzero(covered[k, 8 * n])[0] for k in range(12) for n in range(6)])
+    assert len(np.unique(below)) > 20
+
+
+def test_the_line_shows_the_clutter_of_its_row() -> None:
+    world = room(clutter=0.4)
+    axes = (dd.Axis("column", 0, 159, 160), dd.Axis("row", 0, 60, 61), CHANNEL)
+    np.testing.assert_array_equal(shot(world, axes[::2]), shot(world, axes)[:, 30])
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_noise_of_a_trial_is_that_in_a_batch(precision: Any) -> None:
+    options = dict(pixel_noise=0.05, hue_noise=5.0, outliers=0.1, clutter=0.2)
+    many, alone = wall([0, 3], **options), wall([3], **options)
+    many.reset(5, [0, 3], precision)
+    single = alone.sense("camera", AXES, 0.0)[0]
+    np.testing.assert_allclose(many.sense("camera", AXES, 0.0)[1], single, atol=2e-4)
+    assert np.abs(many.sense("camera", AXES, 0.0)[0] - single).max() > 0.1
+
+
+def test_noise_of_a_held_picture_is_held() -> None:
+    found = pictures(wall(pixel_noise=0.1, camera_every=2), 4)[0]
+    np.testing.assert_array_equal(found[0], found[1])
+    assert np.abs(found[1] - found[2]).max() > 0.1
+
+
+def test_noises_of_the_camera_are_settings() -> None:
+    arena = Arena.open("blocks, pixel_noise=0.1, hue_noise=6, outliers=0.05, clutter=0.25")
+    assert Arena.again(arena.describe()).noise == arena.noise
+    assert "outliers" not in Arena("blocks").describe()["settings"]
+    with pytest.raises(WorldError, match=r"outliers is 1\.5; expected a share"):
+        Arena("blocks", outliers=1.5)

@@ -27,12 +27,13 @@ from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
 from deodar.worlds.arena.argument import parse_argument
-from deodar.worlds.arena.camera import colours_of, picture_rays, surfaces
+from deodar.worlds.arena.camera import picture_rays, surfaces
 from deodar.worlds.arena.contact import move
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
 from deodar.worlds.arena.layout import UNITS, ArenaObject, LayoutSource, builtin, load_each
 from deodar.worlds.arena.objects import ArenaObjects, made
+from deodar.worlds.arena.picture_noise import PictureNoise, picture
 from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
@@ -43,6 +44,9 @@ Numbers = Sequence[float] | Sequence[Sequence[float]] | np.ndarray
 """A value of some numbers, or a row of them for each trial."""
 
 CONTACTS = ("slide", "stick")
+BODY_NOISES = ("infrared", "place", "slip", "encoders")
+PICTURE_NOISES = ("pixel_noise", "hue_noise", "outliers", "clutter")
+SHARES = ("outliers", "clutter")
 GOAL = "goal"
 CUSTOM = "custom"
 """What records state as the vehicle's name if it is none of those that come with deodar."""
@@ -149,6 +153,13 @@ class Arena(PureWorld):
         slip: standard deviation of the distance that a wheel rolls in a period, as a share of that distance.
         encoder_noise: standard deviation of an encoder's count in a period, as a share of that count.
         camera_every: number of periods for which a picture of the camera is kept.
+        pixel_noise: standard deviation of each channel of each pixel of the camera; values stay between 0
+            and 1.
+        hue_noise: standard deviation of the hue of each pixel, degrees.
+        outliers: share of the pixels that show a random saturated colour.
+        clutter: share of the rows that strips of random colours cover where the camera sees no object, but
+            the floor, the walls of the border or what is above them. A strip is 1/20 of the width; its colour
+            and its rows are drawn once in each trial.
 
     Shapes:
         `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and
@@ -168,7 +179,7 @@ class Arena(PureWorld):
         "right": Signal("speed of the right wheel", (), "step/s", each=True),
     }
     opens = (".json",)
-    noises = ("infrared", "place", "slip", "encoders")
+    noises = (*BODY_NOISES, "pixels", "hues", "clutter")
 
     def __init__(
         self,
@@ -186,6 +197,10 @@ class Arena(PureWorld):
         slip: float = 0.0,
         encoder_noise: float = 0.0,
         camera_every: int = 1,
+        pixel_noise: float = 0.0,
+        hue_noise: float = 0.0,
+        outliers: float = 0.0,
+        clutter: float = 0.0,
     ) -> None:
         self.layouts = load_each(layout)
         self.layout = self.layouts[0]
@@ -204,8 +219,15 @@ class Arena(PureWorld):
             "infrared_noise": infrared_noise,
             "slip": slip,
             "encoder_noise": encoder_noise,
+            "pixel_noise": pixel_noise,
+            "hue_noise": hue_noise,
+            "outliers": outliers,
+            "clutter": clutter,
         }
         self.noise = {name: _number(name, value) for name, value in given.items()}
+        for name in SHARES:
+            if self.noise[name] > 1:
+                raise WorldError(f"{name} is {show(given[name])}; expected a share, from 0 to 1")
         self.source = str(layout) if isinstance(layout, (str, Path)) else ""
         self.objects = ArenaObjects(self.layouts, self.period)
         self.places = Places(self.layout.border, unit, self.scale, self.source)
@@ -364,6 +386,7 @@ class Arena(PureWorld):
             self.contact,
             self.place_every,
             self.camera_every,
+            tuple(self.noise[name] > 0 for name in PICTURE_NOISES),
             self.scale,
             self.objects.room,
             self.goals is not None,
@@ -416,9 +439,9 @@ class Arena(PureWorld):
 
         Every noise gets the number that the largest one needs, because one graph for all compiles faster.
         """
-        keys = jnp.stack([own["keys"][name] for name in self.noises])
+        keys = jnp.stack([own["keys"][name] for name in BODY_NOISES])
         drawn = jax.vmap(lambda key: normal((max(2, self.vehicle.infrared.count),), key, tick, dtype))(keys)
-        return dict(zip(self.noises, drawn, strict=True))
+        return dict(zip(BODY_NOISES, drawn, strict=True))
 
     def _sensed(
         self, shared: Arrays, own: ArenaCopy, body: Arrays, tick: Array, deviates: Arrays, held: Array
@@ -485,8 +508,10 @@ class Arena(PureWorld):
             _there(own, tick),
             picture_rays(camera, sensor, axes),
         )
-        picture = colours_of(shown, own["colours"])
-        return picture if sensor == "camera" else picture[:, 0]
+        levels = {name: shared[name] for name in PICTURE_NOISES if self.noise[name] > 0}
+        noise = PictureNoise(levels, own["keys"], tick, sensor)
+        seen = picture(shown, own["colours"], self.objects.room, noise)
+        return seen if sensor == "camera" else seen[:, 0]
 
     def _permanent(self) -> list[list[ArenaObject]]:
         """Return the objects that are always present: of all trials, or of each."""
@@ -549,11 +574,11 @@ class Arena(PureWorld):
             "contact": self.contact,
         }
         # without settings of later versions that have their default, so that rows of older versions fit
+        noise = {k: v for k, v in self.noise.items() if k not in PICTURE_NOISES or v > 0}
         later: JsonObject = {"camera_every": self.camera_every} if self.camera_every > 1 else {}
         said: JsonObject = {
             "settings": (
-                settings
-                | {"reflection": self.reflection, "place_every": self.place_every, **self.noise, **later}
+                settings | {"reflection": self.reflection, "place_every": self.place_every, **noise, **later}
             ),
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),

@@ -12,7 +12,11 @@ PLACES = {"start": (2, 3), "goal": (2, 2)}
 """Smallest and largest count of numbers of a place; a start without a heading points along x."""
 
 COUNTS = ("place_every", "camera_every")
-NUMBERS = (*COUNTS, "period", "reflection", "place_noise", "infrared_noise", "slip", "encoder_noise")
+NUMBERS = (
+    *COUNTS,
+    *("period", "reflection", "place_noise", "infrared_noise", "slip", "encoder_noise"),
+    *("pixel_noise", "hue_noise", "outliers", "clutter"),
+)
 
 
 def parse_argument(argument: str) -> tuple[str, Mapping[str, Any]]:

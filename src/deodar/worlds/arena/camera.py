@@ -16,14 +16,13 @@ from jax import Array, lax
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
+from deodar.numerics.copies import computed_once
 from deodar.worlds.arena.vehicle import VehicleCamera, ahead
-from deodar.worlds.arena.view import FLOOR
-
-BACKGROUND = (0.78, 0.78, 0.78)
-"""Colour above the boxes."""
 
 NEAREST = 1e-6
-"""Smallest depth of a surface, m: that of a box around the camera."""
+"""Smallest depth of a surface, m: that of a box around the camera. A depth of 0 with the number of a box in
+its last bits would be a denormal number, with which processors compute slowly.
+"""
 
 AT_ONCE = 48
 """Number of boxes whose depths are compared in one loop over the pixels; more take longer to compile."""
@@ -102,17 +101,13 @@ def surfaces(
         return best
 
     nothing = jnp.full((len(across), len(up)), jnp.inf, dtype)
-    best = nearer(0, nothing) if loops == 1 else lax.fori_loop(0, loops, nearer, nothing)
+
+    def nearest() -> Array:
+        return nearer(0, nothing) if loops == 1 else lax.fori_loop(0, loops, nearer, nothing)
+
+    best = computed_once(jnp.any(present), nearest, nothing)
     other = np.where(up < 0, count, count + 1).astype(np.int32)
     return jnp.where(best < jnp.inf, _number(best, count), other)
-
-
-def colours_of(numbers: Array, colours: Array) -> Array:
-    """Return the colours (..., 3) of the surfaces that `surfaces` numbered; `colours` are those of the boxes
-    (n, 3).
-    """
-    others = jnp.asarray([FLOOR, BACKGROUND], colours.dtype)
-    return jnp.concatenate([colours, others]).at[numbers].get(mode="promise_in_bounds")
 
 
 def _footprints(
@@ -137,7 +132,7 @@ def _between(camera: VehicleCamera, heights: Array, up: Array) -> tuple[Array, A
     rise = (heights - camera.height)[:, None]
     tall, down = rise >= 0, up < 0
     slope = jnp.where(up == 0, jnp.asarray(1e-30, up.dtype), up)
-    enter = jnp.where(~tall & down, rise / slope, 0.0)
+    enter = jnp.maximum(jnp.where(~tall & down, rise / slope, 0.0), NEAREST)
     return enter, jnp.where(down, -camera.height / slope, jnp.where(tall, rise / slope, -1.0))
 
 
