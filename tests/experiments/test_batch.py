@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.compiler.executable import Batch
 from deodar.elements.sensor import Sensor
 from deodar.errors import ParameterError, WorldError
-from deodar.experiments import batch
+from deodar.experiments import copies
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Crosses, Within
 from deodar.experiments.experiment import Experiment
@@ -39,7 +39,7 @@ def test_a_batch_gives_the_values_of_single_trials():
 
 
 def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
-    monkeypatch.setattr(batch, "WORTH", 0)
+    monkeypatch.setattr(copies, "WORTH", 0)
     model, left = decider(), []
     courses = run_batch(model, 600, range(16), events=[DECIDED], between=left.append)
     assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left

@@ -16,7 +16,7 @@ import pytest
 import deodar as dd
 from deodar import cli
 from deodar.errors import NotFinite, RunWarning
-from deodar.experiments import batch
+from deodar.experiments import copies
 from deodar.experiments.actions import Set
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Crosses, Reached
@@ -31,6 +31,9 @@ from deodar.session.run import Run
 LATE = Crosses("late", "v.activation", 1.0)
 RISEN = Crosses("risen", "u.activation", 1.02, ends=False)
 MEASURES = [Measure("last", "v.activation", "max"), Measure("risen to", "u.activation", "max", when="risen")]
+APART = [Set(79, "v.quadrature", "point")]
+"""Actions that change nothing, but prevent a batch."""
+
 PROGRAMS: dict[Any, Any] = {}
 """Compiled programs, which all models of this file share."""
 
@@ -93,8 +96,7 @@ def test_the_warning_points_to_the_call() -> None:
 
 
 def test_trials_run_one_by_one_give_the_same_rows() -> None:
-    nothing = [Set(79, "v.tau", 10.0)]
-    alone, together = experiment([0.1, 1e6, 0.3], actions=nothing), experiment([0.1, 1e6, 0.3])
+    alone, together = experiment([0.1, 1e6, 0.3], actions=APART), experiment([0.1, 1e6, 0.3])
     assert together.setup().batched and not alone.setup().batched
     one, many = finished(alone), finished(together)
     for name in ("outcome", "diverged", "awaited"):
@@ -106,8 +108,7 @@ def test_trials_run_one_by_one_give_the_same_rows() -> None:
 def test_a_sampled_coupling_that_diverges_gives_equal_rows_in_trials_and_batches() -> None:
     made = experiment([0.1, 1e6], 1, measures=[Measure("gain", "g.output", "max")])
     one, many = (
-        finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged")
-        for actions in ([Set(79, "v.tau", 10.0)], [])
+        finished(dc.replace(made, actions=actions), says="1 of 2 trials diverged") for actions in (APART, [])
     )
     assert (
         one["diverged"].values.tolist()
@@ -165,7 +166,7 @@ def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
 
 
 def test_diverged_trials_are_dropped_from_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(batch, "WORTH", 0)
+    monkeypatch.setattr(copies, "WORTH", 0)
     values = {"g.factor": [1e6, 0.1, 1e6, 0.3, 1e6, 1e6]}
     with pytest.warns(RunWarning, match="4 of 6 trials"):
         made = model()

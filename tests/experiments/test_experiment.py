@@ -102,7 +102,7 @@ def test_a_batch_gives_the_rows_of_single_trials():
     together = experiment.run()
     assert experiment.setup().batched and len(experiment.setup().pieces()) == 1
     # the action changes nothing, but prevents a batch
-    alone = dc.replace(experiment, actions=[Set(149, "u.tau", 10.0)])
+    alone = dc.replace(experiment, actions=[Set(149, "u.quadrature", "point")])
     assert not alone.setup().batched
     single = alone.run()
     for name in ("outcome", "strength", "place"):

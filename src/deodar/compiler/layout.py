@@ -63,13 +63,17 @@ class LeafLayout:
                 arrays[array_key(g, name)] = np.stack(
                     [self._part(name, c[name.removesuffix(LOW)]) for c in columns]
                 )
-        if swept is None:
-            given = [
-                np.full(points, vector[places[0]]) if places else np.zeros(points) for places in self.swept
-            ]
-        else:
-            given = [*swept, *(split(swept[k], self.dtype)[1] for k in self._rounded)]
-        return {"vector": vector, "arrays": arrays, "swept": tuple(np.asarray(s, self.dtype) for s in given)}
+        given = self.points(swept) if swept is not None else None
+        if given is None:
+            given = tuple(
+                np.full(points, vector[places[0]] if places else 0, self.dtype) for places in self.swept
+            )
+        return {"vector": vector, "arrays": arrays, "swept": given}
+
+    def points(self, swept: Sequence[np.ndarray]) -> tuple[np.ndarray, ...]:
+        """Return the values of each entry of the sweep at its points as arguments of the program."""
+        given = [*swept, *(split(swept[k], self.dtype)[1] for k in self._rounded)]
+        return tuple(np.asarray(values, self.dtype) for values in given)
 
     def put(self, vector: np.ndarray, leaf: Leaf, value: float) -> None:
         """Write the value of a scalar leaf into the parameter vector."""

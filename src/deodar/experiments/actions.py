@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
-from deodar.errors import WorldError
+from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.experiments.running import RunningTrial
 from deodar.family import Family
 from deodar.model import find
@@ -38,8 +38,10 @@ class Action(Part):
     world_method: ClassVar[str] = ""
     """Name of the world's method that `apply` calls: "place", "move" or "remove"; empty: none."""
 
-    def paths(self) -> Iterator[str]:
-        """Yield the parameters of the model that the action changes."""
+    def sets(self) -> Iterator[tuple[str, Any]]:
+        """Yield the parameters of the model that the action changes, each with a value that it gets; the
+        values between those of one parameter are valid, too.
+        """
         return iter(())
 
     def ports(self) -> Iterator[str]:
@@ -93,7 +95,7 @@ class Place(Action):
 
     def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, running.session.world).place(self.object, found.center, found.size, found.color)
+        changed(self, running.world).place(self.object, found.center, found.size, found.color)
 
 
 @ACTIONS.register
@@ -120,7 +122,7 @@ class Move(Action):
 
     def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, running.session.world).move(self.object, found.center)
+        changed(self, running.world).move(self.object, found.center)
 
 
 @ACTIONS.register
@@ -141,7 +143,7 @@ class Remove(Action):
     world_method: ClassVar[str] = "remove"
 
     def apply(self, running: RunningTrial) -> None:
-        changed(self, running.session.world).remove(self.object)
+        changed(self, running.world).remove(self.object)
 
 
 @ACTIONS.register
@@ -161,11 +163,11 @@ class Set(Action):
     value: Annotated[object, Recompile(meaning="new value of the parameter")]
     when: Annotated[str, WHEN] = ""
 
-    def paths(self) -> Iterator[str]:
-        yield self.path
+    def sets(self) -> Iterator[tuple[str, Any]]:
+        yield self.path, self.value
 
     def apply(self, running: RunningTrial) -> None:
-        running.session.set(self.path, self.value)
+        running.set(self.path, self.value)
 
 
 @ACTIONS.register
@@ -191,16 +193,16 @@ class Ramp(Action):
     ] = None
     when: Annotated[str, WHEN] = ""
 
-    def paths(self) -> Iterator[str]:
-        yield self.path
+    def sets(self) -> Iterator[tuple[str, Any]]:
+        yield from ((self.path, value) for value in (self.end, self.start) if value is not None)
 
     def apply(self, running: RunningTrial) -> None:
-        session, end = running.session, self.end
-        steps = whole(self.lasting, session.dt, "how long a ramp takes")
-        start = float(session.get(self.path)) if self.start is None else self.start
+        steps = whole(self.lasting, running.dt, "how long a ramp takes")
+        start = float(running.get(self.path)) if self.start is None else self.start
         for k in range(steps + 1):
             share = k / steps if steps else 1.0
-            running.later(k, lambda value=start + share * (end - start): session.set(self.path, value))
+            value = start + share * (self.end - start)
+            running.later(k, lambda value=value: running.set(self.path, value))
 
 
 @ACTIONS.register
@@ -227,10 +229,10 @@ class Push(Action):
 
     def apply(self, running: RunningTrial) -> None:
         if self.when:  # a push with a time of its own is part of the model, with a window
-            session, path = running.session, f"{running.pushes[self]}.amplitude"
-            session.set(path, self.amount)
+            path = f"{running.pushes[self]}.amplitude"
+            running.set(path, self.amount)
             running.later(
-                whole(self.lasting, session.dt, "how long a push lasts"), lambda: session.set(path, 0.0)
+                whole(self.lasting, running.dt, "how long a push lasts"), lambda: running.set(path, 0.0)
             )
 
 
@@ -280,10 +282,7 @@ class Snapshot(Action):
             yield "of", "names no ports, so there is nothing to keep"
 
     def apply(self, running: RunningTrial) -> None:
-        running.snapshots[self.label] = (
-            running.session.time,
-            {path: running.session.read(path).copy() for path in self.of},
-        )
+        running.snapshots[self.label] = (running.time, {path: running.read(path) for path in self.of})
 
 
 @ACTIONS.register
@@ -335,9 +334,22 @@ def require(actions: Sequence[Action], world: World | None) -> None:
             changed(action, world)
 
 
+def require_targets(actions: Sequence[Action], events: Sequence[str], doc: Document) -> None:
+    """Refuse actions on elements that the document lacks, and actions that wait for an event that cannot be
+    reported.
+    """
+    for action in actions:
+        targets(action, doc)
+        if action.when and action.when not in events:
+            raise UnknownName(
+                f"an action waits for the event {action.when!r}, which the experiment does not have",
+                fix=did_you_mean(action.when, events),
+            )
+
+
 def targets(action: Action, doc: Document) -> None:
     """Refuse an action that names an element, port or parameter that the document lacks."""
-    for path in action.paths():
+    for path, _ in action.sets():
         find.target(doc, path)
     for path in action.ports():
         find.shown(doc, path)

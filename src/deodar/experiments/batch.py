@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
 
-import jax
 import numpy as np
 
-from deodar.batch.driven import driven
-from deodar.compiler.executable import RARELY, Batch, Executable, executable
-from deodar.compiler.plan import Leaf
-from deodar.errors import NotFinite, ParameterError, RunWarning, TimeError, WorldError
+from deodar.compiler.program import Port
+from deodar.errors import ParameterError, RunWarning, TimeError, WorldError
+from deodar.experiments.actions import Action, End, Record, Reset, require_targets
+from deodar.experiments.actions import require as require_actions
+from deodar.experiments.copies import CopyTrial, RunningCopies
 from deodar.experiments.events import Event
+from deodar.experiments.levels import acted
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
 from deodar.experiments.observations import DIVERGED, Observations
+from deodar.experiments.pushes import with_pushes
 from deodar.experiments.reader import ReadPlace, with_readers
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.model.resolve import resolve
-from deodar.session import agreement, memory
+from deodar.numerics.axes import shape
+from deodar.session import agreement
 from deodar.session.exchange import embodied
-from deodar.session.run import Run, whole
+from deodar.session.run import whole
 from deodar.session.session import require_model, require_seed
 from deodar.worlds._base import World
 
@@ -34,14 +34,6 @@ LOOKS = 24
 """Number of sampling times per call of the program.
 
 The steps of a trial after its end are discarded: on average half of a call.
-"""
-
-SHRINKS = 0.5
-"""Share of running copies at which the batch is halved, so that few compiled programs serve every width."""
-
-WORTH = 1e8
-"""Number of samples of ports times steps that a smaller batch must save: compiling takes about half a second
-(measured: 3 ns per sample).
 """
 
 
@@ -61,17 +53,20 @@ def run_batch(
     measures: Sequence[BaseMeasure] = (),
     tolerant: bool = False,
     watched: Sequence[int] | None = None,
+    actions: Sequence[Action] = (),
 ) -> list[Trial]:
     """Run trials in one batch; the result of each equals that of `run_trial` up to rounding.
 
     When half of the copies have ended, the others continue in a batch of half the width: always in a world,
     otherwise where this saves more time than compiling takes. The widths follow from the trials alone, so the
-    same call gives the same bits each time. Beside other trials the widths may differ: activations then agree
     same call gives the same bits each time. In a batch with other trials the widths may differ: activations
     then agree to 1e-4 in float32 and to 1e-10 in float64, until the model amplifies the difference. A world
     is computed inside the step, so each trial has its own; values of sensors of the world are read from the
     model's sensors. The reduction of a field for events and measures (for example its maximum) is computed
     inside the step too; only watched ports are copied whole.
+
+    The batch stops at each action of any trial, and at each sample while an action waits for an event; then
+    only the copies of the trials in question change. Actions may set parameters that are live numbers.
 
     Args:
         model: the model in its present state.
@@ -86,10 +81,11 @@ def run_batch(
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
         between: called after each call of the program with the number of trials that still run.
-        values: for parameter paths the value of each trial; not together with a world.
+        values: for parameter paths the value of each trial.
         measures: the measures of each trial.
         tolerant: return the results although all trials diverge, and do not warn.
         watched: the trials whose values of `watch` are returned; none: all.
+        actions: the actions on each trial, as of `run_trial`.
 
     Returns:
         The result of each trial. One that diverges before it ends has the outcome `diverged` and an `error`
@@ -99,7 +95,11 @@ def run_batch(
     Raises:
         NotFinite: all trials diverge.
     """
-    doc = require_model(model).document
+    base = require_model(model)
+    require_actions(actions, world)
+    require_targets(actions, [e.name for e in events], base.document)
+    staged, pushes = with_pushes(base, actions)
+    doc = staged.document
     step = doc.step if dt is None else dt
     steps, gap = whole(limit, step, "the limit"), 1 if every is None else whole(every, step, "every")
     if gap == 0:
@@ -107,88 +107,52 @@ def run_batch(
     numbers = [require_seed(t) for t in trials]
     if not numbers or len(set(numbers)) < len(numbers):
         raise ParameterError(f"expected trial numbers, each of them once, not {list(trials)}")
-    observed = Observations(events, measures, len(numbers))
-    views = list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
-    ports = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
     if world is not None and embodied(doc, world) is None:
         raise WorldError(
             f"the world {type(world).__name__} cannot be computed for a batch of copies",
             fix="Run them one by one: dd.run_trial(...)",
         )
     agreement.warn(doc, world, stacklevel=2)
-    if world is not None and values:
-        raise WorldError(
-            "trials in a world have the same parameters in one batch",
-            fix="Run the trials of each value separately",
-        )
-    read, at = with_readers(doc, views)
-    places = {view: at.get(view) or _place(doc, view) for view in views}
-    order = list(dict.fromkeys([*ports, *places.values()])) or [_anything(doc)]
-    swept = {path: np.asarray(v, float) for path, v in (values or {}).items()}
-    leaves = [driven(doc, path) for path in swept]
-    copies = _RunningCopies(
-        model, read, precision, float(step), require_seed(seed), numbers, world, leaves, [*swept.values()]
+    swept = acted(doc, actions, pushes, values or {}, len(numbers))
+    read, at = with_readers(doc, views_of(events, measures))
+    copies = RunningCopies(
+        staged,
+        read,
+        precision,
+        float(step),
+        require_seed(seed),
+        numbers,
+        world,
+        swept,
+        any(isinstance(a, Reset) for a in actions),
     )
-    axes = {p: copies.batch.program.axes(copies.batch.program.port(*p)) for p in order}
-    kept: list[list[Sequence[np.ndarray]]] = [[] for _ in numbers]
-    wanted = [row for row, number in enumerate(numbers) if watched is None or number in watched]
-    looks = np.zeros(len(numbers), int)
-    times: list[float] = []
-
-    def take(first: int, arrays: Sequence[np.ndarray]) -> None:
-        """Take the samples after `first` steps and each `gap` more: (trials, sampling times, ...)."""
-        ticks = [min(first + n * gap, steps) for n in range(arrays[0].shape[1])]
-        new = [doc.t0 + tick * float(step) for tick in ticks]
-        times.extend(new)
-        good = copies.good(np.asarray(ticks))
-        by = {p: _blank(a, good) for p, a in zip(order, arrays, strict=True)}
-        seen = {v: v.given(by[p]) if v in at else v.seen(by[p], axes[p], 2) for v, p in places.items()}
-        counts = observed.take(copies.rows, np.asarray(new), seen, ticks[-1] == steps, good)
-        looks[copies.rows] += counts
-        for k, n in enumerate(counts):
-            if ports and n and copies.rows[k] in wanted:
-                kept[copies.rows[k]].append([np.array(by[p][k, :n]) for p in ports])
-
-    ahead = 0
+    records = _Records(copies, Observations(events, measures, len(numbers)), doc, at, watch, watched)
+    running = [CopyTrial(copies, row, actions, pushes) for row in range(len(numbers))]
+    for trial in running:
+        trial.recording = not any(isinstance(a, Record) and a.on for a in actions)
+    ends = any(isinstance(a, End) for a in actions)
+    clock = _Stops(gap, steps)
+    to = 0
     while True:
-        begun = copies.batch.clock.tick
-        read_ports = [copies.batch.program.port(*p) for p in order]
-        first = min(gap, ahead)
-        copies.batch.record(
-            ahead, read_ports, first, gap, lambda k, seen, at=begun + first: take(at + k * gap, seen)
-        )
-        running = [k for k, row in enumerate(copies.rows) if not observed.outcome[row]]
+        records.advance(to, clock, running)
+        here = [running[row] for row in copies.rows if not records.ended(row)]
+        for trial in here:
+            trial.notice(records.observed.events_of(trial.row))
+        due = [trial for trial in here if trial.due == to]
+        if ends and due and not clock.sampled(to):
+            records.look()
+        for trial in due:
+            trial.do()
+            if trial.outcome:
+                records.end(trial, clock.sampled(to))
+        left = [k for k, row in enumerate(copies.rows) if not records.ended(row)]
         if between is not None:
-            between(len(running))
-        if not running:
+            between(len(left))
+        if not left:
             break
-        left = steps - copies.batch.clock.tick
-        copies.shrink(running, left)
-        ahead = min(LOOKS * gap, left - left % gap if left >= gap else left)
-    out: list[Trial] = []
-    for row, n in enumerate(looks):
-        found = np.asarray(times[:n])
-        error = copies.errors[row] if observed.outcome[row] == DIVERGED else None
-        whole_ = {
-            name: np.concatenate([part[i] for part in kept[row]])
-            for i, name in enumerate(watch if row in wanted else ())
-        }
-        whole_ = (
-            whole_
-            if error is None
-            else {name: np.full_like(values, np.nan) for name, values in whole_.items()}
-        )
-        out.append(
-            Trial(
-                found,
-                whole_,
-                observed.events_of(row),
-                observed.outcome[row],
-                observed.measures_of(row, {view: axes[p] for view, p in places.items()}),
-                found,
-                error=error,
-            )
-        )
+        copies.shrink(left, steps - to)
+        to = clock.after(to, [running[row] for row in copies.rows if not records.ended(row)])
+    out = [records.trial(trial) for trial in running]
     lost = [result.error for result in out if result.error is not None]
     if lost and not tolerant:
         if len(lost) == len(out):
@@ -199,6 +163,166 @@ def run_batch(
             stacklevel=2,
         )
     return out
+
+
+def views_of(events: Sequence[Event], measures: Sequence[BaseMeasure]) -> list[Observable]:
+    """Return what events and measures look at, each once."""
+    return list(dict.fromkeys([*(v for e in events for v in e.views), *(m.view for m in measures)]))
+
+
+class _Stops:
+    """The ticks up to which a batch runs in one go: samples, actions, and the end.
+
+    Attributes:
+        gap: steps between two samples.
+        steps: steps of a trial that times out.
+    """
+
+    def __init__(self, gap: int, steps: int) -> None:
+        self.gap, self.steps = gap, steps
+
+    def sampled(self, tick: int) -> bool:
+        """Return whether all trials are sampled at a tick."""
+        return tick % self.gap == 0 or tick == self.steps
+
+    def next_sample(self, tick: int) -> int:
+        """Return the tick of the first sample after a tick."""
+        return min((tick // self.gap + 1) * self.gap, self.steps)
+
+    def after(self, tick: int, running: Sequence[CopyTrial]) -> int:
+        """Return the stop after a tick: not after the next action of any trial, nor after the first time at
+        which an action may be due whose event has not occurred yet.
+        """
+        last = self.steps - self.steps % self.gap
+        to = min((tick // self.gap + LOOKS) * self.gap, last if tick < last else self.steps)
+        for trial in running:
+            if trial.due is not None:
+                to = min(to, trial.due)
+            if trial.delay is not None:
+                to = min(to, self.next_sample(tick) + trial.delay)
+        return to
+
+
+class _Records:
+    """The samples of all trials of a batch."""
+
+    def __init__(
+        self,
+        copies: RunningCopies,
+        observed: Observations,
+        doc: Document,
+        at: Mapping[Observable, ReadPlace],
+        watch: Sequence[str],
+        watched: Sequence[int] | None,
+    ) -> None:
+        self.copies, self.observed, self.watch, self.at = copies, observed, watch, at
+        count = len(copies.trials)
+        views = views_of(observed.events, observed.measures)
+        self.ports = [(entry.id, port) for entry, port in (find.shown(doc, name) for name in watch)]
+        self.places = {view: at.get(view) or _place(doc, view) for view in views}
+        self.order = list(dict.fromkeys([*self.ports, *self.places.values()])) or [_anything(doc)]
+        program = copies.batch.program
+        self.axes = {p: program.axes(program.port(*p)) for p in self.order}
+        self.wanted = [watched is None or number in watched for number in copies.trials]
+        self.t0, self.step = doc.t0, copies.dt
+        self.times: list[float] = []
+        self.looks = np.zeros(count, int)
+        self.last: dict[int, float] = {}
+        self.recorded: list[list[float]] = [[] for _ in range(count)]
+        self.kept: list[list[list[np.ndarray]]] = [[] for _ in range(count)]
+        self.latest: tuple[Mapping[ReadPlace, np.ndarray], Mapping[Observable, np.ndarray]] = ({}, {})
+
+    def advance(self, to: int, stops: _Stops, running: Sequence[CopyTrial]) -> None:
+        """Run all copies up to a tick, and take the samples on the way; at the start that of the start."""
+        batch = self.copies.batch
+        begun = batch.clock.tick
+        first = 0 if to == begun else stops.next_sample(begun) - begun
+
+        def take(k: int, arrays: Sequence[np.ndarray]) -> None:
+            count = arrays[0].shape[1]
+            ticks = [min(begun + first + (k + n) * stops.gap, stops.steps) for n in range(count)]
+            self._take(ticks, arrays, ticks[-1] == stops.steps, running)
+
+        batch.record(to - begun, self._read_ports(), first, stops.gap, take)
+
+    def look(self) -> None:
+        """Sample the present moment, which belongs to trials that end now."""
+        tick = self.copies.batch.clock.tick
+
+        def take(_: int, arrays: Sequence[np.ndarray]) -> None:
+            self.latest = self._seen(arrays, self.copies.good(np.asarray([tick])))
+
+        self.copies.batch.record(0, self._read_ports(), 0, 1, take)
+
+    def end(self, trial: CopyTrial, sampled: bool) -> None:
+        """End a trial by an action, at the latest sample; one that is not among those of all trials is an
+        additional one.
+        """
+        row, (by, seen) = trial.row, self.latest
+        k = self.copies.rows.index(row)
+        if not sampled:
+            self.last[row] = trial.time
+            if trial.recording:
+                self._keep(row, [trial.time], {port: values[k, -1:] for port, values in by.items()})
+        self.observed.end(row, trial.outcome, seen, k)
+
+    def ended(self, row: int) -> bool:
+        """Return whether a trial has ended."""
+        return bool(self.observed.outcome[row])
+
+    def trial(self, trial: CopyTrial) -> Trial:
+        """Return the result of a trial."""
+        row = trial.row
+        outcome, kept = self.observed.outcome[row], self.kept[row]
+        error = self.copies.errors[row] if outcome == DIVERGED else None
+        values: dict[str, np.ndarray] = {}
+        for i, name in enumerate(self.watch if self.wanted[row] else ()):
+            nothing = np.zeros((0, *shape(self.axes[self.ports[i]])))
+            found = np.concatenate([part[i] for part in kept]) if kept else nothing
+            values[name] = found if error is None else np.full_like(found, np.nan)
+        last = [self.last[row]] if row in self.last else []
+        return Trial(
+            np.asarray([*self.times[: self.looks[row]], *last]),
+            values,
+            self.observed.events_of(row),
+            outcome,
+            self.observed.measures_of(row, {view: self.axes[p] for view, p in self.places.items()}),
+            np.asarray(self.recorded[row]),
+            trial.snapshots,
+            error,
+        )
+
+    def _take(
+        self, ticks: Sequence[int], arrays: Sequence[np.ndarray], last: bool, running: Sequence[CopyTrial]
+    ) -> None:
+        new = [self.t0 + tick * self.step for tick in ticks]
+        self.times.extend(new)
+        rows, good = self.copies.rows, self.copies.good(np.asarray(ticks))
+        self.latest = by, seen = self._seen(arrays, good)
+        counts = self.observed.take(rows, np.asarray(new), seen, last, good)
+        self.looks[rows] += counts
+        for k, n in enumerate(counts.tolist()):
+            if n and running[rows[k]].recording:
+                self._keep(rows[k], new[:n], {port: values[k, :n] for port, values in by.items()})
+
+    def _keep(self, row: int, times: Sequence[float], values: Mapping[ReadPlace, np.ndarray]) -> None:
+        self.recorded[row].extend(times)
+        if self.ports and self.wanted[row]:
+            self.kept[row].append([np.array(values[port]) for port in self.ports])
+
+    def _seen(
+        self, arrays: Sequence[np.ndarray], good: np.ndarray
+    ) -> tuple[dict[ReadPlace, np.ndarray], dict[Observable, np.ndarray]]:
+        """Return samples (copies, sampling times, ...) by port and by view."""
+        by = {p: _blank(a, good) for p, a in zip(self.order, arrays, strict=True)}
+        seen = {
+            view: view.given(by[p]) if view in self.at else view.seen(by[p], self.axes[p], 2)
+            for view, p in self.places.items()
+        }
+        return by, seen
+
+    def _read_ports(self) -> list[Port]:
+        return [self.copies.batch.program.port(*p) for p in self.order]
 
 
 def _blank(values: np.ndarray, good: np.ndarray) -> np.ndarray:
@@ -220,100 +344,3 @@ def _anything(doc: Document) -> ReadPlace:
     if not doc.entries:
         raise ParameterError("the model is empty, so there is nothing to run")
     return doc.entries[0].id, find.outputs(doc.entries[0])[0]
-
-
-@dataclass
-class _RunningCopies:
-    """Copies of a model that run in one batch, and their trials.
-
-    Attributes:
-        rows: for each copy, the index of its trial in `trials`.
-        batch: the running copies.
-        errors: for the row of each copy that diverged, the reason; its trial may have ended before.
-    """
-
-    model: Model
-    doc: Document
-    precision: str
-    dt: float
-    seed: int
-    trials: Sequence[int]
-    world: World | None
-    leaves: Sequence[Sequence[Leaf]]
-    swept: Sequence[np.ndarray]
-
-    def __post_init__(self) -> None:
-        self.rows: list[int] = list(range(len(self.trials)))
-        self.errors: dict[int, NotFinite] = {}
-        self._cells = memory.copy_bytes(resolve(self.doc)[0], "float32") // 4
-        self.batch = self._begin(self.rows)
-        if self.leaves:
-            self.batch.state, self.batch.keys = self._start(self.batch.program, self.batch.values)
-
-    def good(self, ticks: np.ndarray) -> np.ndarray:
-        """Return for each copy how many of these ticks, in ascending order, come before it diverged."""
-        out = np.full(len(self.rows), len(ticks))
-        for (k, *_), error in self.batch.lost.items():
-            self.errors[self.rows[k]] = error
-            out[k] = np.searchsorted(ticks, error.step)
-        return out
-
-    def shrink(self, running: Sequence[int], left: int) -> None:
-        """Halve the batch while the running copies fit and the remaining steps save more time than compiling
-        takes.
-
-        Some copies that have ended stay, to fill the batch.
-        """
-        size = len(self.rows)
-        while len(running) <= SHRINKS * size:
-            size = (size + 1) // 2
-            if size == 1:
-                break
-        saved = (len(self.rows) - size) * self._cells * left
-        if size == len(self.rows) or (self.world is None and saved < WORTH):
-            return
-        ended = [k for k in range(len(self.rows)) if k not in set(running)]
-        keep = sorted([*running, *ended[: size - len(running)]])
-        fewer = self._begin([self.rows[k] for k in keep])
-        at = np.asarray(keep)
-        fewer.state = jax.tree.map(lambda a: np.asarray(a)[at], self.batch.state)
-        if self.leaves:
-            fewer.keys = jax.tree.map(lambda a: np.asarray(a)[at], self.batch.keys)
-        fewer.clock = self.batch.clock
-        fewer.lost = {(n,): self.batch.lost[k,] for n, k in enumerate(keep) if (k,) in self.batch.lost}
-        self.rows, self.batch = [self.rows[k] for k in keep], fewer
-
-    def _begin(self, rows: Sequence[int]) -> Run:
-        """Return a run of some trials at its start: trials of one batch, or points of a sweep if parameters
-        differ.
-        """
-        sweep = tuple(map(tuple, self.leaves))
-        copies = Batch(len(rows), None, sweep) if sweep else Batch(None, len(rows))
-        program = executable(
-            self.model, self.doc, self.precision, copies, body=embodied(self.doc, self.world)
-        )
-        trials = [self.trials[r] for r in rows]
-        if self.leaves:
-            run = Run(
-                program,
-                self.doc,
-                self.dt,
-                self.seed,
-                trials[:1],
-                None,
-                [values[rows] for values in self.swept],
-            )
-        else:
-            run = Run(program, self.doc, self.dt, self.seed, trials, self.world)
-        run.tolerated = len(rows)
-        return run
-
-    def _start(self, program: Executable, values: Any) -> tuple[Any, Any]:
-        """Return state and noise keys at the start of points that are separate trials: points of a sweep
-        share the noise of one.
-        """
-        own = {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
-        many = jax.vmap(program.program.init, in_axes=(own, None, 0))
-        given = values, np.uint32(self.seed), np.asarray(self.trials, np.uint32)
-        start, _ = program.compile(many, *given, options=RARELY)
-        return program.call(start, *given)

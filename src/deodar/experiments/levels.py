@@ -2,14 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
 
 from deodar.batch.driven import driven
 from deodar.compiler.plan import cost
 from deodar.errors import ParameterError
+from deodar.experiments.actions import Action, Push
 from deodar.leaves import leaves
+from deodar.model import find
 from deodar.model.document import Document
 from deodar.parameters import real
+
+
+def acted(
+    doc: Document,
+    actions: Sequence[Action],
+    pushes: Mapping[Push, str],
+    values: Mapping[str, Sequence[float]],
+    trials: int,
+) -> dict[str, np.ndarray]:
+    """Return the parameters in which the trials of one batch differ, or that actions change, each with the
+    values of the trials at the start.
+
+    Args:
+        doc: the document, with the boosts of pushes.
+        actions: the actions on each trial.
+        pushes: for each push that waits for an event, the path of its boost.
+        values: for parameter paths the value of each trial.
+        trials: number of trials.
+
+    Raises:
+        ParameterError: an action sets a parameter that cannot change in one copy of a batch.
+    """
+    found = {path: np.array(given, float) for path, given in values.items()}
+    for path, given in set_values(actions).items():
+        if not swept(doc, path, [*found.get(path, [find.value(doc, path)]), *given]):
+            raise ParameterError(
+                "cannot be set in one trial of a batch: changing it makes another program",
+                where=path,
+                fix="Run the trials one by one: dd.run_trial(...)",
+            )
+        found.setdefault(path, np.full(trials, float(find.value(doc, path))))
+    return found | {f"{boost}.amplitude": np.zeros(trials) for boost in pushes.values()}
+
+
+def set_values(actions: Sequence[Action]) -> dict[str, list[Any]]:
+    """Return the parameters that actions set, and the values that they get."""
+    out: dict[str, list[Any]] = {}
+    for action in actions:
+        for path, value in action.sets():
+            out.setdefault(path, []).append(value)
+    return out
 
 
 def swept(doc: Document, path: str, values: Iterable[object]) -> bool:

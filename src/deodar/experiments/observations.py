@@ -105,12 +105,12 @@ class Observations:
                 self.measured[m][rows[i]] = np.array(seen[measure.view][i, when[i]])
         return np.where(running, np.minimum(ends + 1, n), 0)
 
-    def end(self, row: int, outcome: str, seen: Mapping[Observable, np.ndarray]) -> None:
-        """End a trial with a given outcome, at the last sample."""
+    def end(self, row: int, outcome: str, seen: Mapping[Observable, np.ndarray], copy: int) -> None:
+        """End a trial with a given outcome, at the last of the samples of a copy."""
         self.outcome[row] = outcome
         for m, measure in enumerate(self.measures):
             if not measure.when:
-                self.measured[m][row] = np.array(seen[measure.view][0, -1])
+                self.measured[m][row] = np.array(seen[measure.view][copy, -1])
 
     def events_of(self, row: int) -> dict[str, float | None]:
         """Return the document time of each event of a trial; None: it did not occur, or the trial

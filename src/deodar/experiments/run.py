@@ -11,15 +11,15 @@ import numpy as np
 from deodar import renamed
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.errors import NotFinite, ParameterError, TimeError, UnknownName, did_you_mean
-from deodar.experiments.actions import Action, Record, Reset, targets
+from deodar.errors import NotFinite, ParameterError, TimeError
+from deodar.experiments.actions import Action, Record, Reset, require_targets
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.events import Event
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
 from deodar.experiments.observations import DIVERGED, Observations
 from deodar.experiments.pushes import with_pushes
-from deodar.experiments.running import RunningTrial
+from deodar.experiments.running import SessionTrial
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.model import Model
@@ -80,7 +80,7 @@ def run_trial(
     """
     require_actions(actions, world)
     observed = Observations(events, measures, 1)
-    _require_events(actions, [e.name for e in events], require_model(model))
+    require_targets(actions, [e.name for e in events], require_model(model).document)
     staged, pushes = with_pushes(require_model(model), actions)
     session = Session(staged, dt, seed, precision, world, trial)
     steps, gap = (
@@ -89,9 +89,8 @@ def run_trial(
     )
     if gap == 0:
         raise TimeError("every is 0; expected at least one step")
-    running = RunningTrial(session, pushes, any(isinstance(a, Reset) for a in actions))
+    running = SessionTrial(session, actions, pushes, any(isinstance(a, Reset) for a in actions))
     running.recording = not any(isinstance(a, Record) and a.on for a in actions)
-    waiting = _schedule(running, actions)
     sampler = _Sampler(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()
     values: dict[str, np.ndarray] = {}
@@ -113,17 +112,17 @@ def run_trial(
                     observed.take([0], np.asarray([session.time]), seen, session.tick == steps)
                     if between is not None:
                         between()
-                    waiting = _schedule_after(running, waiting, observed.events_of(0))
+                    running.notice(observed.events_of(0))
                 if not observed.outcome[0]:
                     running.do()
                     if running.outcome:
                         if not looked:
                             keep(values)
-                        observed.end(0, running.outcome, seen)
+                        observed.end(0, running.outcome, seen, 0)
                 if observed.outcome[0]:
                     break
-                ahead, due = gap - session.tick % gap, running.until()
-                session.step(min([ahead, steps - session.tick, *([] if due is None else [due])]))
+                now, due = session.tick, running.due
+                session.step(min(gap - now % gap, steps - now, steps if due is None else due - now))
     except NotFinite as error:
         if not tolerant:
             raise
@@ -146,53 +145,6 @@ def run_trial(
         running.snapshots,
         lost,
     )
-
-
-def _require_events(actions: Sequence[Action], names: Sequence[str], model: Model) -> None:
-    """Refuse actions on elements that the model lacks, and actions that wait for an event that cannot be
-    reported.
-    """
-    for action in actions:
-        targets(action, model.document)
-        if action.when and action.when not in names:
-            raise UnknownName(
-                f"an action waits for the event {action.when!r}, which the experiment does not have",
-                fix=did_you_mean(action.when, names),
-            )
-
-
-def _schedule(running: RunningTrial, actions: Sequence[Action]) -> list[tuple[int, Action]]:
-    """Schedule the actions of stated times; return those that wait for an event, each with its delay in
-    steps.
-    """
-    waiting: list[tuple[int, Action]] = []
-    for action in actions:
-        moment = whole(
-            action.at if action.when else action.at - running.session.time,
-            running.session.dt,
-            "the time of an action",
-        )
-        if action.when:
-            waiting.append((moment, action))
-        else:
-            running.later(moment, lambda action=action: _apply(action, running))
-    return waiting
-
-
-def _apply(action: Action, running: RunningTrial) -> None:
-    world, method = running.session.world, action.world_method
-    with errors_of(world, method) if world is not None and method else contextlib.nullcontext():
-        action.apply(running)
-
-
-def _schedule_after(
-    running: RunningTrial, waiting: Sequence[tuple[int, Action]], happened: Mapping[str, float | None]
-) -> list[tuple[int, Action]]:
-    """Schedule the actions whose event has occurred, and return the others."""
-    for moment, action in waiting:
-        if happened[action.when] is not None:
-            running.later(moment, lambda action=action: _apply(action, running))
-    return [w for w in waiting if happened[w[1].when] is None]
 
 
 class _Sampler:

@@ -2,57 +2,194 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import heapq
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from deodar.session.run import whole
 from deodar.session.session import Session
 from deodar.session.snapshot import SessionSnapshot
+from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 
 Kept = tuple[float, Mapping[str, np.ndarray]]
 """Document time, and the value of each port at that time."""
 
 
+class ScheduledAction(Protocol):
+    """What a schedule requires of an action.
+
+    Class attributes:
+        world_method: name of the world's method that it calls; empty: none.
+    """
+
+    world_method: ClassVar[str]
+
+    @property
+    def at(self) -> float:
+        """Document time; with `when` the time after that event."""
+        ...
+
+    @property
+    def when(self) -> str:
+        """The event after which it is done; empty: at a time of its own."""
+        ...
+
+    def apply(self, running: Any) -> None:
+        """Carry out the action now."""
+        ...
+
+
 class RunningTrial:
-    """A running trial, and its scheduled actions.
+    """A running trial, and its scheduled actions; its subclasses are a session, and a copy in a batch.
 
     Attributes:
-        session: the model in its world.
+        dt: Euler step.
         pushes: for each push that waits for an event, the path of its boost in the model.
         recording: whether values are recorded now.
         snapshots: the recorded snapshots, by name.
         outcome: the outcome with which an action ended the trial; empty while it runs.
     """
 
-    def __init__(self, session: Session, pushes: Mapping[Any, str], restarts: bool) -> None:
-        self.session = session
+    def __init__(
+        self, actions: Sequence[ScheduledAction], start: float, dt: float, pushes: Mapping[Any, str]
+    ) -> None:
+        self.dt = dt
         self.pushes = pushes
         self.recording = True
         self.snapshots: dict[str, Kept] = {}
         self.outcome = ""
-        self._start: SessionSnapshot | None = session.snapshot() if restarts else None
+        self._begun = start
         self._due: list[tuple[int, int, Callable[[], object]]] = []
+        self._waiting: list[tuple[int, ScheduledAction]] = []
         self._count = 0
+        for action in actions:
+            moment = whole(action.at if action.when else action.at - start, dt, "the time of an action")
+            if action.when:
+                self._waiting.append((moment, action))
+            else:
+                self._call(moment, lambda action=action: self._apply(action))
 
-    def later(self, steps: int, what: Callable[[], object]) -> None:
-        """Call `what` in `steps` steps from now; 0: before the next step."""
-        self._count += 1  # calls at one time run in the order in which they were scheduled
-        heapq.heappush(self._due, (self.session.tick + steps, self._count, what))
+    # ------------------------------------------------------------------------------------ what actions access
 
-    def do(self) -> None:
-        """Run all calls that are due, until the trial has ended."""
-        while self._due and self._due[0][0] <= self.session.tick and not self.outcome:
-            heapq.heappop(self._due)[2]()
+    @property
+    def tick(self) -> int:
+        """Number of steps so far."""
+        raise NotImplementedError
 
-    def until(self) -> int | None:
-        """Return the number of steps until the next call; None without one."""
-        return self._due[0][0] - self.session.tick if self._due else None
+    @property
+    def time(self) -> float:
+        """Document time."""
+        raise NotImplementedError
+
+    @property
+    def world(self) -> World | None:
+        """The world that actions change."""
+        raise NotImplementedError
+
+    def get(self, path: str) -> Any:
+        """Return the present value of a parameter."""
+        raise NotImplementedError
+
+    def set(self, path: str, value: Any) -> None:
+        """Change a parameter from the next step on."""
+        raise NotImplementedError
+
+    def read(self, path: str) -> np.ndarray:
+        """Return the present value of a port."""
+        raise NotImplementedError
 
     def restart(self) -> None:
         """Reset the states of all elements to their values at the start; everything else continues."""
+        raise NotImplementedError
+
+    def later(self, steps: int, what: Callable[[], object]) -> None:
+        """Call `what` in `steps` steps from now; 0: before the next step."""
+        self._call(self.tick + steps, what)
+
+    # ------------------------------------------------------------------------------------------- the schedule
+
+    @property
+    def due(self) -> int | None:
+        """The tick of the next call; None without one."""
+        return self._due[0][0] if self._due else None
+
+    @property
+    def delay(self) -> int | None:
+        """The smallest delay, in steps, of an action that waits for an event; None without one."""
+        return min((moment for moment, _ in self._waiting), default=None)
+
+    def notice(self, happened: Mapping[str, float | None]) -> None:
+        """Schedule the actions whose events have occurred, at the given document times."""
+        waiting: list[tuple[int, ScheduledAction]] = []
+        for moment, action in self._waiting:
+            time = happened[action.when]
+            if time is None:
+                waiting.append((moment, action))
+            else:
+                tick = round((time - self._begun) / self.dt)
+                self._call(tick + moment, lambda action=action: self._apply(action))
+        self._waiting = waiting
+
+    def do(self) -> None:
+        """Run all calls that are due, until the trial has ended."""
+        while self._due and self._due[0][0] <= self.tick and not self.outcome:
+            heapq.heappop(self._due)[2]()
+
+    def _call(self, tick: int, what: Callable[[], object]) -> None:
+        self._count += 1  # calls at one time run in the order in which they were scheduled
+        heapq.heappush(self._due, (tick, self._count, what))
+
+    def _apply(self, action: ScheduledAction) -> None:
+        world = self.world if action.world_method else None
+        if world is None:
+            action.apply(self)
+            return
+        with errors_of(world, action.world_method):
+            action.apply(self)
+        self._world_changed()
+
+    def _world_changed(self) -> None:
+        """Use the changed objects of the world from now on."""
+
+
+class SessionTrial(RunningTrial):
+    """A trial that a session runs.
+
+    Attributes:
+        session: the model in its world.
+    """
+
+    def __init__(
+        self, session: Session, actions: Sequence[ScheduledAction], pushes: Mapping[Any, str], restarts: bool
+    ) -> None:
+        self.session = session
+        super().__init__(actions, session.time, session.dt, pushes)
+        self._start: SessionSnapshot | None = session.snapshot() if restarts else None
+
+    @property
+    def tick(self) -> int:
+        return self.session.tick
+
+    @property
+    def time(self) -> float:
+        return self.session.time
+
+    @property
+    def world(self) -> World | None:
+        return self.session.world
+
+    def get(self, path: str) -> Any:
+        return self.session.get(path)
+
+    def set(self, path: str, value: Any) -> None:
+        self.session.set(path, value)
+
+    def read(self, path: str) -> np.ndarray:
+        return self.session.read(path).copy()
+
+    def restart(self) -> None:
         assert self._start is not None
-        now = self.session.snapshot()
-        self.session.restore(dc.replace(now, states=self._start.states))
+        self.session.put_states(self._start.states)

@@ -12,13 +12,11 @@ from typing import Any
 
 from deodar import codec
 from deodar.batch.pieces import BATCH_BYTES
-from deodar.experiments.actions import Push
 from deodar.experiments.batch import run_batch
 from deodar.experiments.checking import check
 from deodar.experiments.design import Design
-from deodar.experiments.levels import swept
+from deodar.experiments.levels import set_values, swept
 from deodar.experiments.observations import DIVERGED, TIME
-from deodar.experiments.pushes import with_pushes
 from deodar.experiments.rows import KEY, Row
 from deodar.experiments.run import run_trial
 from deodar.experiments.trial import Trial
@@ -32,6 +30,7 @@ from deodar.recording.opened import named
 from deodar.session import memory
 from deodar.session.exchange import embodied
 from deodar.worlds._base import World
+from deodar.worlds._pure import PureWorld
 
 MOST_COPIES = 250
 """Largest number of trials in one batch: enough to be fast (from 64 copies of a line on more hardly help),
@@ -94,22 +93,34 @@ class Setup:
 
     @cached_property
     def batched(self) -> bool:
-        """Whether trials run together in one program: they have no actions, and their world is computed in
-        the program.
+        """Whether trials run together in one program: their world is computed in the program, and actions
+        change numbers of the program and objects of the world.
         """
         e, doc = self.experiment, self.model.document
         known = () if self.world is None else self.world.sensors
         looked = [*(v.of for c in e.conditions for v in c.views), *(m.view.of for m in e.measures)]
-        by_hand = any(not isinstance(a, Push) or a.when for a in e.actions)
-        inside = self.world is None or embodied(doc, self.world) is not None
-        return inside and not by_hand and not any(name in known for name in looked)
+        if any(name in known for name in looked):
+            return False
+        if self.world is not None and embodied(doc, self.world) is None:
+            return False
+        own = isinstance(self.world, PureWorld) and type(self.world).for_trial is not PureWorld.for_trial
+        if any(a.world_method for a in e.actions) and not own:
+            return False
+        return all(self._sweeps(path, given) for path, given in set_values(e.actions).items())
+
+    def _sweeps(self, path: str, given: Sequence[Any]) -> bool:
+        """Return whether trials of one batch may differ in a parameter with these values, besides the values
+        that it has at the start of trials.
+        """
+        first = [level[path] for f in self.experiment.factors for level in f.sets if path in level]
+        return swept(self.model.document, path, [self.model.get(path), *first, *given])
 
     @cached_property
     def swept(self) -> list[str]:
         """Parameters in which the trials of one batch differ; each value of another parameter has its own
         batches.
         """
-        if not self.batched or self.world is not None:
+        if not self.batched:
             return []
         values: dict[str, list[Any]] = {}
         for factor in self.experiment.factors:
@@ -215,8 +226,8 @@ class Setup:
         values = {
             path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept
         }
-        staged, _ = with_pushes(model, e.actions)
-        results = run_batch(staged, e.limit, trials, values=values, watched=watched, **given)
+        given |= {"values": values, "watched": watched, "actions": e.actions}
+        results = run_batch(model, e.limit, trials, **given)
         return [(k, result, model) for k, result in zip(trials, results, strict=True)]
 
     def _with(self, changes: Mapping[str, Any]) -> Model:

@@ -36,7 +36,7 @@ from deodar.session.port_reader import PortKey, PortReader
 from deodar.session.recorder import Recorder
 from deodar.session.run import Run, require_duration, require_step, whole
 from deodar.session.run_live import run_live
-from deodar.session.snapshot import SessionSnapshot, fill, rows
+from deodar.session.snapshot import SessionSnapshot, StateRow, fill, rows
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._scene import Scene
@@ -330,6 +330,15 @@ class Session:
         if not set(self.document.by_id()) & set(snapshot.document.by_id()):
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
         self.go_back(snapshot, self.world)
+
+    def put_states(self, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
+        """Replace the states of elements (`SessionSnapshot.states`); time, noise, parameters, the world and
+        its readings continue.
+        """
+        run = self._run
+        sensed, unread = run.sensed, run.exchange.unread
+        fill(run, states)
+        run.sensed, run.exchange.unread = sensed, unread
 
     def go_back(self, snapshot: SessionSnapshot, world: World | None) -> None:
         """Restore a snapshot of this session with the world of that moment, whatever was edited since."""

@@ -65,6 +65,21 @@ class PureWorld(World):
         """Return the state one period later; `motors` has the value of every motor."""
         raise NotImplementedError
 
+    def for_trial(self, trial: int) -> PureWorld:
+        """Return a copy of the world with the objects of one trial.
+
+        `place`, `move` and `remove` change the copy, and with it the arrays that `own` returns for this
+        trial, but not those of other trials. Actions on a trial in a batch need this method.
+        """
+        raise WorldError(
+            f"the objects of the world {type(self).__name__} cannot be changed in one trial of a batch",
+            fix="Run the trials one by one: dd.run_trial(...)",
+        )
+
+    def own_values(self, trial: int) -> dict[str, np.ndarray]:
+        """Return the present arrays of a copy of one trial, in the precision of the model."""
+        return {name: self._cast(values)[0] for name, values in self.own([trial]).items()}
+
     def renews(self, state: PyTree, sensor: str) -> Array:
         """Return whether a sensor whose signal has a period of its own has a new reading in this state, the
         first one after `advance`.

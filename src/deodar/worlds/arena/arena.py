@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import hashlib
 import math
@@ -298,6 +299,13 @@ class Arena(PureWorld):
         if problems:
             raise WorldError(problems)
         self.goals = goals
+
+    def for_trial(self, trial: int) -> Arena:
+        new = copy.copy(self)
+        new.objects = self.objects.for_trial(trial)
+        new.starts = of([trial], self.starts, "start")
+        new.goals = None if self.goals is None else of([trial], self.goals, "goal")
+        return new
 
     def arrangement(self) -> Any:
         """Return the present objects and goals, which may change during a run, for `arrange`."""

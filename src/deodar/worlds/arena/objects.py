@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses as dc
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -50,6 +51,11 @@ class ArenaSlot:
         """Return the window of a trial; a trial beyond the rows has the last one."""
         start, stop = self.windows[min(trial, len(self.windows) - 1)].tolist()
         return start, stop
+
+    def for_trial(self, trial: int) -> ArenaSlot:
+        """Return the slot with the row of one trial alone."""
+        item, window = self.item(trial), of([trial], self.windows, f"windows of {self.name}")
+        return ArenaSlot(self.name, (item,), np.asarray([NEVER], np.int32) if item is None else window)
 
     def to_data(self) -> Json:
         """Return plain data."""
@@ -160,6 +166,13 @@ class ArenaObjects:
         """Return the objects that a trial has at any time."""
         found = (s.item(trial) for s in self.slots if s is not None)
         return [item for item in found if item is not None]
+
+    def for_trial(self, trial: int) -> ArenaObjects:
+        """Return the objects of one trial, as those of all trials."""
+        new = copy.copy(self)
+        new.wall_heights = of([trial], self.wall_heights[:, None], "layouts")[:, 0]
+        new.slots = [None if s is None else s.for_trial(trial) for s in self.slots]
+        return new
 
     # ------------------------------------------------------------------------------------------------- arrays
 

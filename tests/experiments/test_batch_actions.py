@@ -1,0 +1,274 @@
+"""Actions on the trials of a batch: each trial equals one that `run_trial` runs alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import ParameterError, WorldError
+from deodar.experiments.actions import (
+    Action,
+    End,
+    Move,
+    Place,
+    Push,
+    Ramp,
+    Record,
+    Remove,
+    Reset,
+    Set,
+    Snapshot,
+)
+from deodar.experiments.batch import run_batch
+from deodar.experiments.events import Appears, Crosses, Event, Reached
+from deodar.experiments.measures import Measure
+from deodar.experiments.run import run_trial
+from deodar.experiments.trial import Trial
+from tests.experiments.robots import ROOM, straight
+
+PROGRAMS: dict[Any, Any] = {}
+"""Compiled programs, which all models of this file share."""
+
+UP = Crosses("up", "u.activation", 0.0, ends=False)
+SEEN = Appears("seen", "f", threshold=0.0, ends=False)
+
+
+def noisy() -> dd.Model:
+    """Return a node that noise drives over its threshold, a field that it excites, and a shared parameter."""
+    model = dd.Model("noisy")
+    model.programs = PROGRAMS
+    model.parameter("mode", 0.0)
+    u = model.add(dd.Field("u", [], tau=20, resting_level=-0.5, noise=3.0))
+    f = model.add(dd.Field("f", [dd.Axis("x", 0, 10, 11)], tau=10, resting_level=-2, noise=0.5))
+    model.add(dd.Boost("b", [], amplitude=0.0)) >> u
+    model.link("b.amplitude", "mode")
+    u >> dd.Gain(4.0) >> f
+    return model
+
+
+def requires_equal(
+    model: dd.Model,
+    actions: Sequence[Action],
+    events: Sequence[Event],
+    watch: Sequence[str],
+    limit: float = 120,
+    precision: str = "float64",
+    **given: Any,
+) -> list[Trial]:
+    """Require that a batch of four equals four single trials, and return the batch."""
+    given |= {"watch": watch, "events": events, "actions": actions, "precision": precision, "seed": 3}
+    many = run_batch(model, limit, [4, 0, 3, 1], **given)
+    tolerance = {"rtol": 0, "atol": 1e-10 if precision == "float64" else 1e-4}
+    for number, trial in zip([4, 0, 3, 1], many, strict=True):
+        one = run_trial(model, limit, trial=number, **given)
+        assert (trial.outcome, trial.events) == (one.outcome, one.events)
+        np.testing.assert_array_equal(trial.times, one.times)
+        np.testing.assert_array_equal(trial.recorded, one.recorded)
+        for name in watch:
+            np.testing.assert_allclose(trial.values[name], one.values[name], **tolerance)
+        for name, value in one.measures.items():
+            found = [float("nan") if v is None else v for v in (trial.measures[name], value)]
+            np.testing.assert_allclose(*found, **tolerance)
+        assert list(trial.snapshots) == list(one.snapshots)
+        for label, (moment, ports) in one.snapshots.items():
+            at, values = trial.snapshots[label]
+            assert at == moment
+            for path, value in ports.items():
+                np.testing.assert_allclose(values[path], value, **tolerance)
+    return many
+
+
+@pytest.mark.parametrize(
+    "actions",
+    [
+        [Set(31, "u.resting_level", 2.0), Set(7, "f.resting_level", -1.0, when="up")],
+        [Set(31, "mode", 2.0), Set(5, "mode", -3.0, when="up")],
+        [Ramp(31, "u.resting_level", 1.0, 20), Ramp(3, "f.resting_level", 1.0, 12, start=-3.0, when="up")],
+        [Push(31, "f", 6.0, 13), Push(4, "f", -9.0, 8, when="up"), Push(20, "u", -9.0, 30, when="up")],
+        [Record(31, False), Record(52), Record(6, False, when="up")],
+        [Snapshot(31, "then", ["u", "f.output"]), Snapshot(3, "after", ["f"], when="up")],
+        [Reset(31), Reset(4, when="up"), Set(31, "u.tau", 15.0)],
+        [End(63, "late"), End(17, "early", when="up")],
+    ],
+    ids=["Set", "Set shared", "Ramp", "Push", "Record", "Snapshot", "Reset", "End"],
+)
+def test_each_action_on_a_batch_gives_the_trials_that_run_alone(actions: list[Action]) -> None:
+    """At a time between two samples, and after an event that the trials have at different times."""
+    measures = [Measure("last", "f.activation", "max"), Measure("then", "u.activation", "max", when="up")]
+    many = requires_equal(noisy(), actions, [UP, SEEN], ["u", "f.output"], every=4, measures=measures)
+    assert len({trial.events["up"] for trial in many}) > 2
+    free = run_batch(noisy(), 120, [4], ["u", "f"], [UP, SEEN], seed=3, every=4, precision="float64")[0]
+    assert free.duration == 120 and not free.snapshots and len(free.recorded) == 31
+
+
+def test_actions_on_a_batch_give_equal_trials_in_single_precision() -> None:
+    actions = [
+        Set(10, "u.resting_level", -0.5),
+        Push(2, "f", 3.0, 10, when="up"),
+        Reset(40, when="up"),
+        Ramp(60, "u.resting_level", -3.0, 10),
+    ]
+    requires_equal(noisy(), actions, [UP], ["u", "f"], precision="float32")
+
+
+def test_trials_may_differ_in_the_parameter_that_an_action_sets() -> None:
+    actions, levels = [Ramp(20, "mode", 5.0, 10), Set(90, "u.tau", 30.0)], [0.0, 1.0, 2.0, -1.0]
+    given: dict[str, Any] = {"watch": ["u"], "actions": actions, "precision": "float64", "seed": 3}
+    many = run_batch(
+        noisy(), 120, range(4), values={"mode": levels, "u.resting_level": [-1, -2, 0, 1]}, **given
+    )
+    for k, trial in enumerate(many):
+        model = noisy()
+        model.set({"mode": levels[k], "u.resting_level": [-1, -2, 0, 1][k]})
+        one = run_trial(model, 120, trial=k, **given)
+        np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
+
+
+# ------------------------------------------------------------------------------------------------- in a world
+
+
+def robot() -> dd.Model:
+    """Return a robot that drives straight on, with sensors of its position and of the arena."""
+    model = straight(600.0)
+    model.programs = PROGRAMS
+    model.add(dd.Sensor("pose", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
+    model.add(dd.Sensor("touching", [], sensor="touching"))
+    plane = [dd.Axis("x", 0, 100, 26, unit="cm"), dd.Axis("y", 0, 40, 11, unit="cm")]
+    model.add(dd.Sensor("map", plane, sensor="obstacles"))
+    model.add(dd.Sensor("goal", [dd.Axis("of", 0, 1, 2)], sensor="goal"))
+    return model
+
+
+def rooms(**given: Any) -> dd.Arena:
+    """Return an arena with another object in each of five trials."""
+    layouts = [
+        {**ROOM, "blocks": [{"name": "own", "center": [30 + 5 * k, 20], "size": [4, 4]}], "start": [8, 20]}
+        for k in range(5)
+    ]
+    return dd.Arena(layouts, unit="cm", goal=(80, 8), slip=0.2, **given)
+
+
+FAR = Crosses("far", "pose.output", 24, ends=False)
+TOUCHED = Crosses("touched", "touching.output", 0.5, ends=False)
+WATCH = ["pose.output", "map.output", "goal.output"]
+
+
+@pytest.mark.parametrize(
+    "actions",
+    [
+        [Place(31, "box", (60, 10), (4, 9)), Place(9, "own", (20, 33), (6, 6), when="touched")],
+        [
+            Move(31, "far", (97, 5)),
+            Move(7, "goal", (50, 30), when="far"),
+            Move(9, "own", (9, 36), when="far"),
+        ],
+        [Remove(31, "far"), Remove(12, "own", when="touched")],
+        [
+            Place(20, "box", (60, 10), (4, 9)),
+            Reset(20),
+            Remove(30, "box"),
+            Set(40, "go left.amplitude", 300.0),
+        ],
+    ],
+    ids=["Place", "Move", "Remove", "mixed"],
+)
+def test_objects_are_changed_in_the_arena_of_each_trial(actions: list[Action]) -> None:
+    world = rooms()
+    before = world.describe()
+    many = requires_equal(robot(), actions, [FAR, TOUCHED], WATCH, world=world, every=2)
+    assert world.describe() == before
+    assert len({(trial.events["touched"], trial.events["far"]) for trial in many}) > 2
+
+
+def test_trials_in_a_world_may_have_other_parameters_in_one_batch() -> None:
+    speeds = [300.0, 600.0, 500.0, 400.0]
+    given: dict[str, Any] = {"watch": WATCH, "world": rooms(), "precision": "float64", "events": [TOUCHED]}
+    many = run_batch(robot(), 60, range(4), values={"go left.amplitude": speeds}, **given)
+    for k, trial in enumerate(many):
+        model = robot()
+        model.set("go left.amplitude", speeds[k])
+        one = run_trial(model, 60, trial=k, **given)
+        assert trial.events == one.events
+        for name in WATCH:
+            np.testing.assert_allclose(trial.values[name], one.values[name], atol=1e-10)
+
+
+def test_trials_with_changed_arenas_stay_themselves_when_others_end() -> None:
+    """The batch becomes narrower, and the objects of the others have been changed before."""
+    ends = Crosses("touched", "touching.output", 0.5)
+    actions = [Remove(12, "own", when="far"), Set(20, "go left.amplitude", 580.0)]
+    model = robot()
+    many = requires_equal(model, actions, [FAR, ends], WATCH, world=rooms(), limit=260)
+    assert len({trial.duration for trial in many}) == 4
+
+
+def test_an_experiment_with_actions_runs_in_one_batch() -> None:
+    speed = dd.Factor("speed", [500.0, 600.0], "go left.amplitude")
+    experiment = dd.Experiment(
+        "robots",
+        robot(),
+        60,
+        2,
+        conditions=[FAR, TOUCHED],
+        actions=[Place(10, "box", (30, 20), (4, 4), when="far"), Set(40, "go right.amplitude", 0.0)],
+        factors=[speed],
+        measures=[Measure("where", "pose.output", "max")],
+        world=rooms(),
+        precision="float64",
+    )
+    setup = experiment.setup()
+    assert setup.batched and setup.pieces() == [[0, 1, 2, 3]]
+    data = experiment.run()
+    for k in range(4):
+        model = robot()
+        model.set("go left.amplitude", float(data["speed"][k]))
+        given = {"world": rooms(), "events": [FAR, TOUCHED], "actions": experiment.actions}
+        one = run_trial(model, 60, trial=k, measures=experiment.measures, precision="float64", **given)  # type: ignore[arg-type]
+        assert float(data["where"][k]) == pytest.approx(one.measures["where"], abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("model", "action", "world", "error", "says"),
+    [
+        (
+            noisy,
+            Set(5, "f.quadrature", "point"),
+            None,
+            ParameterError,
+            "cannot be set in one trial of a batch",
+        ),
+        (noisy, Remove(5, "box"), None, WorldError, "the action Remove needs a world"),
+        (noisy, Set(5, "v.tau", 3.0), None, dd.errors.UnknownName, "nothing is called 'v.tau'"),
+        (
+            noisy,
+            Set(5, "u.tau", 3.0, when="never"),
+            None,
+            dd.errors.UnknownName,
+            "waits for the event 'never'",
+        ),
+        (noisy, Set(5, "u.tau", 0.5), None, dd.errors.TimeError, "tau"),
+        (
+            robot,
+            Remove(5, "nothing"),
+            rooms,
+            dd.errors.UnknownName,
+            "nothing in the arena is called 'nothing'",
+        ),
+    ],
+)
+def test_invalid_actions_on_a_batch_are_refused(
+    model: Any, action: Action, world: Any, error: type[Exception], says: str
+) -> None:
+    with pytest.raises(error, match=says):
+        run_batch(
+            model(),
+            10,
+            [0, 1],
+            actions=[action],
+            events=[Reached("soon", 1, ends=False)],
+            world=world and world(),
+        )
