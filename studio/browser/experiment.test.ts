@@ -2,7 +2,7 @@ import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import type { Locator } from "playwright-core";
+import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
@@ -102,8 +102,28 @@ test("a row opens the record of its trial, and the model comes back", async () =
   await shown().getByRole("row", { selected: true }).waitFor({ state: "detached" });
 });
 
+/** Delay what the page sends from now on, as on a machine that is busy. */
+async function delayed(page: Page): Promise<(ms: number) => void> {
+  let [delay, last] = [0, Promise.resolve()];
+  await page.routeWebSocket(/\/ws/, (socket) => {
+    const server = socket.connectToServer();
+    socket.onMessage((message) => {
+      const wait = delay;
+      last = last.then(async () => {
+        if (wait > 0) await new Promise((done) => setTimeout(done, wait));
+        server.send(message);
+      });
+    });
+  });
+  await page.reload();
+  return (ms) => {
+    delay = ms;
+  };
+}
+
 test("an experiment is built with the mouse, and its file is the one that Python writes", async () => {
   const { page } = studio;
+  const delay = await delayed(page);
   await choose(page, "More for the experiment", "New");
   const field = (name: string) =>
     shown()
@@ -120,12 +140,16 @@ test("an experiment is built with the mouse, and its file is the one that Python
   for (const path of ["left.center", "right.center", "preshape.center"])
     await pick(field("Add a parameter to distance"), path);
   await button(page, "Add a level to distance").click();
-  await fill(field("Name of level 2 of distance"), "far");
   const values = { left: ["46", "35"], right: ["54", "65"], preshape: ["46", "35"] };
+  await field("left.center at level").waitFor();
+  await fill(field("Name of level 2 of distance"), "far");
+  await field("left.center at far").waitFor();
+  delay(100);
   for (const [name, [near, far]] of Object.entries(values)) {
     await fill(field(`${name}.center at near`), near as string);
     await fill(field(`${name}.center at far`), far as string);
   }
+  delay(0);
   await button(page, "Add to Factors").click();
   await fill(field("Name of factor"), "preshape");
   await pick(field("Parameter of preshape"), "preshape.amplitude");

@@ -7,9 +7,9 @@ import contextlib
 import dataclasses as dc
 import json
 import threading
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 import numpy as np
@@ -19,9 +19,11 @@ import deodar as dd
 from deodar.errors import DeodarError
 from deodar.experiments.results import stored_rows
 from deodar.server import hub, requests, to_server
+from deodar.server.connection import PageConnection
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.open_experiment import OpenExperiment
 from deodar.server.project import ConfirmationRequired
+from deodar.server.to_page import Answer, ExperimentView
 from tests.server.page import WAIT, Page, play, studio
 
 
@@ -278,6 +280,59 @@ async def desk(root: Path) -> AsyncIterator[Desk]:
         yield one
     finally:
         await one.hub.close()
+
+
+class Slow(PageConnection):
+    """A connection without a socket; `while_sending` runs while it sends a message or frames."""
+
+    def __init__(self, one: Desk, at: str, while_sending: Callable[[], Awaitable[None]]) -> None:
+        super().__init__(cast("Any", None), one.hub)
+        self.sent: list[Any] = []
+        self.at, self.while_sending = at, while_sending
+
+    async def _between(self, at: str) -> None:
+        if at == self.at:
+            self.at = "never again"
+            await self.while_sending()
+
+    async def _text(self, message: Any) -> None:
+        self.sent.append(message)
+        await self._between("experiment" if isinstance(message, ExperimentView) else "")
+
+    async def _send_frames(self, *args: object) -> bool:
+        await self._between("frames")
+        return False
+
+    async def exchange(self) -> None:
+        """Send what is new."""
+        await self._say()
+
+    def answer(self, answer: Answer) -> None:
+        """Queue an answer, as after a request."""
+        self._answers.append(answer)
+
+
+@pytest.mark.parametrize("at", ["experiment", "frames"])
+def test_the_answer_to_an_edit_follows_the_edited_experiment(folder: Path, at: str) -> None:
+    """Also if the edit is made while older messages are sent: a page makes the next edit of what it has."""
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.NewDocument())
+            await d.do(to_server.NewExperiment())
+
+            async def edit() -> None:
+                await d.edit(trials=7)
+                connection.answer(Answer(request=5))
+
+            connection = Slow(d, at, edit)
+            for _ in range(2):
+                await connection.exchange()
+            kinds = [m for m in connection.sent if isinstance(m, (Answer, ExperimentView))]
+            assert [type(m).__name__ for m in kinds] == ["ExperimentView", "ExperimentView", "Answer"]
+            assert kinds[1].data["trials"] == 7
+
+    asyncio.run(scene())
 
 
 def test_one_run_starts_if_two_pages_ask_for_it_at_once(

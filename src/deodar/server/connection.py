@@ -67,7 +67,7 @@ class PageConnection:
         self._published = self._published_other = -1
         self._known: dict[str, Any] = {}
         self._timeline: TimelineView | None = None
-        self._session, self._version = -1, -1
+        self._session, self._version, self._experiment = -1, -1, -1
         self._rows = (0, 0)  # the run whose rows the page has, and how many
         self._malformed = 0
         self._decoder = msgspec.json.Decoder(union(MESSAGES))
@@ -171,8 +171,10 @@ class PageConnection:
                 await self._text(message)
                 spoke = True
             # an answer is never sent before its change, and frames belong to the document that was sent
-            now = hub.project.session, hub.project.version
-            if (self._session, self._version) == now and hub.source(self.page).identity is source.identity:
+            now = hub.project.session, hub.project.version, hub.experiment.version
+            known = self._session, self._version, self._experiment
+            if known == now and hub.source(self.page).identity is source.identity:
+                answers = list(self._answers)
                 break
         for message in self._news_of_world(state):
             await self._text(message)
@@ -187,8 +189,9 @@ class PageConnection:
                 sent = found[1].number != self._published_other
                 self._published_other = found[1].number
                 spoke = await self._send_frames(others, found[1], found[1], True, sent) or spoke
-        while self._answers:
-            await self._text(self._answers.popleft())
+        for answer in answers:
+            self._answers.popleft()
+            await self._text(answer)
             self._room.set()
             spoke = True
         clock = hub.clock(self._timeline)
@@ -290,7 +293,9 @@ class PageConnection:
         self._new("costs", self._hub.costs(), out)
         self._new("comparison", project.compared(), out)
         self._new("kept_files", project.kept, out)
-        self._new("experiment", self._hub.experiment.view(), out)
+        experiment = self._hub.experiment.view()
+        self._experiment = experiment.version
+        self._new("experiment", experiment, out)
         rows = self._hub.experiment.rows_after(*self._rows)
         if rows is not None:
             self._rows = rows.run, rows.first + len(rows.rows)

@@ -11,7 +11,7 @@ import { fresh, without } from "../inspector/parameters/part";
 import { useStudio } from "../store";
 import type { Values } from "../values";
 import { edit } from "./actions";
-import { isNamed, mapLevels, type NamedLevels, type Part, pathsOf, put } from "./draft";
+import { isNamed, mapLevels, type NamedLevels, type Part, partsOf, pathsOf, put, withNumber } from "./draft";
 import { CardFrame } from "./PartCard";
 import { parametersOf, valueAt } from "./cardPlace";
 
@@ -20,10 +20,15 @@ export function FactorCard({ part: { key, values } }: { part: Part }) {
   const kinds = useStudio((state) => state.kinds);
   const names = parametersOf(elements, kinds);
   const named = isNamed(values["levels"]) && values["path"] === undefined;
-  const commit = async (next: Values) =>
-    ((await edit((data) => put(data, "factors", key, next))).problems ?? []).length === 0;
+  const commit = async (change: NewFrom<Values>) => {
+    const answer = await edit((data) => {
+      const now = partsOf(data, "factors").find((part) => part.key === key);
+      return now === undefined ? data : put(data, "factors", key, change(now.values));
+    });
+    return (answer.problems ?? []).length === 0;
+  };
   const how = (chosen: string) =>
-    void commit(chosen === "named" ? { levels: { level: {} } } : { levels: [], path: "" });
+    void commit(() => (chosen === "named" ? { levels: { level: {} } } : { levels: [], path: "" }));
   const factor = { name: key, names, elements, commit };
   return (
     <CardFrame group="factors" name={key} title="Factor" kinds={[]}>
@@ -46,11 +51,14 @@ export function FactorCard({ part: { key, values } }: { part: Part }) {
   );
 }
 
+// New values from those after all earlier changes, which may not be drawn yet.
+type NewFrom<T> = (now: T) => T;
+
 type LevelsProps = {
   name: string;
   names: string[];
   elements: Parameters<typeof valueAt>[0];
-  commit: (values: Values) => Promise<boolean>;
+  commit: (change: NewFrom<Values>) => Promise<boolean>;
 };
 
 function One({
@@ -61,13 +69,17 @@ function One({
   path,
   levels,
 }: LevelsProps & { path: string; levels: unknown[] }) {
-  const set = (next: unknown[]) => commit({ levels: next, path });
+  const set = (change: NewFrom<unknown[]>) =>
+    commit((now) => (isNamed(now["levels"]) ? now : { ...now, levels: change(listed(now)) }));
   const choose = (chosen: string) => {
     const present = valueAt(elements, chosen);
-    return commit({ levels: levels.length > 0 || present === undefined ? levels : [present], path: chosen });
+    return commit((now) => ({
+      levels: listed(now).length > 0 || present === undefined ? listed(now) : [present],
+      path: chosen,
+    }));
   };
-  const next = () => {
-    const [before, last] = levels.slice(-2).map(Number);
+  const next = (now: unknown[]) => {
+    const [before, last] = now.slice(-2).map(Number);
     const start = Number(valueAt(elements, path) ?? 0);
     return last === undefined ? (before ?? start) + 1 : 2 * last - (before ?? 0);
   };
@@ -80,12 +92,18 @@ function One({
             <TextBox
               label={`Level ${i + 1} of ${name}`}
               value={valueText(level)}
-              onCommit={(typed) => set(levels.map((old, k) => (k === i ? typedValue(typed) : old)))}
+              onCommit={(typed) => set((now) => now.map((old, k) => (k === i ? typedValue(typed) : old)))}
             />
-            <Cross label={`Remove level ${i + 1} of ${name}`} onClick={() => void set(without(levels, i))} />
+            <Cross
+              label={`Remove level ${i + 1} of ${name}`}
+              onClick={() => void set((now) => without(now, i))}
+            />
           </span>
         ))}
-        <AddButton aria-label={`Add a level to ${name}`} onClick={() => void set([...levels, next()])}>
+        <AddButton
+          aria-label={`Add a level to ${name}`}
+          onClick={() => void set((now) => [...now, next(now)])}
+        >
           Level
         </AddButton>
       </div>
@@ -95,13 +113,17 @@ function One({
 
 function Named({ name, names, elements, commit, levels }: LevelsProps & { levels: NamedLevels }) {
   const paths = pathsOf(levels);
-  const set = (next: NamedLevels) => commit({ levels: next });
+  const set = (change: NewFrom<NamedLevels>) =>
+    commit((now) => (isNamed(now["levels"]) ? { levels: change(now["levels"]) } : now));
   const labels = Object.keys(levels);
-  const last = levels[labels.at(-1) ?? ""] ?? {};
   const addPath = (path: string) =>
-    set(mapLevels(levels, (level) => ({ ...level, [path]: valueAt(elements, path) ?? 0 })));
+    set((now) => mapLevels(now, (level) => ({ ...level, [path]: valueAt(elements, path) ?? 0 })));
   const renamed = (old: string, typed: string) =>
-    set(Object.fromEntries(Object.entries(levels).map(([k, v]) => [k === old ? typed : k, v])));
+    set((now) => Object.fromEntries(Object.entries(now).map(([k, v]) => [k === old ? typed : k, v])));
+  const addLevel = (now: NamedLevels) => {
+    const known = Object.keys(now);
+    return { ...now, [fresh(known, "level")]: { ...now[known.at(-1) ?? ""] } };
+  };
   return (
     <div className="experiment-scroll">
       <table className="experiment-table experiment-named">
@@ -119,17 +141,14 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
                   <Cross
                     label={`Remove ${label} from ${name}`}
                     onClick={() =>
-                      void set(Object.fromEntries(Object.entries(levels).filter(([k]) => k !== label)))
+                      void set((now) => Object.fromEntries(Object.entries(now).filter(([k]) => k !== label)))
                     }
                   />
                 </span>
               </th>
             ))}
             <th>
-              <AddButton
-                aria-label={`Add a level to ${name}`}
-                onClick={() => void set({ ...levels, [fresh(labels, "level")]: { ...last } })}
-              >
+              <AddButton aria-label={`Add a level to ${name}`} onClick={() => void set(addLevel)}>
                 Level
               </AddButton>
             </th>
@@ -146,9 +165,7 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
                   <TextBox
                     label={`${path} at ${label}`}
                     value={valueText(levels[label]?.[path])}
-                    onCommit={(typed) =>
-                      set({ ...levels, [label]: { ...levels[label], [path]: typedValue(typed) } })
-                    }
+                    onCommit={(typed) => set((now) => withNumber(now, label, path, typedValue(typed)))}
                   />
                 </td>
               ))}
@@ -156,8 +173,8 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
                 <Cross
                   label={`Remove ${path} from ${name}`}
                   onClick={() =>
-                    void set(
-                      mapLevels(levels, (level) =>
+                    void set((now) =>
+                      mapLevels(now, (level) =>
                         Object.fromEntries(Object.entries(level).filter(([k]) => k !== path)),
                       ),
                     )
@@ -177,6 +194,10 @@ function Named({ name, names, elements, commit, levels }: LevelsProps & { levels
       />
     </div>
   );
+}
+
+function listed({ levels }: Values): unknown[] {
+  return Array.isArray(levels) ? levels : [];
 }
 
 function Cross({ label, onClick }: { label: string; onClick: () => void }) {

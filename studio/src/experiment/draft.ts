@@ -124,3 +124,9 @@ export function pathsOf(levels: NamedLevels): string[] {
 export function mapLevels(levels: NamedLevels, change: (level: Values) => Values): NamedLevels {
   return Object.fromEntries(Object.entries(levels).map(([name, level]) => [name, change(level)]));
 }
+
+// Set a parameter in one level, if there still is such a level.
+export function withNumber(levels: NamedLevels, label: string, path: string, value: unknown): NamedLevels {
+  const level = levels[label];
+  return level === undefined ? levels : { ...levels, [label]: { ...level, [path]: value } };
+}
