@@ -17,8 +17,13 @@ const DRIVING = {
   deodar: 1,
   name: "driving",
   dt: 64,
-  axes: {},
+  axes: {
+    column: { name: "column", lower: 0, upper: 39, samples: 40 },
+    row: { name: "row", lower: 0, upper: 29, samples: 30 },
+    channel: { name: "channel", lower: 0, upper: 2, samples: 3 },
+  },
   elements: {
+    eye: { kind: "Sensor", id: "00000005", axes: ["column", "row", "channel"], sensor: "camera" },
     "go left": axisless("Boost", "00000001", { amplitude: 1000 }),
     left: axisless("Motor", "00000002", { motor: "left" }),
     "go right": axisless("Boost", "00000003", { amplitude: 1000 }),
@@ -77,6 +82,35 @@ test("the world opens by itself, and a tooltip shows the name and position of an
   await expect.poll(() => told().textContent()).toBe("crate: 0.80, 1.50 m");
 });
 
+test("a colour places a block before the robot, which its camera shows, and removes it again", async () => {
+  const picture = world().getByRole("img", { name: "Picture of the camera, eye" });
+  const red = () =>
+    picture.evaluate((canvas: HTMLCanvasElement) => {
+      const data = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+      return [...data].filter((value, i) => i % 4 === 0 && value > 180 && (data[i + 1] ?? 255) < 80).length;
+    });
+  const swatch = world().getByRole("button", { name: "red block" });
+  await expect.poll(() => picture.evaluate((canvas: HTMLCanvasElement) => canvas.width)).toBe(40);
+  await swatch.click();
+  await observer.until(() => object("red block"));
+  expect(object("red block")?.x).toBeCloseTo(0.2 + 0.037 + 4.5 * 1.3 * 0.037, 3);
+  await observer.ask({ type: "step", n: 1 });
+  await expect.poll(red).toBeGreaterThan(20);
+  await shot(studio.page, "studio-world-camera");
+  const { mouse } = studio.page;
+  await world().getByRole("button", { name: "blue block" }).press("Enter");
+  await observer.until(() => object("blue block"));
+  const { x, y } = await onPage({ x: 0.5, y: 0.3 });
+  await mouse.dblclick(x, y);
+  await observer.until(() => object("box 1"));
+  expect(observer.world.now.scene?.boxes.find(({ name }) => name === "box 1")?.color[2]).toBeGreaterThan(0.8);
+  await canvas().press("Delete");
+  await world().getByRole("button", { name: "blue block" }).press("Delete");
+  await swatch.click();
+  await observer.until(() => object("red block") === undefined && object("blue block") === undefined);
+  await observer.ask({ type: "reset" });
+});
+
 test("a crate that is dragged in front of the robot stops it until it is dragged away", async () => {
   await observer.ask({ type: "speed", factor: 1 });
   await button(studio.page, "Play").click();
@@ -125,4 +159,24 @@ test("a double click places a box, arrow keys move it, Delete removes it", async
   await observer.until(() => Math.abs((object("box 1")?.x ?? 0) - before - 0.03) < 1e-9);
   await canvas().press("Delete");
   await observer.until(() => object("box 1") === undefined);
+});
+
+test("a panel of 390 pixels shows all colours, and the picture above a plan of its whole width", async () => {
+  const { page } = studio;
+  for (const title of ["Architecture", "Inspector", "Sliders"]) {
+    await page.getByRole("tab", { name: title }).press("Delete");
+  }
+  await page.setViewportSize({ width: 390, height: 800 });
+  await expect.poll(async () => (await canvas().boundingBox())?.width).toBeLessThan(391);
+  const picture = await world()
+    .getByRole("img", { name: /^Picture of the camera/ })
+    .boundingBox();
+  const plan = await canvas().boundingBox();
+  expect(picture?.height).toBeGreaterThan(120);
+  expect((picture?.y ?? 0) + (picture?.height ?? 0)).toBeLessThan(plan?.y ?? 0);
+  expect(plan?.width).toBeGreaterThan(370);
+  expect(plan?.height).toBeGreaterThan(250);
+  const swatches = await world().getByRole("group", { name: "Blocks in front of the robot" }).boundingBox();
+  expect(swatches?.height).toBeLessThan(35);
+  await shot(page, "studio-world-390");
 });

@@ -939,6 +939,8 @@ export type PlaceBoxes = {
 };
 
 // Add an object to the world, with its middle and its size.
+//
+// `color` is red, green and blue, 0 to 1; None: that of the world.
 export type PlaceObject = {
   type: "place_object";
   request?: number;
@@ -947,6 +949,7 @@ export type PlaceObject = {
   y: number;
   width: number;
   height: number;
+  color?: number[] | null;
 };
 
 // A connection, with its index in the list of all.

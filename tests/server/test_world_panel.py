@@ -120,8 +120,9 @@ def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
         await one.do("remove_object", name="crate")
         await one.until(lambda: not scene(one)["boxes"])
         await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.3)
-        await one.do("place_object", name="block", x=1.0, y=0.3, width=0.1, height=0.2)
+        await one.do("place_object", name="block", x=1.0, y=0.3, width=0.1, height=0.2, color=[0, 0, 1])
         await one.until(lambda: box(one, "block").get("height") == 0.2)
+        assert box(one, "block")["color"] == [0, 0, 1]
 
     with studio(file.parent, file, world=arena) as address:
         play(address, story)
@@ -138,6 +139,10 @@ def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(fi
             ({"type": "move_object", "name": "crat", "x": 1, "y": 1}, "'crat'"),
             ({"type": "remove_object", "name": "goal"}, "is a mark"),
             ({"type": "place_object", "name": "flat", "x": 1, "y": 1, "width": 0.1, "height": 0}, "no area"),
+            (
+                {"type": "place_object", "name": "b", "x": 1, "y": 1, "width": 1, "height": 1, "color": [2]},
+                "red, green and blue",
+            ),
         ]:
             (problem,) = (await one.ask(**request))["problems"]
             assert said in problem["what"], problem

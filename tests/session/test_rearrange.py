@@ -36,17 +36,20 @@ def test_the_journal_records_objects_that_move_appear_and_disappear() -> None:
     session.move("crate", (0.7, 1.5))
     session.step(2)
     session.place("block", (1.0, 1.5), (0.1, 0.1))
+    session.place("red block", (1.4, 1.5), (0.1, 0.1), (1.0, 0.0, 0.0))
     session.move("goal", (2.5, 0.6))
     scene = session.scene()
     assert scene is not None
-    assert [b.name for b in scene.boxes] == ["crate", "block"] and np.allclose(
-        [b.center for b in scene.boxes], [(0.7, 1.5), (1.0, 1.5)]
+    assert [b.name for b in scene.boxes] == ["crate", "block", "red block"] and np.allclose(
+        [b.center for b in scene.boxes], [(0.7, 1.5), (1.0, 1.5), (1.4, 1.5)]
     )
+    assert scene.boxes[2].color == (1.0, 0.0, 0.0)
     assert scene.marks[0].center == pytest.approx((2.5, 0.6))
     session.remove("block")
     assert [(c.tick, c.what, c.value) for c in session.journal] == [
         (0, "world.move crate", (0.7, 1.5)),
         (2, "world.place block", ((1.0, 1.5), (0.1, 0.1))),
+        (2, "world.place red block", ((1.4, 1.5), (0.1, 0.1), (1.0, 0.0, 0.0))),
         (2, "world.move goal", (2.5, 0.6)),
         (2, "world.remove block", None),
     ]

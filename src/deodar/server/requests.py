@@ -462,7 +462,8 @@ async def _move_object(hub: Hub, page: Page, m: to_server.MoveObject) -> None:
 
 @handles(to_server.PlaceObject)
 async def _place_object(hub: Hub, page: Page, m: to_server.PlaceObject) -> None:
-    await _rearrange(hub, page, lambda session: session.place(m.name, (m.x, m.y), (m.width, m.height)))
+    place = m.name, (m.x, m.y), (m.width, m.height), m.color
+    await _rearrange(hub, page, lambda session: session.place(*place))
 
 
 @handles(to_server.RemoveObject)

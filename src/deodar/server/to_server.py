@@ -687,13 +687,17 @@ class MoveObject(Request, frozen=True, kw_only=True, tag="move_object"):
 
 @MESSAGES.register
 class PlaceObject(Request, frozen=True, kw_only=True, tag="place_object"):
-    """Add an object to the world, with its middle and its size."""
+    """Add an object to the world, with its middle and its size.
+
+    `color` is red, green and blue, 0 to 1; None: that of the world.
+    """
 
     name: Text
     x: float
     y: float
     width: float
     height: float
+    color: list[float] | None = None
 
 
 @MESSAGES.register

@@ -25,19 +25,25 @@ def move(world: World, scene: Scene, name: str, center: Sequence[float]) -> tupl
 
 
 def place(
-    world: World, scene: Scene, name: str, center: Sequence[float], size: Sequence[float]
-) -> tuple[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+    world: World,
+    scene: Scene,
+    name: str,
+    center: Sequence[float],
+    size: Sequence[float],
+    color: Sequence[float] | None,
+) -> tuple[str, tuple[tuple[float, ...], ...]]:
     """Add an object, or replace the one of the same name; return the entry for the journal.
 
     Raises:
         WorldError: it does not fit at the position, or a mark has that name.
     """
+    coloured = () if color is None else (tuple(color),)
     scene.require_room(name, center, size)
     if name in [mark.name for mark in scene.marks]:
         raise WorldError("is the name of a mark", where=name, fix="Choose another name")
     with errors_of(world, "place"):
-        world.place(name, center, size)
-    return f"world.place {name}", (tuple(center), tuple(size))
+        world.place(name, center, size, *coloured)
+    return f"world.place {name}", (tuple(center), tuple(size), *coloured)
 
 
 def remove(world: World, scene: Scene, name: str) -> tuple[str, None]:

@@ -419,13 +419,25 @@ class Session:
         """
         self._note(*rearrange.move(*self._seen(), name, center))
 
-    def place(self, name: str, center: Sequence[float], size: Sequence[float]) -> None:
+    def place(
+        self,
+        name: str,
+        center: Sequence[float],
+        size: Sequence[float],
+        color: Sequence[float] | None = None,
+    ) -> None:
         """Add an object to the world, or replace the one of the same name.
 
+        Args:
+            name: name of the object.
+            center: x and y of its middle.
+            size: size along x and y.
+            color: red, green and blue, 0 to 1; None: that of `World.place`.
+
         Raises:
-            WorldError: it does not fit at the position.
+            WorldError: it does not fit at the position, or a value is invalid.
         """
-        self._note(*rearrange.place(*self._seen(), name, center, size))
+        self._note(*rearrange.place(*self._seen(), name, center, size, color))
 
     def remove(self, name: str) -> None:
         """Remove an object from the world."""

@@ -16,6 +16,8 @@ import {
 import { pageLook } from "../plots/look";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
+import { BlockPalette } from "./BlockPalette";
+import { CameraView, useCamera } from "./CameraView";
 import { Carrier } from "./carrier";
 import { draw } from "./draw";
 import { live } from "./live";
@@ -32,7 +34,8 @@ import {
 } from "./plan";
 
 const HELP =
-  "Drag an object. A double click places a box, Delete removes the selected one, arrow keys move it.";
+  "Drag an object. A colour places a block in front of the robot, a double click a box of that colour; " +
+  "Delete removes the selected one, arrow keys move it.";
 const NOTHING =
   "Nothing to see from above. Start the studio with a world that has a plan, for example: " +
   "deodar studio FILE --world arena:blocks";
@@ -51,6 +54,7 @@ export function World() {
   const note = useSyncExternalStore(live.listen, live.note);
   const record = useStudio((state) => state.document?.record != null);
   const open = useStudio((state) => state.connection === "open");
+  const camera = useCamera();
   const shade = useComputedColorScheme();
   const canvas = useRef<HTMLCanvasElement>(null);
   const frame = useRef<PlanFrame | null>(null);
@@ -62,6 +66,7 @@ export function World() {
     held: null,
     refused: "",
   });
+  const [colour, setColour] = useState<number[] | null>(null);
   const hand = useRef<Carrier | null>(null);
   hand.current ??= new Carrier(
     async (message) => (await socket.ask(message)).answer,
@@ -174,6 +179,7 @@ export function World() {
         ...inside(frame.current, toWorld(frame.current, at(event))),
         width: size,
         height: size,
+        ...(colour === null ? {} : { color: colour }),
       });
     }
   };
@@ -230,23 +236,36 @@ export function World() {
           {carrier.refused === "" ? told : carrier.refused}
         </span>
       </header>
-      <div className="world-body">
-        <canvas
-          ref={canvas}
-          tabIndex={0}
-          role="img"
-          aria-label={`The world from above: ${all.map(({ name }) => name).join(", ")}`}
-          style={{
-            cursor: grip.current !== null ? "grabbing" : find(hovered)?.fixed === false ? "grab" : "default",
-          }}
-          onPointerDown={down}
-          onPointerMove={move}
-          onPointerUp={up}
-          onPointerCancel={up}
-          onPointerLeave={() => setHovered(null)}
-          onDoubleClick={put}
-          onKeyDown={key}
+      {!record && (
+        <BlockPalette
+          scene={scene}
+          chosen={colour}
+          choose={setColour}
+          select={setSelected}
+          tell={(reason) => hand.current?.refuse(reason)}
         />
+      )}
+      <div className="world-body">
+        <div className="world-plan">
+          <canvas
+            ref={canvas}
+            tabIndex={0}
+            role="img"
+            aria-label={`The world from above: ${all.map(({ name }) => name).join(", ")}`}
+            style={{
+              cursor:
+                grip.current !== null ? "grabbing" : find(hovered)?.fixed === false ? "grab" : "default",
+            }}
+            onPointerDown={down}
+            onPointerMove={move}
+            onPointerUp={up}
+            onPointerCancel={up}
+            onPointerLeave={() => setHovered(null)}
+            onDoubleClick={put}
+            onKeyDown={key}
+          />
+        </div>
+        {camera !== null && <CameraView camera={camera} />}
       </div>
     </section>
   );

@@ -37,7 +37,12 @@ export class Carrier {
 
   // An earlier refusal is no longer shown.
   forgive(): void {
-    this.refused = "";
+    this.refuse("");
+  }
+
+  // Show why something cannot be placed; empty: nothing was refused.
+  refuse(reason: string): void {
+    this.refused = reason;
     this.changed();
   }
 

@@ -96,7 +96,7 @@ function drawBox(ctx: CanvasRenderingContext2D, frame: PlanFrame, box: BoxView, 
   if (marked && !box.fixed) {
     ctx.strokeStyle = INK;
     ctx.lineWidth = 2;
-    ctx.strokeRect(corner.x + 1, corner.y + 1, box.width * frame.scale - 2, box.height * frame.scale - 2);
+    ctx.strokeRect(corner.x - 1, corner.y - 1, box.width * frame.scale + 2, box.height * frame.scale + 2);
   }
 }
 

@@ -1,0 +1,56 @@
+// What the camera of the robot shows, beside the world from above.
+
+import { useMemo, useRef } from "react";
+
+import { isPicture, portAxes } from "../plots/kinds";
+import { paintPicture } from "../plots/paint";
+import { useStreams } from "../plots/useStreams";
+import type { ElementView } from "../protocol";
+import { useStudio } from "../store";
+import type { Wish } from "../streams";
+
+const CAMERA = "camera";
+const MOST = 256;
+
+// The first sensor of the document that reads a camera as a picture; null: it has none.
+export function useCamera(): ElementView | null {
+  return useStudio(
+    ({ document }) =>
+      document?.elements.find(
+        (element) =>
+          element.kind === "Sensor" &&
+          element.values.sensor === CAMERA &&
+          isPicture(portAxes(document, element, "output") ?? []),
+      ) ?? null,
+  );
+}
+
+export function CameraView({ camera }: { camera: ElementView }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const wishes = useMemo<Wish[]>(
+    () => [{ type: "watch", element: camera.id, port: "output", most: MOST }],
+    [camera.id],
+  );
+  const { lost, seen } = useStreams(wishes, true, ([live]) => {
+    const [nx, ny] = live?.form?.shape ?? [];
+    if (
+      canvas.current !== null &&
+      live?.frame != null &&
+      live.form?.channels === true &&
+      nx !== undefined &&
+      ny !== undefined
+    ) {
+      paintPicture(canvas.current, live.frame.values, nx, ny);
+    }
+  });
+  return (
+    <figure className="world-camera">
+      <div className="world-picture">
+        <canvas ref={canvas} role="img" aria-label={`Picture of the camera, ${camera.path}`} />
+      </div>
+      <figcaption className="one-line" title={lost?.what ?? camera.path}>
+        {lost !== null ? lost.what : seen ? camera.path : "no picture yet"}
+      </figcaption>
+    </figure>
+  );
+}
