@@ -9,6 +9,7 @@ from deodar.architectures.cascade import cascade, cascade_paths
 from deodar.architectures.change_detection import LENGTH as TRIAL_LENGTH
 from deodar.architectures.change_detection import TEST as TEST_WINDOW
 from deodar.architectures.change_detection import change_detection, change_trial
+from deodar.architectures.color_search import color_search
 from deodar.architectures.feature_space import binding, feature_space
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.architectures.plan import START as PLAN_START
@@ -33,6 +34,7 @@ __all__ = [
     "cascade_paths",
     "change_detection",
     "change_trial",
+    "color_search",
     "competition",
     "feature_space",
     "follow",
