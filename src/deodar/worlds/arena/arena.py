@@ -622,7 +622,16 @@ class Arena(PureWorld):
     @classmethod
     def example(cls) -> Arena:
         """Return an arena with an e-puck among coloured blocks."""
-        return cls("blocks", place_noise=0.005, place_every=2, slip=0.01, encoder_noise=0.02)
+        return cls(
+            "blocks",
+            place_noise=0.005,
+            place_every=2,
+            slip=0.01,
+            encoder_noise=0.02,
+            camera_every=2,
+            hue_noise=4.0,
+            outliers=0.02,
+        )
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:
