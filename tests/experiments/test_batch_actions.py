@@ -128,6 +128,51 @@ def test_trials_may_differ_in_the_parameter_that_an_action_sets() -> None:
         np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
 
 
+def learner() -> dd.Model:
+    """Return two fields, and an element of each kind that learns; one has a step of its own."""
+    model = dd.Model("learner")
+    model.programs = PROGRAMS
+    x = dd.Axis("x", 0, 10, 11)
+    u = model.add(dd.Field("u", [x], tau=10, resting_level=-1, noise=0.5))
+    v = model.add(dd.Field("v", [x], tau=10, resting_level=-1, noise=0.5))
+    for name, field in (("a", u), ("b", v)):
+        model.add(dd.GaussianStimulus(name, [x], center=5, sigma=2, amplitude=3)) >> field
+    u >> model.add(dd.MemoryTrace("trace", [x], tau_build=30, tau_decay=300))
+    model.set_ticks("trace", 3)
+    for kind, name in ((dd.AdaptiveWeights, "adaptive"), (dd.Hebbian, "hebbian")):
+        weights = model.add(kind([x], rate=0.02, name=name))
+        u >> weights
+        model.connect(v, f"{name}.post")
+    u >> model.add(dd.GainAdaptation(tau=50, initial=0.5, name="gains"))
+    model.connect(v, "gains.error")
+    return model
+
+
+LEARNED = ["trace.output", "hebbian.weights"]
+
+
+@pytest.mark.parametrize("keep_learned", [True, False])
+def test_what_was_learned_starts_the_next_phase(keep_learned: bool) -> None:
+    """Fields start again; weights, gains and traces stay, or start again as well."""
+    ports = ["u", "v", *LEARNED]
+    actions = [
+        Snapshot(40, "before", ports),
+        Reset(40, keep_learned=keep_learned),
+        Snapshot(40, "after", ports),
+        Reset(3, when="up", keep_learned=keep_learned),
+    ]
+    up = Crosses("up", "trace.output", 0.8, ends=False)
+    watch = ["u", "gains.output", "adaptive.output", *LEARNED]
+    many = requires_equal(learner(), actions, [up], watch, every=5)
+    for trial in many:
+        before, after = (trial.snapshots[name][1] for name in ("before", "after"))
+        np.testing.assert_array_equal(after["u"], np.full(11, -1.0))
+        for name in LEARNED:
+            assert np.abs(before[name]).max() > 0.05
+            np.testing.assert_array_equal(after[name], before[name] if keep_learned else 0 * before[name])
+        assert trial.events["up"] is not None
+
+
 # ------------------------------------------------------------------------------------------------- in a world
 
 

@@ -70,6 +70,7 @@ def test_a_saved_experiment_is_equal_when_loaded(tmp_path):
             Push(10, "u", 1.0, 5),
             Set(50, "u.resting_level", -6, when="detected"),
             Snapshot(30, "middle", ["u.activation"]),
+            Reset(70, keep_learned=True),
         ],
         record=["u.activation"],
         every=5,

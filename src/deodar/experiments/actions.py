@@ -290,18 +290,23 @@ class Snapshot(Action):
 class Reset(Action):
     """Reset the states of all elements to their values at the start of the trial.
 
-    Time, noise, parameters and the world continue.
+    Time, noise, parameters and the world continue. With `keep_learned` the next phase of a trial starts with
+    what the elements have learned: weights, gains and memory traces (`Element.learned_parameters`).
 
     Attributes:
         at: document time of the action; with `when` the time after that event.
         when: the event after which the action is carried out; empty: at a time of its own.
+        keep_learned: whether learned states stay.
     """
 
     at: Annotated[float, AT]
     when: Annotated[str, WHEN] = ""
+    keep_learned: Annotated[bool, Recompile(meaning="whether weights and traces that were learned stay")] = (
+        False
+    )
 
     def apply(self, running: RunningTrial) -> None:
-        running.restart()
+        running.restart(self.keep_learned)
 
 
 @ACTIONS.register

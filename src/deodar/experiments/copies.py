@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +10,7 @@ import jax
 import numpy as np
 
 from deodar.batch.driven import driven
+from deodar.compiler.arguments import ProgramState
 from deodar.compiler.executable import RARELY, Batch, executable
 from deodar.errors import NotFinite
 from deodar.experiments.running import RunningTrial, ScheduledAction
@@ -21,6 +22,7 @@ from deodar.numerics.pytree import PyTree
 from deodar.parameters import real
 from deodar.session import memory
 from deodar.session.exchange import embodied
+from deodar.session.keep import learned_states
 from deodar.session.run import Run, host, require_step
 from deodar.worlds._base import World
 from deodar.worlds._pure import PureWorld
@@ -109,15 +111,31 @@ class RunningCopies:
         values["swept"] = self.batch.program.layout.points(given)
         self.batch.values = values
 
-    def restart(self, row: int) -> None:
-        """Reset the states of all elements of one trial."""
+    def restart(self, row: int, keep_learned: bool) -> None:
+        """Reset the states of all elements of one trial, those that were learned only if `keep_learned` is
+        false.
+        """
         assert self._first is not None
         k = self.rows.index(row)
         state = self.batch.state.copy()
         state["groups"], state["held"] = jax.tree.map(_writable, (state["groups"], state["held"]))
+        learned = [(a, r, a[k, r].copy()) for a, r in self._learned(state, k)] if keep_learned else []
         first = self._first["groups"], self._first["held"]
         jax.tree.map(lambda now, begun: _put(now, k, begun[row]), (state["groups"], state["held"]), first)
+        for values, r, kept in learned:
+            values[k, r] = kept
         self.batch.state = state
+
+    def _learned(self, state: ProgramState, copy: int) -> Iterator[tuple[Any, int]]:
+        """Yield the arrays of learned states, and the row of the element in them."""
+        elements = {e.id: e.element for e in self.doc.entries}
+        for ident, (g, r) in self.batch.program.plan.row.items():
+            if ident in elements:
+                shown = {name: np.asarray(values[copy, r]) for name, values in state["groups"][g].items()}
+                for name in learned_states(elements[ident], shown):
+                    for part in (state["groups"][g], state["held"].get(str(g), {})):
+                        if name in part:
+                            yield part[name], r
 
     def put_world(self, row: int, arrays: Mapping[str, np.ndarray]) -> None:
         """Replace the arrays of the world of one trial."""
@@ -221,8 +239,8 @@ class CopyTrial(RunningTrial):
     def read(self, path: str) -> np.ndarray:
         return self._copies.read(self.row, path)
 
-    def restart(self) -> None:
-        self._copies.restart(self.row)
+    def restart(self, keep_learned: bool) -> None:
+        self._copies.restart(self.row, keep_learned)
 
     def _world_changed(self) -> None:
         assert self._world is not None

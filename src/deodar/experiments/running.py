@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from deodar.session.keep import with_learned
 from deodar.session.run import whole
 from deodar.session.session import Session
 from deodar.session.snapshot import SessionSnapshot
@@ -101,8 +102,10 @@ class RunningTrial:
         """Return the present value of a port."""
         raise NotImplementedError
 
-    def restart(self) -> None:
-        """Reset the states of all elements to their values at the start; everything else continues."""
+    def restart(self, keep_learned: bool) -> None:
+        """Reset the states of all elements, those that were learned only if `keep_learned` is false, to their
+        values at the start; everything else continues.
+        """
         raise NotImplementedError
 
     def later(self, steps: int, what: Callable[[], object]) -> None:
@@ -190,6 +193,7 @@ class SessionTrial(RunningTrial):
     def read(self, path: str) -> np.ndarray:
         return self.session.read(path).copy()
 
-    def restart(self) -> None:
+    def restart(self, keep_learned: bool) -> None:
         assert self._start is not None
-        self.session.put_states(self._start.states)
+        states = self._start.states
+        self.session.put_states(with_learned(self.session.snapshot(), states) if keep_learned else states)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
+from deodar.element import Element
 from deodar.errors import ParameterError
 from deodar.model.model import Model
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.snapshot import SessionSnapshot, StateRow
 
 
 def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
@@ -21,6 +24,33 @@ def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:
             for name, value in entry.element.learned_parameters(snapshot.states[entry.id][0]).items():
                 found[f"{entry.id}.{name}"] = np.array(value)
     return found
+
+
+def learned_states(element: Element, state: StateRow) -> list[str]:
+    """Return the names of the states of an element from which its learned parameters follow."""
+    before = element.learned_parameters(state) if element.stateful else {}
+
+    def follows(name: str) -> bool:
+        after = element.learned_parameters({**state, name: state[name] + 1})
+        return any(not np.array_equal(after[key], before[key]) for key in before)
+
+    return [name for name in state if follows(name)] if before else []
+
+
+def with_learned(
+    now: SessionSnapshot, states: Mapping[str, tuple[StateRow, StateRow]]
+) -> dict[str, tuple[StateRow, StateRow]]:
+    """Return states of elements, with those in place of them that elements have learned `now`."""
+    out = dict(states)
+    for entry in now.document.entries:
+        if entry.id in out and entry.id in now.states:
+            names = learned_states(entry.element, now.states[entry.id][0])
+            (shown, held), (new, coming) = out[entry.id], now.states[entry.id]
+            out[entry.id] = (
+                {**shown, **{name: new[name] for name in names}},
+                {**held, **{name: coming[name] for name in names}},
+            )
+    return out
 
 
 def keep(snapshot: SessionSnapshot, model: Model) -> list[str]:
