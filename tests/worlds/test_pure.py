@@ -150,3 +150,39 @@ def watching() -> dd.Model:
     model = dd.Model("watching")
     model.add(dd.Sensor("s", [], "count"))
     return model
+
+
+class Slow(Counter):
+    """A counter whose sensor has a new reading in every third period."""
+
+    sensors = {
+        "count": Signal("how often, in every third period", period=3.0, each=True),
+        "now": Signal("how often", each=True),
+    }
+
+    def renews(self, state, sensor):
+        return state % 3 == 0
+
+
+def test_the_reading_of_a_sensor_with_a_period_of_its_own_is_held() -> None:
+    world = Slow(1.0)
+    world.reset(1, [0, 1])
+    requests = [("count", ()), ("now", ())]
+    seen, before = [], None
+    for _ in range(7):
+        before = world.exchange({}, requests, before)
+        seen.append([reading.tolist() for reading in before])
+    assert [count for count, _ in seen] == [[k] * 2 for k in (1, 1, 3, 3, 3, 6, 6)], "the first one is read"
+    assert [now for _, now in seen] == [[k] * 2 for k in range(1, 8)]
+
+
+def test_a_held_reading_is_the_same_inside_the_step() -> None:
+    model = dd.Model("slow", dt=1)
+    model.add(dd.Sensor("count", sensor="count"))
+    model.add(dd.Sensor("now", sensor="now"))
+    for inside in (True, False):
+        world = Slow(1.0)
+        world.inside = inside
+        data = dd.simulate(model, 8, record=["count.output", "now.output"], every=1, world=world)
+        assert data["count.output"].values.tolist() == [0, 0, 0, 3, 3, 3, 6, 6, 6]
+        assert data["now.output"].values.tolist() == list(range(9))

@@ -105,7 +105,7 @@ class Body:
 
     def _sensed(self, shared: Arrays, own: PyTree, now: PyTree, before: Arrays) -> Arrays:
         """Return the readings of the sensors; `before` are the last ones, which may be held."""
-        dtype = shared_dtype(shared)
+        dtype = dtype_of((shared, own, now))
         out: Arrays = {}
         for ident, sensor in self.sensors.items():
             request = sensor.sensor, tuple(sensor.axes)
@@ -116,16 +116,16 @@ class Body:
         return out
 
 
-def shared_dtype(shared: Arrays) -> np.dtype[np.floating]:
+def dtype_of(arrays: PyTree) -> np.dtype[np.floating]:
     """Return the precision of a world's arrays."""
-    return next(a.dtype for a in jax.tree.leaves(shared) if a.dtype.kind == "f")
+    return next(a.dtype for a in jax.tree.leaves(arrays) if a.dtype.kind == "f")
 
 
 def batched(tree: T, batch: Sequence[int]) -> T:
     """Reshape arrays of copies (copies, ...) to arrays of a batch (points, trials, ...), or of one copy
     without a batch.
     """
-    return jax.tree.map(lambda a: np.asarray(a).reshape(*batch, *np.shape(a)[1:]), tree)
+    return jax.tree.map(lambda a: np.asarray(a).reshape((*batch, *np.shape(a)[1:])), tree)
 
 
 def unbatched(tree: T, batch: Sequence[int]) -> T:

@@ -84,7 +84,8 @@ class PureWorld(World):
         """Return whether a sensor whose signal has a period of its own has a new reading in this state, the
         first one after `advance`.
 
-        Until then its reading is held and not computed. `read` returns the same reading all the while.
+        It has one at the start and after each multiple of its period. In between the reading is held and not
+        computed; `read` returns the same reading all the while.
         """
         return jnp.ones((), bool)
 
