@@ -171,6 +171,15 @@ test("an experiment is built with the mouse, and its file is the one that Python
   await pick(field("place.reduce"), "place");
   await fill(field("place.threshold"), "-2.5");
   await status(/^100 trials$/);
+  await button(page, "Undo in the experiment").click();
+  await expect.poll(() => field("place.threshold").inputValue()).not.toBe("-2.5");
+  await page.keyboard.press("Control+z");
+  await expect.poll(() => field("place.reduce").inputValue()).not.toBe("place");
+  await page.keyboard.press("Control+Shift+z");
+  await button(page, "Redo in the experiment").click();
+  await expect.poll(() => field("place.threshold").inputValue()).toBe("-2.5");
+  await expect.poll(() => button(page, "Redo in the experiment").isDisabled()).toBe(true);
+  expect(await button(page, "Undo").isDisabled(), "the document was not edited").toBe(true);
   expect(await obstacles(page)).toEqual([]);
   await shot(page, "experiment-built");
 

@@ -508,13 +508,16 @@ export type ExperimentForms = {
 // The open experiment; `data` is None without one.
 //
 // `data` is what its file contains, without the version and the model; `version` grows with each change.
-// `problems` prevent a run, which has `trials` trials. `repeated` is the trial whose record is open.
+// `undo` and `redo` are the numbers of edits that can be undone and redone. `problems` prevent a run, which
+// has `trials` trials. `repeated` is the trial whose record is open.
 export type ExperimentView = {
   type: "experiment";
   data: Record<string, unknown> | null;
   version: number;
   file: string;
   unsaved: boolean;
+  undo: number;
+  redo: number;
   problems: ListedProblem[];
   trials: number;
   repeated: number | null;
@@ -1046,26 +1049,40 @@ export type RecordingView = {
   ended: string;
 };
 
-// Open stored unsaved edits.
+// Open stored unsaved edits of a document, or of an experiment with its model.
+//
+// `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
 export type Recover = {
   type: "recover";
   request?: number;
   session?: number;
   name: string;
   discard?: boolean;
+  discard_experiment?: boolean;
 };
 
 // Stored unsaved edits: name, title, the file they belong to, and the time of storing (ISO 8601).
+//
+// `experiment` is the name of the experiment whose model the document is; empty: the document itself has the
+// edits.
 export type Recovery = {
   name: string;
   title: string;
   file: string;
   when: string;
+  experiment?: string;
 };
 
 // Redo the change that was undone last.
 export type Redo = {
   type: "redo";
+  request?: number;
+  session?: number;
+};
+
+// Redo the edit of the experiment that was undone last.
+export type RedoExperiment = {
+  type: "redo_experiment";
   request?: number;
   session?: number;
 };
@@ -1470,6 +1487,8 @@ export type ToServer =
   | NewExperiment
   | OpenExperimentFile
   | EditExperiment
+  | UndoExperiment
+  | RedoExperiment
   | SaveExperiment
   | CloseExperiment
   | RunExperiment
@@ -1488,6 +1507,13 @@ export type TrialRows = {
 // Undo the last change.
 export type Undo = {
   type: "undo";
+  request?: number;
+  session?: number;
+};
+
+// Undo the last edit of the experiment.
+export type UndoExperiment = {
+  type: "undo_experiment";
   request?: number;
   session?: number;
 };
@@ -1677,6 +1703,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "place",
   "reconnect",
   "redo",
+  "redo_experiment",
   "remove",
   "remove_document_parameter",
   "remove_kept",
@@ -1689,6 +1716,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "set",
   "set_many",
   "undo",
+  "undo_experiment",
   "ungroup",
   "unlink",
   "use_world",

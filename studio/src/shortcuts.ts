@@ -12,6 +12,7 @@ import { disconnectByKeys, removeSelected } from "./build/removing";
 import { renameSelected } from "./build/renaming";
 import { isOnCanvas } from "./build/stage";
 import { ask, useDialogs } from "./dialogs/dialogs";
+import * as experiment from "./experiment/actions";
 import { open, save, saveAs } from "./files/flows";
 import { useView } from "./gallery/view";
 import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
@@ -57,8 +58,18 @@ export const SHORTCUTS: readonly Shortcut[] = [
   },
   { keys: ["Home"], does: "First frame", run: seekFirst, past: true },
   { keys: ["End"], does: "Last frame", run: seekLast, past: true },
-  { keys: ["Ctrl+Z"], does: "Undo", run: () => request({ type: "undo" }), repeats: true },
-  { keys: ["Ctrl+Shift+Z", "Ctrl+Y"], does: "Redo", run: () => request({ type: "redo" }), repeats: true },
+  {
+    keys: ["Ctrl+Z"],
+    does: "Undo, in the experiment if its panel has the focus",
+    run: () => (experiment.hasFocus() ? experiment.undo() : request({ type: "undo" })),
+    repeats: true,
+  },
+  {
+    keys: ["Ctrl+Shift+Z", "Ctrl+Y"],
+    does: "Redo",
+    run: () => (experiment.hasFocus() ? experiment.redo() : request({ type: "redo" })),
+    repeats: true,
+  },
   {
     keys: ["/"],
     does: "Add an element (also Tab, with the pointer on the canvas)",

@@ -18,7 +18,7 @@ import pytest
 import deodar as dd
 from deodar.errors import DeodarError
 from deodar.experiments.results import stored_rows
-from deodar.server import hub, requests, to_server
+from deodar.server import hub, requests, state_store, to_server
 from deodar.server.connection import PageConnection
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.open_experiment import OpenExperiment
@@ -543,3 +543,76 @@ def test_unsaved_edits_of_an_experiment_are_asked_about(
             assert (d.hub.experiment.data or {}).get("trials") != 7
 
     asyncio.run(scene())
+
+
+def test_edits_of_an_experiment_are_undone_and_redone(folder: Path) -> None:
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.NewDocument())
+            await d.do(to_server.NewExperiment())
+            experiment = d.hub.experiment
+            texts = [json.dumps(experiment.data)]
+            for changes in ({"trials": 7}, {"limit": 50.0}, {"trials": 9, "name": "other"}):
+                await d.edit(**changes)
+                texts.append(json.dumps(experiment.data))
+            assert (experiment.view().undo, experiment.view().redo) == (3, 0)
+            for text in texts[-2::-1]:
+                await d.do(to_server.UndoExperiment())
+                assert json.dumps(experiment.data) == text
+            assert not experiment.unsaved
+            version = experiment.version
+            await d.do(to_server.UndoExperiment())  # there is none
+            assert experiment.version == version
+            for text in texts[1:]:
+                await d.do(to_server.RedoExperiment())
+                assert json.dumps(experiment.data) == text
+            await d.do(to_server.UndoExperiment())
+            await d.edit(trials=11)
+            assert (experiment.view().undo, experiment.view().redo) == (3, 0)
+            await d.do(to_server.SaveExperiment(path="a.json"))
+            assert experiment.view().undo == 3
+            await d.do(to_server.NewExperiment())
+            assert experiment.view().undo == 0
+
+    asyncio.run(scene())
+
+
+def test_an_edited_experiment_is_recovered_after_a_kill(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    few().save(folder / "a.json")
+
+    async def edited() -> None:
+        one = Desk(folder)  # it is not closed, as after a kill
+        await one.do(to_server.OpenExperimentFile(path="a.json"))
+        await one.hub.experiment.store_edits()
+        assert not one.hub.experiment.edits
+        await one.edit(trials=7)
+        await one.hub.experiment.store_edits()
+        assert one.hub.experiment.edits and not (await one.hub.gallery()).recoveries
+
+    asyncio.run(edited())
+    monkeypatch.setattr(state_store, "_lives", lambda process: False)
+
+    async def recovered() -> None:
+        async with desk(folder) as d:
+            [found] = (await d.hub.gallery()).recoveries
+            assert (found.experiment, found.title) == ("two targets", "two targets")
+            await d.do(to_server.NewDocument())
+            await d.do(to_server.NewExperiment())
+            await d.edit(trials=3)
+            with pytest.raises(ConfirmationRequired, match="unsaved_experiment"):
+                await d.do(to_server.Recover(name=found.name))
+            await d.do(to_server.Recover(name=found.name, discard_experiment=True))
+            view = d.hub.experiment.view()
+            assert (view.data or {})["trials"] == 7 and view.unsaved and view.problems == []
+            assert view.file == "a.json" and view.trials == 28
+            assert not d.hub.project.unsaved, "its model has the content of its file"
+            assert not (await d.hub.gallery()).recoveries
+            with pytest.raises(ConfirmationRequired, match="replace"):
+                await d.do(to_server.SaveExperiment())  # another program may have changed it meanwhile
+            await d.do(to_server.SaveExperiment(replace=True))
+            assert not (await d.hub.gallery()).recoveries and not d.hub.store.kept()
+
+    asyncio.run(recovered())
+    assert json.loads((folder / "a.json").read_text())["trials"] == 7

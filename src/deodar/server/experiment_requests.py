@@ -27,6 +27,18 @@ async def _edit(hub: Hub, page: Page, m: to_server.EditExperiment) -> None:
     await hub.experiment.check()
 
 
+@handles(to_server.UndoExperiment)
+async def _undo(hub: Hub, page: Page, m: to_server.UndoExperiment) -> None:
+    hub.experiment.undo()
+    await hub.experiment.check()
+
+
+@handles(to_server.RedoExperiment)
+async def _redo(hub: Hub, page: Page, m: to_server.RedoExperiment) -> None:
+    hub.experiment.redo()
+    await hub.experiment.check()
+
+
 @handles(to_server.SaveExperiment)
 async def _save(hub: Hub, page: Page, m: to_server.SaveExperiment) -> Answer:
     path = await hub.experiment.save(m.path, m.replace)

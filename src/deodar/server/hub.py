@@ -95,10 +95,11 @@ class Hub:
 
     async def gallery(self) -> Gallery:
         """Return recent files and unsaved edits; the last result if the state folder does not answer."""
+        own = self.project.edits, self.experiment.edits
 
         def read() -> None:
             recent = [self.workspace.shown(p) for p in self.store.recent() if self.workspace.holds(p)]
-            kept = [r for r in self.store.kept() if r.name != self.project.edits]
+            kept = [r for r in self.store.kept() if r.name not in own]
             self._gallery = Gallery(recent=recent, recoveries=kept)
 
         await try_in_file_thread(read)
@@ -234,7 +235,12 @@ class Hub:
 
     async def _keep(self) -> None:
         """Store unsaved edits."""
-        await self.project.queue.run(self.project.keep)  # `forget` cannot run while edits are written
+
+        async def store() -> None:
+            await self.project.keep()
+            await self.experiment.store_edits()
+
+        await self.project.queue.run(store)  # `forget` cannot run while edits are written
 
     async def _follow(self) -> None:
         """Show what is added to a record that grows, and check the open experiment."""
@@ -248,6 +254,7 @@ class Hub:
         self._following.cancel()
         self.project.end()
         await self.project.keep()
+        await self.experiment.store_edits()
         await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.engine.close)
         self.embodiment.close()

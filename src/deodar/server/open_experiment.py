@@ -24,9 +24,11 @@ from deodar.model.files import MOST_BYTES
 from deodar.model.model import Model
 from deodar.recording import places
 from deodar.server import content, gallery, view
+from deodar.server.data_history import DataHistory
 from deodar.server.experiment_run import ExperimentRun
-from deodar.server.file_thread import in_file_thread
+from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.project import ConfirmationRequired, OpenProject
+from deodar.server.state_store import StoredExperiment
 from deodar.server.to_page import ExperimentView, RunView, TrialRows
 from deodar.server.workspace import Workspace
 
@@ -60,6 +62,7 @@ class OpenExperiment:
         run: the latest run, or the results beside its file.
         number: counter of runs.
         repeated: the trial whose record is open.
+        edits: the name under which its unsaved edits are stored; empty: they are not.
     """
 
     def __init__(self, project: OpenProject, workspace: Workspace, changed: Callable[[], None]) -> None:
@@ -72,7 +75,10 @@ class OpenExperiment:
         self.run: ExperimentRun | None = None
         self.number = 0
         self.repeated: int | None = None
+        self.edits = ""
         self._saved: JsonObject | None = None
+        self._stored: tuple[JsonObject, Document] | None = None
+        self._history = DataHistory()
         self._model: tuple[Model | None, Path | None] = (None, None)  # of the file, and its own file
         self._digests: dict[Path, str] = {}
         self._shown = Path()
@@ -106,6 +112,8 @@ class OpenExperiment:
             version=self.version,
             file="" if self.file is None else self._workspace.shown(self.file),
             unsaved=self.unsaved,
+            undo=self._history.undo_steps,
+            redo=self._history.redo_steps,
             problems=view.problems(self.problems),
             trials=self.trials,
             repeated=self.repeated,
@@ -251,6 +259,7 @@ class OpenExperiment:
 
     async def _take(self, data: JsonObject, file: Path | None, saved: JsonObject | None) -> None:
         await self._end_run()
+        await self._forget()
         self.data, self.file, self._saved = data, file, saved
         self.run, self.repeated = None, None
         self._model, self._digests = self._present(), {}
@@ -265,6 +274,7 @@ class OpenExperiment:
         """
         self._require_end(discard)
         await self._end_run()
+        await self._forget()
         self.data, self.file, self.run, self.repeated = None, None, None, None
         self.problems, self.trials = (), 0
         self.version += 1
@@ -292,9 +302,71 @@ class OpenExperiment:
         """Replace the plain data; `version` is the version that the page has changed."""
         if self.data is None or version != self.version:
             raise DocumentError("the experiment was changed on another page", fix="Repeat the change")
-        self.data = data
-        self.version += 1
-        self._changed()
+        self._history.add(self.data)
+        self._replace(data)
+
+    def undo(self) -> None:
+        """Undo the last edit, if there is one."""
+        self._replace(self._history.undo(self._require()))
+
+    def redo(self) -> None:
+        """Redo the edit that was undone last, if there is one."""
+        self._replace(self._history.redo(self._require()))
+
+    def _require(self) -> JsonObject:
+        if self.data is None:
+            raise DocumentError("no experiment is open")
+        return self.data
+
+    def _replace(self, data: JsonObject) -> None:
+        if data is not self.data:
+            self.data = data
+            self.version += 1
+            self._changed()
+
+    async def store_edits(self) -> None:
+        """Store unsaved edits with the model, if they are new."""
+        if self.data is None or not self.unsaved:
+            return
+        try:
+            doc, (_, own) = self._document(), self._present()
+        except DeodarError:
+            return  # its model is not open
+        stored = self._stored
+        if stored is not None and stored[0] is self.data and stored[1] == doc:
+            return
+        self.edits = self.edits or self._project.store.new_name()
+        note = StoredExperiment(self.data, "" if self.file is None else str(self.file))
+        name, file = self.edits, "" if own is None else str(own)
+        await try_in_file_thread(lambda: self._project.store.keep(name, doc, file, note))
+        self._stored = self.data, doc
+
+    async def recover(self, name: str, discard: bool, discard_experiment: bool) -> None:
+        """Open stored unsaved edits of an experiment, with its model.
+
+        Raises:
+            ConfirmationRequired: without `discard`, if the document has unsaved edits, or, without
+                `discard_experiment`, the open experiment.
+        """
+        self._require_end(discard_experiment)
+        found = await in_file_thread(lambda: self._project.store.experiment(name), name)
+        if found is None:
+            raise DocumentError("no experiment is stored under this name")
+        await self._project.recover_model(name, discard)
+        if self._project.model is None:
+            return
+        file = Path(found.file) if found.file else None
+        if file is not None and not self._workspace.holds(file):
+            file = None
+        await self._take(found.data, file, None)
+        self.edits = name
+
+    async def _forget(self) -> None:
+        """Delete stored edits, and the history."""
+        name, self.edits, self._stored = self.edits, "", None
+        self._history.clear()
+        if name:
+            await try_in_file_thread(lambda: self._project.store.forget(name))
 
     async def save(self, path: str, replace: bool) -> Path:
         """Write the experiment to a path, or to its own file; a model without a file is written beside it.
@@ -335,6 +407,9 @@ class OpenExperiment:
                 raise ConfirmationRequired("replace", self._workspace.shown(file))
         await in_file_thread(write, str(place))
         self.file, self._saved, self._digests = place, self.data, digests
+        name, self.edits, self._stored = self.edits, "", None
+        if name:
+            await try_in_file_thread(lambda: self._project.store.forget(name))
         self._model = present, own
         self._changed()
         return place

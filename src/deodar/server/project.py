@@ -7,6 +7,7 @@ history.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import dataclasses as dc
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -341,16 +342,35 @@ class OpenProject:
 
     async def recover(self, name: str, discard: bool) -> None:
         """Open stored unsaved edits."""
+        if await self._open_stored(name, discard) is not None and self.model is not None:
+            self._saved = None
+            self._name, self._kept = name, self.model.document
+            self._moved()
+
+    async def recover_model(self, name: str, discard: bool) -> None:
+        """Open the model of an experiment whose edits were stored; it has unsaved edits itself if its file
+        contains another document.
+        """
+        doc = await self._open_stored(name, discard)
+        file = self.file
+        if doc is None or file is None:
+            return
+        with contextlib.suppress(DeodarError, OSError):
+            saved = await in_file_thread(lambda: content.load(self.workspace, file), str(file))
+            if view.plain(saved) == view.plain(doc):
+                return
+        self._saved = None
+        self._moved()
+
+    async def _open_stored(self, name: str, discard: bool) -> Document | None:
+        """Open a stored document; None: it could not be opened."""
         self._ask_unsaved(discard)
         doc, file = await in_file_thread(lambda: self.store.read(name), name)
         path = Path(file) if file else None
         if path is not None and not self.workspace.holds(path):
             path = None
         await self._open(lambda: doc, path, doc.name, True)
-        if self.model is not None:
-            self._saved = None
-            self._name, self._kept = name, self.model.document
-            self._moved()
+        return None if self.model is None else doc
 
     async def close(self, discard: bool) -> None:
         """Close the document."""

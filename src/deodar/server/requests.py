@@ -117,7 +117,12 @@ async def _open_text(hub: Hub, page: Page, m: to_server.OpenText) -> Answer:
 
 @handles(to_server.Recover)
 async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
-    await hub.project.recover(m.name, m.discard)
+    stored = await in_file_thread(lambda: hub.store.experiment(m.name), m.name)
+    if stored is None:
+        await hub.project.recover(m.name, m.discard)
+    else:
+        await hub.experiment.recover(m.name, m.discard, m.discard_experiment)
+        await hub.experiment.check()
 
 
 @handles(to_server.Forget)

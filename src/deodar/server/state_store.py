@@ -8,6 +8,7 @@ import os
 import re
 import secrets
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
@@ -15,6 +16,7 @@ import platformdirs
 import psutil
 
 from deodar import codec
+from deodar.codec import JsonObject
 from deodar.errors import DeodarError, OutputError, UnknownName
 from deodar.model import files, output
 from deodar.model.document import Document
@@ -33,6 +35,14 @@ def state_folder() -> Path:
     return Path(platformdirs.user_state_dir("deodar")) / "studio"
 
 
+@dataclass(frozen=True)
+class StoredExperiment:
+    """Unsaved edits of an experiment: its plain data without its model, and its file (empty: none)."""
+
+    data: JsonObject
+    file: str
+
+
 class StateStore:
     """Stores unsaved edits and recent files. Errors of writing are ignored."""
 
@@ -47,18 +57,22 @@ class StateStore:
         """Return a new name for the edits of one document."""
         return secrets.token_hex(8)
 
-    def keep(self, name: str, document: Document, file: str) -> None:
-        """Store the edited document."""
+    def keep(
+        self, name: str, document: Document, file: str, experiment: StoredExperiment | None = None
+    ) -> None:
+        """Store the edited document of a file, or an edited experiment with its model."""
         with contextlib.suppress(OSError, DeodarError):
             self._unsaved.mkdir(parents=True, exist_ok=True)
             files.save(document, self._document(name), force=True)
             now = datetime.datetime.now().astimezone().isoformat(timespec="seconds")
-            note = {
+            note: dict[str, Any] = {
                 "title": document.name,
                 "file": file,
                 "when": now,
                 "process": [os.getpid(), psutil.Process().create_time()],
             }
+            if experiment is not None:
+                note["experiment"] = {"data": experiment.data, "file": experiment.file}
             output.write(self._note(name), codec.line(note, ascii=True).encode())
 
     def forget(self, name: str) -> None:
@@ -77,9 +91,9 @@ class StateStore:
                 data = cast("dict[str, Any]", note)
                 if not _lives(data.get("process")):
                     text = {key: str(data.get(key, "")) for key in ("title", "file", "when")}
-                    out.append(
-                        Recovery(name=path.stem, title=text["title"], file=text["file"], when=text["when"])
-                    )
+                    experiment = _experiment(note)
+                    title = "" if experiment is None else str(experiment.data.get("name", ""))
+                    out.append(Recovery(name=path.stem, **text, experiment=title))
         return sorted(out, key=lambda r: r.when, reverse=True)
 
     def read(self, name: str) -> tuple[Document, str]:
@@ -87,6 +101,11 @@ class StateStore:
         self._require(name)
         note: Any = _read(self._note(name))
         return files.load(self._document(name)), str(note.get("file", "")) if isinstance(note, dict) else ""
+
+    def experiment(self, name: str) -> StoredExperiment | None:
+        """Return the experiment that is stored under a name; None: it is a document."""
+        self._require(name)
+        return _experiment(_read(self._note(name)))
 
     def _require(self, name: str) -> None:
         if not NAME.match(name):
@@ -140,6 +159,14 @@ def _read(path: Path) -> Any:
         return codec.parse(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
+
+
+def _experiment(note: Any) -> StoredExperiment | None:
+    try:
+        data, file = note["experiment"]["data"], note["experiment"]["file"]
+    except (KeyError, TypeError):
+        return None
+    return StoredExperiment(data, str(file)) if isinstance(data, dict) else None
 
 
 def _lives(process: Any) -> bool:

@@ -251,12 +251,17 @@ class PlotView(Data, frozen=True):
 
 
 class Recovery(Data, frozen=True):
-    """Stored unsaved edits: name, title, the file they belong to, and the time of storing (ISO 8601)."""
+    """Stored unsaved edits: name, title, the file they belong to, and the time of storing (ISO 8601).
+
+    `experiment` is the name of the experiment whose model the document is; empty: the document itself has the
+    edits.
+    """
 
     name: str
     title: str
     file: str
     when: str
+    experiment: str = ""
 
 
 @MESSAGES.register
@@ -629,13 +634,16 @@ class ExperimentView(Message, frozen=True, tag="experiment"):
     """The open experiment; `data` is None without one.
 
     `data` is what its file contains, without the version and the model; `version` grows with each change.
-    `problems` prevent a run, which has `trials` trials. `repeated` is the trial whose record is open.
+    `undo` and `redo` are the numbers of edits that can be undone and redone. `problems` prevent a run, which
+    has `trials` trials. `repeated` is the trial whose record is open.
     """
 
     data: dict[str, Any] | None
     version: int
     file: str
     unsaved: bool
+    undo: int
+    redo: int
     problems: list[ListedProblem]
     trials: int
     repeated: int | None

@@ -101,10 +101,14 @@ class OpenPackage(OpeningRequest, frozen=True, kw_only=True, tag="open_package")
 
 @MESSAGES.register
 class Recover(OpeningRequest, frozen=True, kw_only=True, tag="recover"):
-    """Open stored unsaved edits."""
+    """Open stored unsaved edits of a document, or of an experiment with its model.
+
+    `discard` allows unsaved edits of the document to be lost, `discard_experiment` those of the experiment.
+    """
 
     name: Text
     discard: bool = False
+    discard_experiment: bool = False
 
 
 @MESSAGES.register
@@ -811,6 +815,16 @@ class EditExperiment(DocumentRequest, frozen=True, kw_only=True, tag="edit_exper
 
     data: dict[str, Any]
     version: Count
+
+
+@MESSAGES.register
+class UndoExperiment(DocumentRequest, frozen=True, kw_only=True, tag="undo_experiment"):
+    """Undo the last edit of the experiment."""
+
+
+@MESSAGES.register
+class RedoExperiment(DocumentRequest, frozen=True, kw_only=True, tag="redo_experiment"):
+    """Redo the edit of the experiment that was undone last."""
 
 
 @MESSAGES.register

@@ -12,11 +12,12 @@ import {
 } from "@tabler/icons-react";
 import { useEffect, useState } from "react";
 
+import { HistoryButtons } from "../header/UndoButtons";
 import { DotsMenu } from "../widgets/DotsMenu";
 import { ProblemText } from "../problems/ProblemText";
 import type { ExperimentView, RunView } from "../protocol";
 import { useStudio } from "../store";
-import { backToModel, close, create, open, run, save, saveAs, stop } from "./actions";
+import { backToModel, close, create, open, redo, run, save, saveAs, stop, undo } from "./actions";
 import { Design } from "./Design";
 import { Results } from "./Results";
 
@@ -119,6 +120,13 @@ function Head({ experiment }: { experiment: ExperimentView }) {
         >
           Save
         </Button>
+        <HistoryButtons
+          undo={experiment.undo}
+          redo={experiment.redo}
+          of=" in the experiment"
+          onUndo={() => void undo()}
+          onRedo={() => void redo()}
+        />
         <span className="experiment-status grow one-line dim" role="status" title={file}>
           {statusText(present, trials, problems.length)}
         </span>

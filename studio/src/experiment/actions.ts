@@ -39,6 +39,14 @@ export async function open(): Promise<void> {
 
 export const create = () => before.then(() => leave({ type: "new_experiment" }));
 export const close = () => before.then(() => leave({ type: "close_experiment" }));
+
+// An edit that is under way is undone too.
+export const undo = () => before.then(() => request({ type: "undo_experiment" }));
+export const redo = () => before.then(() => request({ type: "redo_experiment" }));
+
+// Whether keys are meant for the experiment.
+export const hasFocus = (): boolean => document.activeElement?.closest(".experiment") != null;
+
 export const run = () => request({ type: "run_experiment" });
 export const stop = () => request({ type: "stop_experiment" });
 export const repeat = (trial: number) => request({ type: "repeat_trial", trial });

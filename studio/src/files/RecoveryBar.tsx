@@ -18,12 +18,13 @@ export function RecoveryBar() {
   if (file === "" || found === undefined) {
     return null;
   }
-  const { name, title, when } = found;
+  const { name, title, when, experiment } = found;
+  const what = experiment === "" ? title : `the experiment ${experiment}`;
   return (
     <section className={classes.bar} aria-label="Unsaved edits">
       <IconRestore size={16} aria-hidden="true" />
       <span className={classes.text}>
-        Unsaved edits of <b>{title}</b>, stored {whenText(when, new Date())}, were found.
+        Unsaved edits of <b>{what}</b>, stored {whenText(when, new Date())}, were found.
       </span>
       <Button size="compact-sm" onClick={() => void leave({ type: "recover", name })}>
         Open them

@@ -11,24 +11,35 @@ export function UndoButtons() {
   const undo = useStudio((state) => state.document?.undo ?? 0);
   const redo = useStudio((state) => state.document?.redo ?? 0);
   return (
+    <HistoryButtons
+      undo={undo}
+      redo={redo}
+      onUndo={() => void request({ type: "undo" })}
+      onRedo={() => void request({ type: "redo" })}
+    />
+  );
+}
+
+type HistoryButtonsProps = {
+  // The numbers of changes.
+  undo: number;
+  redo: number;
+  // What changes belong to, if not the document.
+  of?: string;
+  onUndo: () => void;
+  onRedo: () => void;
+};
+
+export function HistoryButtons({ undo, redo, of = "", onUndo, onRedo }: HistoryButtonsProps) {
+  return (
     <>
       <Tooltip label={`Undo (${keysText("Ctrl+Z")})`}>
-        <ActionIcon
-          aria-label="Undo"
-          size={28}
-          disabled={undo === 0}
-          onClick={() => void request({ type: "undo" })}
-        >
+        <ActionIcon aria-label={`Undo${of}`} size={28} disabled={undo === 0} onClick={onUndo}>
           <IconArrowBackUp size={18} />
         </ActionIcon>
       </Tooltip>
       <Tooltip label={`Redo (${keysText("Ctrl+Shift+Z")})`}>
-        <ActionIcon
-          aria-label="Redo"
-          size={28}
-          disabled={redo === 0}
-          onClick={() => void request({ type: "redo" })}
-        >
+        <ActionIcon aria-label={`Redo${of}`} size={28} disabled={redo === 0} onClick={onRedo}>
           <IconArrowForwardUp size={18} />
         </ActionIcon>
       </Tooltip>
