@@ -101,12 +101,13 @@ class Place(Action):
 @ACTIONS.register
 @dataclass(frozen=True)
 class Move(Action):
-    """Move an object of the world.
+    """Move an object of the world, or carry its vehicle.
 
     Attributes:
         at: document time of the action; with `when` the time after that event.
-        object: name of the object in the world.
-        center: x and y of its new centre, in the unit of the world.
+        object: name of the object in the world, or of the vehicle.
+        center: x and y of its new centre, in the unit of the world; of a vehicle also its heading (rad), if
+            that changes, too.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
@@ -118,7 +119,8 @@ class Move(Action):
     world_method: ClassVar[str] = "move"
 
     def validate(self) -> Iterator[tuple[str, str]]:
-        yield from _plane(self, "center")
+        if not isinstance(self.center, tuple) or len(self.center) != 3:
+            yield from _plane(self, "center")
 
     def apply(self, running: RunningTrial) -> None:
         found: Any = self

@@ -114,6 +114,8 @@ class ArenaCopy(TypedDict):
     colours: Array
     heights: Array
     windows: Array
+    carried: Array
+    carries: Array
     keys: Arrays
 
 
@@ -240,6 +242,7 @@ class Arena(PureWorld):
         )
         frame = self.camera_every * self.period if self.camera_every > 1 else None
         border = [v / self.scale for v in self.layout.border]
+        self.carried, self.carries = np.zeros((1, 3)), 0
         self.sensors = signals(self.vehicle, unit, self.goals is not None, frame, border)
 
     # ------------------------------------------------------------------------- objects, also changed in a run
@@ -273,14 +276,32 @@ class Arena(PureWorld):
     def move(self, name: str, center: Numbers) -> None:
         """Move an object; `center` is the new x and y of its middle, or a row for each trial.
 
-        The name `goal` moves the goal, unless an object has that name.
+        The name `goal` moves the goal, and that of the vehicle carries the vehicle, unless an object has that
+        name; a third number is the new heading of the vehicle (rad).
         """
-        if name == GOAL and self.goals is not None and name not in self.objects.names():
+        if name == self.vehicle.name and name not in self.objects.names():
+            self.carry(center)
+        elif name == GOAL and self.goals is not None and name not in self.objects.names():
             self.aim(center)
         else:
             rows = made(name, center, (1, 1), (0, 0, 0), self.scale)
             self.places.require_near(name, [row.center for row in rows])
             self.objects.move(name, center, self.scale)
+
+    def carry(self, pose: Numbers) -> None:
+        """Carry the vehicle of all copies to x and y, and turn it to a heading (rad) if there is a third
+        number; a row for each trial carries each to its own place. It is there after the next period.
+
+        Raises:
+            WorldError: a place is inside an object or outside the arena.
+        """
+        count = np.atleast_2d(np.asarray(pose, float)).shape[1]
+        rows = rows_of(self.vehicle.name, pose, [self.scale, self.scale, 1.0][: max(2, count)])
+        problems = self.places.misplaced(rows, self.vehicle.name, self.vehicle.radius, self._permanent())
+        if problems:
+            raise WorldError(problems)
+        turned = rows if rows.shape[1] == 3 else np.column_stack([rows, np.full(len(rows), np.nan)])
+        self.carried, self.carries = turned, self.carries + 1
 
     def remove(self, name: str) -> None:
         """Remove an object."""
@@ -305,6 +326,7 @@ class Arena(PureWorld):
         new.objects = self.objects.for_trial(trial)
         new.starts = of([trial], self.starts, "start")
         new.goals = None if self.goals is None else of([trial], self.goals, "goal")
+        new.carried = of([trial], self.carried, "places to carry the vehicle to")
         return new
 
     def arrangement(self) -> Any:
@@ -385,6 +407,8 @@ class Arena(PureWorld):
             "colours": self.objects.colours(trials),
             "heights": self.objects.heights(trials),
             "windows": self.objects.times(trials),
+            "carried": of(trials, self.carried, "places to carry the vehicle to"),
+            "carries": np.full(len(trials), self.carries, np.int32),
         }
 
     def structure(self) -> Hashable:
@@ -409,6 +433,7 @@ class Arena(PureWorld):
             "heading": wrapped(own["start"][2]),
             "encoders": jnp.stack([zero, zero]),
             "touching": zero,
+            "carries": own["carries"],
         }
         if self.camera_every > 1:
             state["frame"] = own["start"].at[2].set(state["heading"])
@@ -431,11 +456,15 @@ class Arena(PureWorld):
             self.contact == "stick",
         )
         counted = state["encoders"] + rolled * (1 + shared["encoder_noise"] * deviates["encoders"][:2])
+        carried, x_y, angle = own["carries"] != state["carries"], own["carried"][:2], own["carried"][2]
+        position = jnp.where(carried, x_y, position)
+        turned = wrapped(jnp.where(carried & ~jnp.isnan(angle), angle, state["heading"] + turn))
         new = {
             "position": position,
-            "heading": wrapped(state["heading"] + turn),
+            "heading": turned,
             "encoders": counted - 2 * WRAP * jnp.round(counted / (2 * WRAP)),
             "touching": jnp.asarray(touched, boxes.dtype),
+            "carries": own["carries"],
         }
         if self.camera_every > 1:
             pose = jnp.concatenate([position, new["heading"][None]])
