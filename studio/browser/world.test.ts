@@ -17,13 +17,8 @@ const DRIVING = {
   deodar: 1,
   name: "driving",
   dt: 64,
-  axes: {
-    column: { name: "column", lower: 0, upper: 39, samples: 40 },
-    row: { name: "row", lower: 0, upper: 29, samples: 30 },
-    channel: { name: "channel", lower: 0, upper: 2, samples: 3 },
-  },
+  axes: {},
   elements: {
-    eye: { kind: "Sensor", id: "00000005", axes: ["column", "row", "channel"], sensor: "camera" },
     "go left": axisless("Boost", "00000001", { amplitude: 1000 }),
     left: axisless("Motor", "00000002", { motor: "left" }),
     "go right": axisless("Boost", "00000003", { amplitude: 1000 }),
@@ -83,12 +78,13 @@ test("the world opens by itself, and a tooltip shows the name and position of an
 });
 
 test("a colour places a block before the robot, which its camera shows, and removes it again", async () => {
-  const picture = world().getByRole("img", { name: "Picture of the camera, eye" });
+  const picture = world().getByRole("img", { name: "Picture of the camera, camera" });
   const red = () =>
     picture.evaluate((canvas: HTMLCanvasElement) => {
       const data = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
       return [...data].filter((value, i) => i % 4 === 0 && value > 180 && (data[i + 1] ?? 255) < 80).length;
     });
+  await world().getByRole("button", { name: "Add its camera" }).click();
   const swatch = world().getByRole("button", { name: "red block" });
   await expect.poll(() => picture.evaluate((canvas: HTMLCanvasElement) => canvas.width)).toBe(40);
   await swatch.click();

@@ -1657,11 +1657,13 @@ export type WorldPreview = {
 
 // The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 //
-// `note` is a sentence on what a record does not contain of the world.
+// `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
+// that name.
 export type WorldScene = {
   type: "scene";
   scene: SceneView | null;
   note?: string;
+  camera?: boolean;
 };
 
 // A setting of a world; `form` is the type of its value, `file` a file that it opens.

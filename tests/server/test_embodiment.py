@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.server.embodiment import Embodiment, problems
+from deodar.server.embodiment import Embodiment, problems, warnings
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def driving() -> dd.Model:
@@ -26,6 +30,15 @@ def test_an_example_with_all_sensors_and_motors_is_the_default() -> None:
     assert isinstance(picture, Picture) and found.label(picture) == "Picture: an example"
     assert isinstance(arena, Arena) and found.label(arena) == "Arena: an example"
     assert found.world(dd.Model("blind").document) is None and found.label(None) == ""
+
+
+def test_an_example_that_the_axes_of_a_planner_cover_is_preferred() -> None:
+    planner = dd.load(EXAMPLES / "spa.json").document
+    world = Embodiment().world(planner)
+    assert isinstance(world, Arena)
+    assert world.source == "z"
+    assert not problems(planner, world) and not warnings(planner, world)
+    assert len(warnings(planner, Arena.example())) == 3
 
 
 def test_a_world_in_use_is_kept_where_it_fits() -> None:

@@ -68,6 +68,7 @@ def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> No
             "fixed": False,
         }
         assert scene(one)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
+        assert one.said["scene"]["camera"], "an e-puck has one"
         assert "bodies" not in one.said, "it did not ask"
         await one.do("watch_world", on=True)
         await one.do("speed", factor=None)
@@ -156,7 +157,7 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
     async def story(one: Page) -> None:
         await one.open("open_file", path="node.json")
         await one.do("watch_world", on=True)
-        assert one.said["scene"] == {"type": "scene", "scene": None, "note": ""}
+        assert one.said["scene"] == {"type": "scene", "scene": None, "note": "", "camera": False}
         (problem,) = (await one.ask("move_object", name="crate", x=1, y=1))["problems"]
         assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]
 

@@ -304,7 +304,9 @@ class PageConnection:
 
     def _news_of_world(self, state: PublishedState) -> list[Message]:
         out: list[Message] = []
-        self._new("scene", scene.scene(state.scene, self._hub.project.scene[1]), out)
+        session, note = self._hub.engine.session, self._hub.project.scene[1]
+        world = None if session is None or self._hub.project.record is not None else session.world
+        self._new("scene", scene.scene(state.scene, note, world), out)
         moved = None if self.page.sent_bodies is None else self.page.sent_bodies.news(state)
         return out if moved is None else [*out, moved]
 

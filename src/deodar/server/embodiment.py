@@ -6,7 +6,7 @@ import base64
 import binascii
 import dataclasses as dc
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -62,8 +62,8 @@ class Embodiment:
                 return known
         for cls in registry.kinds("worlds").values():
             if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}:
-                with errors_of(cls, "example"):
-                    return cls.example()
+                with errors_of(cls, "examples"):
+                    return _best(cls.examples(), doc)
         return self.chosen
 
     def label(self, world: World | None) -> str:
@@ -138,6 +138,17 @@ class Embodiment:
             )
         self.chosen = world
         self._name = _named(kind, name)
+
+
+def _best(worlds: Iterable[World], doc: Document) -> World:
+    """Return the first world without problems and warnings, or else the one with the fewest."""
+    counts: list[tuple[int, World]] = []
+    for world in worlds:
+        if not missing(world, doc):
+            counts.append((len(agreement.judge(doc, world)), world))
+            if counts[-1][0] == 0:
+                break
+    return min(counts, key=lambda one: one[0])[1]
 
 
 def missing(world: World, doc: Document) -> list[str]:

@@ -6,13 +6,24 @@ from deodar.live.published import PublishedState
 from deodar.live.track import Trail
 from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, SceneView, WorldScene
 from deodar.worlds import _scene
+from deodar.worlds._base import World
 
 DIGITS = 6
 """Decimal digits of positions in messages: more than a screen shows."""
 
 
-def scene(seen: _scene.Scene | None, note: str = "") -> WorldScene:
-    """Return the message with the boxes and marks of a scene, which change only when the user moves them."""
+CAMERA = "camera"
+"""Name of the sensor whose picture the panel of the world shows."""
+
+
+def scene(seen: _scene.Scene | None, note: str = "", world: World | None = None) -> WorldScene:
+    """Return the message with the boxes and marks of a scene, which change only when the user moves them.
+
+    Args:
+        seen: the scene; None: the world has no view from above.
+        note: what a record does not contain of it.
+        world: the running world; None: a record is open.
+    """
     if seen is None:
         return WorldScene(scene=None, note=note)
     boxes = [
@@ -29,7 +40,7 @@ def scene(seen: _scene.Scene | None, note: str = "") -> WorldScene:
     ]
     marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
     plan = SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks)
-    return WorldScene(scene=plan, note=note)
+    return WorldScene(scene=plan, note=note, camera=world is not None and CAMERA in world.sensors)
 
 
 class SentBodies:

@@ -594,11 +594,13 @@ class SceneView(Data, frozen=True):
 class WorldScene(Message, frozen=True, tag="scene"):
     """The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 
-    `note` is a sentence on what a record does not contain of the world.
+    `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
+    that name.
     """
 
     scene: SceneView | None
     note: str = ""
+    camera: bool = False
 
 
 @MESSAGES.register

@@ -208,6 +208,14 @@ class World:
         """
         return iter(())
 
+    @classmethod
+    def examples(cls) -> Iterator[World]:
+        """Yield the worlds from which the studio takes one if the user chose none: the first in which a model
+        runs without a warning. By default the only one is `example()`.
+        """
+        kind: Any = cls
+        yield kind.example()
+
     @staticmethod
     def example_axes(sensor: str) -> Axes:
         """Return axes over which a sensor of the example can be read."""

@@ -1,6 +1,6 @@
 // Colours of blocks: a click places a block in front of the robot, or removes it where it is there.
 
-import { type KeyboardEvent, useState } from "react";
+import { type KeyboardEvent, type ReactNode, useState } from "react";
 
 import type { SceneView } from "../protocol";
 import { request } from "../socket";
@@ -14,9 +14,10 @@ type PaletteProps = {
   choose: (color: number[]) => void;
   select: (name: string | null) => void;
   tell: (reason: string) => void;
+  children?: ReactNode;
 };
 
-export function BlockPalette({ scene, chosen, choose, select, tell }: PaletteProps) {
+export function BlockPalette({ scene, chosen, choose, select, tell, children }: PaletteProps) {
   const [own, setOwn] = useState("#f08020");
   const present = new Set(scene.boxes.map(({ name }) => name));
   const remove = (name: string) => {
@@ -82,6 +83,7 @@ export function BlockPalette({ scene, chosen, choose, select, tell }: PalettePro
           choose(colourOf(event.currentTarget.value));
         }}
       />
+      {children}
     </div>
   );
 }

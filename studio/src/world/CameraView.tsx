@@ -1,16 +1,21 @@
 // What the camera of the robot shows, beside the world from above.
 
+import { Button } from "@mantine/core";
 import { useMemo, useRef } from "react";
 
 import { isPicture, portAxes } from "../plots/kinds";
 import { paintPicture } from "../plots/paint";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";
+import { request } from "../socket";
 import { useStudio } from "../store";
 import type { Wish } from "../streams";
 
 const CAMERA = "camera";
 const MOST = 256;
+// The size of the picture of a sensor that is added.
+const COLUMNS = 40;
+const ROWS = 30;
 
 // The first sensor of the document that reads a camera as a picture; null: it has none.
 export function useCamera(): ElementView | null {
@@ -22,6 +27,25 @@ export function useCamera(): ElementView | null {
           element.values.sensor === CAMERA &&
           isPicture(portAxes(document, element, "output") ?? []),
       ) ?? null,
+  );
+}
+
+// A sensor of the robot's camera for a model that has none.
+export function AddCamera() {
+  const axis = (name: string, samples: number) => ({ name, lower: 0, upper: samples - 1, samples });
+  const axes = [axis("column", COLUMNS), axis("row", ROWS), axis("channel", 3)];
+  const add = () =>
+    void request({ type: "add_element", kind: "Sensor", name: CAMERA, values: { sensor: CAMERA, axes } });
+  return (
+    <Button
+      size="compact-xs"
+      variant="subtle"
+      color="gray"
+      title="Add a sensor to the model that reads the camera of the robot; its picture appears here"
+      onClick={add}
+    >
+      Add its camera
+    </Button>
   );
 }
 

@@ -17,7 +17,7 @@ import { pageLook } from "../plots/look";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { BlockPalette } from "./BlockPalette";
-import { CameraView, useCamera } from "./CameraView";
+import { AddCamera, CameraView, useCamera } from "./CameraView";
 import { Carrier } from "./carrier";
 import { draw } from "./draw";
 import { live } from "./live";
@@ -52,6 +52,7 @@ const ARROWS: Record<string, PlanPoint> = {
 export function World() {
   const scene = useSyncExternalStore(live.listen, live.scene);
   const note = useSyncExternalStore(live.listen, live.note);
+  const hasCamera = useSyncExternalStore(live.listen, live.camera);
   const record = useStudio((state) => state.document?.record != null);
   const open = useStudio((state) => state.connection === "open");
   const camera = useCamera();
@@ -243,7 +244,9 @@ export function World() {
           choose={setColour}
           select={setSelected}
           tell={(reason) => hand.current?.refuse(reason)}
-        />
+        >
+          {camera === null && hasCamera && <AddCamera />}
+        </BlockPalette>
       )}
       <div className="world-body">
         <div className="world-plan">

@@ -3,7 +3,14 @@
 
 import type { Bodies, BodyView, WorldScene, SceneView } from "../protocol";
 
-export type Seen = { scene: SceneView | null; note: string; bodies: BodyView[]; path: number[][] };
+export type Seen = {
+  scene: SceneView | null;
+  note: string;
+  // Whether the world has a camera.
+  camera?: boolean;
+  bodies: BodyView[];
+  path: number[][];
+};
 
 export class LiveWorld {
   private seen: Seen = { scene: null, note: "", bodies: [], path: [] };
@@ -18,6 +25,8 @@ export class LiveWorld {
 
   readonly note = (): string => this.seen.note;
 
+  readonly camera = (): boolean => this.seen.camera ?? false;
+
   readonly listen = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
@@ -25,7 +34,12 @@ export class LiveWorld {
 
   take(message: WorldScene | Bodies): void {
     if (message.type === "scene") {
-      this.seen = { ...this.seen, scene: message.scene, note: message.note ?? "" };
+      this.seen = {
+        ...this.seen,
+        scene: message.scene,
+        note: message.note ?? "",
+        camera: message.camera ?? false,
+      };
     } else {
       const { bodies, fresh, path } = message;
       this.seen = { ...this.seen, bodies, path: fresh ? path : [...this.seen.path, ...path] };

@@ -662,6 +662,12 @@ class Arena(PureWorld):
             outliers=0.02,
         )
 
+    @classmethod
+    def examples(cls) -> Iterator[Arena]:
+        """Yield the example, and a published maze with the start and the goal of its case 3, for planners."""
+        yield cls.example()
+        yield cls("z", start=(-0.45, 0.55, 0.0), goal=(-0.65, 0.65), place_noise=0.005, place_every=2)
+
     @staticmethod
     def example_axes(sensor: str) -> Axes:
         plane = (Axis("x", 0.0, 1.2, 13, unit="m"), Axis("y", 0.0, 0.8, 9, unit="m"))
