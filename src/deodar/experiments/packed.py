@@ -52,6 +52,11 @@ def repeat(handed: PackedExperiment, trial: int, watch: Sequence[str], path: Pat
     return _opened(handed).repeat(trial, watch, path)
 
 
+def prepare(handed: PackedExperiment) -> None:
+    """Open an experiment in a worker, which has then imported what a repetition needs."""
+    _opened(handed)
+
+
 # the next piece of the same experiment finds the compiled programs that a model keeps
 @functools.lru_cache(maxsize=1)
 def _opened(handed: PackedExperiment) -> Setup:

@@ -8,7 +8,7 @@ import os
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from deodar import codec
 from deodar.batch.pool import Pool
@@ -82,6 +82,7 @@ class ExperimentRun:
         else:
             self.state = "complete"
         self._changed()
+        self._prepare()
 
     def _take(self, progress: Progress) -> None:
         known = {row["trial"] for row in self.rows}
@@ -129,21 +130,42 @@ class ExperimentRun:
                 )
         return path
 
+    def prepare(self) -> None:
+        """Start the worker that repeats trials, in a thread, for results that were opened: to import what it
+        needs is half of the time of the first repetition.
+        """
+        self._thread = threading.Thread(target=self._prepare, name="deodar-repeating", daemon=True)
+        self._thread.start()
+
+    def _prepare(self) -> None:
+        # an error appears when a trial is repeated
+        with self._repeating, contextlib.suppress(DeodarError, OSError):
+            if self.rows and self._pool is None and not self._closing.is_set():
+                self._ask(packed.prepare, packed.PackedExperiment.of(self.setup))
+
     def _again(self, trial: int, path: Path) -> Row:
-        """Repeat a trial in a worker, which stays for the next one: its programs are compiled."""
+        handed = packed.PackedExperiment.of(self.setup)
+        found: list[Row] = self._ask(packed.repeat, handed, trial, self.recorded(), path)
+        if not found:
+            raise RecordError(f"trial {trial} was not repeated: its experiment was closed")
+        return found[0]
+
+    def _ask(self, function: Callable[..., Any], *arguments: Any) -> list[Any]:
+        """Return the result of a function in a worker, which stays for the next one: its programs are
+        compiled. The list is empty if `close` was called meanwhile.
+        """
         if self._pool is None:
             self._pool = Pool(1, main=True).__enter__()
         try:
-            self._pool.give(
-                trial, packed.repeat, packed.PackedExperiment.of(self.setup), trial, self.recorded(), path
-            )
+            self._pool.give(0, function, *arguments)
             while not self._closing.is_set():
-                for _, row in self._pool.wait(0.2):
-                    return row
-            raise RecordError(f"trial {trial} was not repeated: its experiment was closed")
+                for _, result in self._pool.wait(0.2):
+                    return [result]
         except BaseException:
             self._end_pool()
             raise
+        self._end_pool()
+        return []
 
     def _end_pool(self) -> None:
         pool, self._pool = self._pool, None

@@ -248,6 +248,7 @@ class OpenExperiment:
             run.state = "complete" if len(rows) == run.setup.trials else "stopped"
             self.run = run
             self.number += 1
+            run.prepare()
 
     def _named(self, place: Path, name: str) -> tuple[Callable[[], Document], Path | None]:
         """Return a function that reads the model of an experiment, and the file of this model."""
