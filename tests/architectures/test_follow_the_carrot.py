@@ -78,3 +78,9 @@ def test_a_run_stops_at_the_limit_of_steps():
 def test_parameters_out_of_range_are_refused():
     with pytest.raises(ParameterError, match="above 0"):
         Carrot(speed=0)
+
+
+def test_lengths_for_cm_are_refused_in_an_arena_in_m():
+    world = Arena(BEND, (0.1, 0.1, 0), (0.1, 0.5))
+    with pytest.raises(ParameterError, match=r"ending.radius: is 7 m, longer than the arena, 0.6 x 0.6 m"):
+        follow(world, [[(0.1, 0.1), (0.1, 0.5)]], [0])

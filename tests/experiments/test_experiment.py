@@ -16,7 +16,7 @@ import deodar as dd
 from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning
 from deodar.experiments import experiment as module
 from deodar.experiments.actions import End, Move, Place, Push, Ramp, Record, Remove, Reset, Set, Snapshot
-from deodar.experiments.events import All, AnyOf, Appears, Crosses, Reached, Vanishes
+from deodar.experiments.events import All, AnyOf, Appears, Crosses, Leaves, Reached, Vanishes, Within
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor, assign
 from deodar.experiments.measures import Measure
@@ -395,6 +395,8 @@ def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
         ({"record": ["w.output"]}, "record", "nothing is called 'w.output'"),
         ({"world": "arena:nowhere.json"}, "", "nowhere.json"),
         ({"every": 0.5}, "every", "not a multiple"),
+        ({"world": "arena:blocks", "conditions": [Within("a", 7.0)]}, "conditions.a", "so it always holds"),
+        ({"world": "arena:blocks", "conditions": [Leaves("a", 7.0)]}, "conditions.a", "so it never holds"),
     ],
 )  # fmt: skip
 def test_invalid_experiments_are_refused_before_any_trial_runs(tmp_path, changes, where, what):

@@ -7,6 +7,7 @@ vehicle in the same world as an architecture, through the same sensors (`place`,
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -123,8 +124,20 @@ def follow(
         ending: when a copy ends; none: the defaults of `Ending`.
         seed: seed of all noise.
         between: called after each step.
+
+    Raises:
+        ParameterError: the radius of the ending or the distance of the carrot is longer than the arena.
     """
     carrot, ending = carrot or Carrot(), ending or Ending()
+    left, low, right, high = (v / arena.scale for v in arena.layout.border)
+    for what, length in (("ending.radius", ending.radius), ("carrot.ahead", carrot.ahead)):
+        if length >= math.hypot(right - left, high - low):
+            raise ParameterError(
+                f"is {length:g} {arena.unit}, longer than the arena, {right - left:g} x {high - low:g}"
+                f" {arena.unit}",
+                where=what,
+                fix="Choose an arena in cm, for which the defaults are meant: unit='cm'",
+            )
     points = [np.asarray(path, float) for path in paths]
     longest = max(map(len, points))
     filled = np.stack([np.concatenate([p, np.repeat(p[-1:], longest - len(p), axis=0)]) for p in points])

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from deodar.elements.sensor import Sensor
 from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did_you_mean
 from deodar.experiments.actions import Record, changed, targets
 from deodar.experiments.design import Design
-from deodar.experiments.events import Reached
+from deodar.experiments.events import Leaves, Reached, Within
 from deodar.experiments.observable import PLACE, Observable, mask
 from deodar.experiments.observations import require
 from deodar.model import edit, find
+from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.resolve import resolve
 from deodar.numerics.sigmoids._base import SigmoidFunction
@@ -57,6 +60,9 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
     looks = [(f"conditions.{c.name}", v) for c in experiment.conditions for v in c.views]
     for where, view in [*looks, *((f"measures.{m.name}", m.view) for m in experiment.measures)]:
         attempt(where, lambda view=view: _view(view, model, world))
+    for condition in experiment.conditions:
+        if isinstance(condition, (Within, Leaves)):
+            attempt(f"conditions.{condition.name}", lambda c=condition: _radius(c, doc, world))
     names = [c.name for c in experiment.conditions]
     for k, action in enumerate(experiment.actions):
         attempt(f"actions.{k}", lambda action=action: targets(action, doc))
@@ -170,6 +176,27 @@ def _view(view: Observable, model: Model, world: World | None) -> None:
             " one peak"
         )
         raise ParameterError(what, fix=f"Measure {entry.path}.activation, or give threshold=0.5")
+
+
+def _radius(event: Within | Leaves, doc: Document, world: World | None) -> None:
+    """Refuse a radius that is longer than the world, which probably has another unit."""
+    entries = {e.path: e.element for e in doc.entries}
+    element = entries.get(event.of.removesuffix(".output"))
+    signal = (
+        None
+        if world is None
+        else world.sensors.get(element.sensor if isinstance(element, Sensor) else event.of)
+    )
+    if signal is None or signal.bounds is None:
+        return
+    width, height = (upper - lower for lower, upper in signal.bounds[:2])
+    if event.radius >= math.hypot(width, height):
+        unit, when = signal.unit.split(",")[0], "always" if isinstance(event, Within) else "never"
+        raise ParameterError(
+            f"its radius {event.radius:g} is longer than the world, {width:g} x {height:g} {unit}, so it"
+            f" {when} holds",
+            fix=f"Give the radius in {unit}, or choose another unit of the world",
+        )
 
 
 def _no_event(name: str, known: list[str]) -> None:

@@ -80,7 +80,11 @@ def signals(
         "place": Signal("x and y of the vehicle, with noise", (2,), unit, each=True, bounds=plane),
         "heading": Signal("heading; 0 along x, counter-clockwise", (), "rad", each=True),
         "pose": Signal(
-            "true x, y and heading, for records and figures", (3,), f"{unit}, {unit}, rad", each=True
+            "true x, y and heading, for records and figures",
+            (3,),
+            f"{unit}, {unit}, rad",
+            each=True,
+            bounds=None if plane is None else (*plane, (-math.pi, math.pi)),
         ),
         "encoders": Signal("motor steps counted by the left and the right wheel", (2,), "step", each=True),
         "touching": Signal("1 while it touches something, else 0", (), each=True),
