@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Sequence
 from typing import Any
 
@@ -93,8 +94,13 @@ def requires_equal(
         [Snapshot(31, "then", ["u", "f.output"]), Snapshot(3, "after", ["f"], when="up")],
         [Reset(31), Reset(4, when="up"), Set(31, "u.tau", 15.0)],
         [End(63, "late"), End(17, "early", when="up")],
+        [
+            Set([10, 25, 0, 31, 42], "u.resting_level", 1.0),
+            Push([50, 61, 0, 47, 33], "f", 6.0, 13),
+            Snapshot([3, 4, 5, 6, 7], "after", ["f"], when="up"),
+        ],
     ],
-    ids=["Set", "Set shared", "Ramp", "Push", "Record", "Snapshot", "Reset", "End"],
+    ids=["Set", "Set shared", "Ramp", "Push", "Record", "Snapshot", "Reset", "End", "times of each trial"],
 )
 def test_each_action_on_a_batch_gives_the_trials_that_run_alone(actions: list[Action]) -> None:
     """At a time between two samples, and after an event that the trials have at different times."""
@@ -173,6 +179,25 @@ def test_what_was_learned_starts_the_next_phase(keep_learned: bool) -> None:
         assert trial.events["up"] is not None
 
 
+def test_an_action_with_a_time_for_each_trial_is_part_of_the_file_and_needs_enough_times() -> None:
+    several = [Set([10, 20, 30], "u.resting_level", 1.0), Push([5, 6, 7], "u", 1.0, 5)]
+    experiment = dd.Experiment("schedules", noisy(), 60, 3, actions=several)
+    plain = experiment.to_data()
+    assert plain["actions"][0]["at"] == [10, 20, 30]
+    assert dd.Experiment.from_data({**plain, "model": "m.json"}).actions == experiment.actions
+    assert not experiment.check() and experiment.setup().batched
+    (problem,) = dc.replace(experiment, trials=4, actions=several[:1]).check()
+    assert (problem.where, problem.what) == ("actions.0: Set.at", "there are 3 times, and trial 3 is run")
+    (problem,) = dc.replace(experiment, actions=[Set([10, 61, 3], "u.tau", 10.0)]).check()
+    assert problem.what.startswith("is never done: it is due at 61")
+    for run in (
+        lambda: run_batch(noisy(), 60, [3], actions=several),
+        lambda: run_trial(noisy(), 60, trial=3, actions=several),
+    ):
+        with pytest.raises(ParameterError, match="there are 3 times, and trial 3 is run"):
+            run()
+
+
 # ------------------------------------------------------------------------------------------------- in a world
 
 
@@ -211,7 +236,7 @@ WATCH = ["pose.output", "map.output", "goal.output"]
             Move(7, "goal", (50, 30), when="far"),
             Move(9, "own", (9, 36), when="far"),
         ],
-        [Remove(31, "far"), Remove(12, "own", when="touched")],
+        [Remove([31, 12, 20, 30, 25], "far"), Remove(12, "own", when="touched")],
         [
             Place(20, "box", (60, 10), (4, 9)),
             Reset(20),

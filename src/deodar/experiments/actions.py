@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
-from deodar.errors import UnknownName, WorldError, did_you_mean
+from deodar.errors import ParameterError, UnknownName, WorldError, did_you_mean
 from deodar.experiments.running import RunningTrial
 from deodar.family import Family
 from deodar.model import find
@@ -15,11 +15,14 @@ from deodar.parameters import Part, PerAxis, Recompile
 from deodar.session.run import whole
 from deodar.worlds._base import World
 
+PerTrial = float | Sequence[float]
+"""A number for all trials, or a list with one for each."""
+
 AT = Recompile(
     "time",
     role="moment",
     lower=0.0,
-    meaning="document time of the action; with `when` the time after that event",
+    meaning="document time of the action; with `when` the time after that event; or one for each trial",
 )
 WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own", names="event")
 
@@ -28,15 +31,36 @@ class Action(Part):
     """Base of actions on a trial.
 
     Attributes:
-        at: document time of the action; with `when` the time from that event on.
+        at: document time of the action; with `when` the time from that event on. A list has one time for each
+            trial, by its number.
         when: name of an event; empty: the action has a time of its own.
     """
 
-    at: float
+    at: PerTrial
     when: str
 
     world_method: ClassVar[str] = ""
     """Name of the world's method that `apply` calls: "place", "move" or "remove"; empty: none."""
+
+    @property
+    def times(self) -> tuple[float, ...]:
+        """The time for all trials, or that of each."""
+        return tuple(self.at) if isinstance(self.at, Sequence) else (self.at,)
+
+    def time(self, trial: int) -> float:
+        """Return the time for a trial.
+
+        Raises:
+            ParameterError: there are times for fewer trials.
+        """
+        times = self.times if isinstance(self.at, Sequence) else self.times * (trial + 1)
+        if trial >= len(times):
+            raise ParameterError(
+                f"there are {len(times)} times, and trial {trial} is run",
+                where=f"{type(self).__name__}.at",
+                fix="Give one for all trials, or one for each",
+            )
+        return times[trial]
 
     def sets(self) -> Iterator[tuple[str, Any]]:
         """Yield the parameters of the model that the action changes, each with a value that it gets; the
@@ -69,7 +93,8 @@ class Place(Action):
     """Put an object into the world, or replace the object of that name.
 
     Attributes:
-        at: document time from which on the world contains it; with `when` the time after that event.
+        at: document time from which on the world contains it; with `when` the time after that event; or one
+            for each trial.
         object: name of the object in the world.
         center: x and y of its centre, in the unit of the world.
         size: along x and y.
@@ -77,7 +102,7 @@ class Place(Action):
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     object: Annotated[str, Recompile(meaning="name of the object in the world")]
     center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
     size: Annotated[PerAxis, Recompile(meaning="along x and y")]
@@ -104,14 +129,14 @@ class Move(Action):
     """Move an object of the world, or carry its vehicle.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         object: name of the object in the world, or of the vehicle.
         center: x and y of its new centre, in the unit of the world; of a vehicle also its heading (rad), if
             that changes, too.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     object: Annotated[str, Recompile(meaning="name of the object in the world")]
     center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
     when: Annotated[str, WHEN] = ""
@@ -133,12 +158,12 @@ class Remove(Action):
     """Remove an object from the world.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         object: name of the object in the world.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     object: Annotated[str, Recompile(meaning="name of the object in the world")]
     when: Annotated[str, WHEN] = ""
 
@@ -154,13 +179,13 @@ class Set(Action):
     """Set a parameter of the model.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         path: the parameter, of an element or of the document.
         value: a number, or another valid value of the parameter.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     path: Annotated[str, Recompile(meaning="the parameter", names="parameter")]
     value: Annotated[object, Recompile(meaning="new value of the parameter")]
     when: Annotated[str, WHEN] = ""
@@ -178,7 +203,7 @@ class Ramp(Action):
     """Change a parameter of the model linearly from one value to another, at each step.
 
     Attributes:
-        at: document time at which it begins; with `when` the time after that event.
+        at: document time at which it begins; with `when` the time after that event; or one for each trial.
         path: the parameter, a number of an element or of the document.
         end: its value at the end and afterwards.
         lasting: duration in document time.
@@ -186,7 +211,7 @@ class Ramp(Action):
         when: the event after which it begins; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     path: Annotated[str, Recompile(meaning="the parameter", names="parameter")]
     end: Annotated[float, Recompile(meaning="its value at the end")]
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="how long it takes")]
@@ -216,21 +241,21 @@ class Push(Action):
     peak.
 
     Attributes:
-        at: document time at which it begins; with `when` the time after that event.
+        at: document time at which it begins; with `when` the time after that event; or one for each trial.
         element: path of the field or node.
         amount: value that is added to its input.
         lasting: duration in document time.
         when: the event after which it begins; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     element: Annotated[str, Recompile(meaning="path of the field or node", names="element")]
     amount: Annotated[float, Recompile("activation", meaning="value added to its input")]
     lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="for how long")]
     when: Annotated[str, WHEN] = ""
 
     def apply(self, running: RunningTrial) -> None:
-        if self.when:  # a push with a time of its own is part of the model, with a window
+        if self in running.pushes:  # another one is part of the model, with a window
             path = f"{running.pushes[self]}.amplitude"
             running.set(path, self.amount)
             running.later(
@@ -246,12 +271,12 @@ class Record(Action):
     A trial with an action that starts recording is not recorded before that action.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         on: whether values are recorded from then on.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     on: Annotated[bool, Recompile(meaning="whether recording is on from then on")] = True
     when: Annotated[str, WHEN] = ""
 
@@ -265,13 +290,13 @@ class Snapshot(Action):
     """Record the values of ports at one moment.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         label: name of the snapshot in the record.
         of: paths of the ports; the path of a field alone means its activation.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     label: Annotated[str, Recompile(meaning="name in the record")]
     of: Annotated[Sequence[str], Recompile(meaning="paths of the ports", names="port")]
     when: Annotated[str, WHEN] = ""
@@ -296,12 +321,12 @@ class Reset(Action):
     what the elements have learned: weights, gains and memory traces (`Element.learned_parameters`).
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         when: the event after which the action is carried out; empty: at a time of its own.
         keep_learned: whether learned states stay.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     when: Annotated[str, WHEN] = ""
     keep_learned: Annotated[bool, Recompile(meaning="whether weights and traces that were learned stay")] = (
         False
@@ -317,12 +342,12 @@ class End(Action):
     """End the trial.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event.
+        at: document time of the action; with `when` the time after that event; or one for each trial.
         outcome: the outcome in the row of the trial.
         when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[float, AT]
+    at: Annotated[PerTrial, AT]
     outcome: Annotated[str, Recompile(meaning="outcome in the row")]
     when: Annotated[str, WHEN] = ""
 

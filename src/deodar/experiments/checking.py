@@ -100,18 +100,17 @@ def _times(
     if experiment.every is not None:
         attempt("every", lambda: _positive(whole(experiment.every or 0.0, dt, "every")))
     for k, action in enumerate(experiment.actions):
-        attempt(
-            f"actions.{k}",
-            lambda action=action: whole(
-                action.at if action.when else action.at - t0, dt, "the time of an action"
-            ),
-        )
+        for at in action.times:
+            moment = at if action.when else at - t0
+            if not attempt(f"actions.{k}", lambda moment=moment: whole(moment, dt, "the time of an action")):
+                break
+        attempt(f"actions.{k}", lambda action=action: action.time(len(experiment.cells) - 1))
         attempt(
             f"actions.{k}",
             lambda action=action: whole(getattr(action, "lasting", 0.0), dt, "how long it lasts"),
         )
         if not action.when:
-            attempt(f"actions.{k}", lambda action=action: within(action.at, "is never done"))
+            attempt(f"actions.{k}", lambda action=action: within(max(action.times), "is never done"))
     for c in experiment.conditions:
         if isinstance(c, Reached):
             attempt(f"conditions.{c.name}", lambda c=c: within(c.at, "can never hold"))

@@ -197,7 +197,7 @@ class CopyTrial(RunningTrial):
         actions: Sequence[ScheduledAction],
         pushes: Mapping[Any, str],
     ) -> None:
-        super().__init__(actions, copies.batch.clock.time, copies.dt, pushes)
+        super().__init__(copies.trials[row], actions, copies.batch.clock.time, copies.dt, pushes)
         self._copies, self.row = copies, row
         self._doc: Document | None = None
         self._world: PureWorld | None = None

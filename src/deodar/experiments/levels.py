@@ -30,7 +30,7 @@ def acted(
     Args:
         doc: the document, with the boosts of pushes.
         actions: the actions on each trial.
-        pushes: for each push that waits for an event, the path of its boost.
+        pushes: for each push whose time is not the same in all trials, the path of its boost.
         values: for parameter paths the value of each trial.
         trials: number of trials.
 

@@ -89,7 +89,7 @@ def run_trial(
     )
     if gap == 0:
         raise TimeError("every is 0; expected at least one step")
-    running = SessionTrial(session, actions, pushes, any(isinstance(a, Reset) for a in actions))
+    running = SessionTrial(session, trial, actions, pushes, any(isinstance(a, Reset) for a in actions))
     running.recording = not any(isinstance(a, Record) and a.on for a in actions)
     sampler = _Sampler(session, watch, [*(v for e in events for v in e.views), *(m.view for m in measures)])
     times, recorded, kept = list[float](), list[float](), list[dict[str, np.ndarray]]()

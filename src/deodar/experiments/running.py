@@ -29,13 +29,12 @@ class ScheduledAction(Protocol):
     world_method: ClassVar[str]
 
     @property
-    def at(self) -> float:
-        """Document time; with `when` the time after that event."""
-        ...
-
-    @property
     def when(self) -> str:
         """The event after which it is done; empty: at a time of its own."""
+        ...
+
+    def time(self, trial: int) -> float:
+        """Return the document time for a trial; with `when` the time after that event."""
         ...
 
     def apply(self, running: Any) -> None:
@@ -48,14 +47,19 @@ class RunningTrial:
 
     Attributes:
         dt: Euler step.
-        pushes: for each push that waits for an event, the path of its boost in the model.
+        pushes: for each push whose time is not the same in all trials, the path of its boost in the model.
         recording: whether values are recorded now.
         snapshots: the recorded snapshots, by name.
         outcome: the outcome with which an action ended the trial; empty while it runs.
     """
 
     def __init__(
-        self, actions: Sequence[ScheduledAction], start: float, dt: float, pushes: Mapping[Any, str]
+        self,
+        trial: int,
+        actions: Sequence[ScheduledAction],
+        start: float,
+        dt: float,
+        pushes: Mapping[Any, str],
     ) -> None:
         self.dt = dt
         self.pushes = pushes
@@ -67,7 +71,8 @@ class RunningTrial:
         self._waiting: list[tuple[int, ScheduledAction]] = []
         self._count = 0
         for action in actions:
-            moment = whole(action.at if action.when else action.at - start, dt, "the time of an action")
+            at = action.time(trial)
+            moment = whole(at if action.when else at - start, dt, "the time of an action")
             if action.when:
                 self._waiting.append((moment, action))
             else:
@@ -166,10 +171,15 @@ class SessionTrial(RunningTrial):
     """
 
     def __init__(
-        self, session: Session, actions: Sequence[ScheduledAction], pushes: Mapping[Any, str], restarts: bool
+        self,
+        session: Session,
+        trial: int,
+        actions: Sequence[ScheduledAction],
+        pushes: Mapping[Any, str],
+        restarts: bool,
     ) -> None:
         self.session = session
-        super().__init__(actions, session.time, session.dt, pushes)
+        super().__init__(trial, actions, session.time, session.dt, pushes)
         self._start: SessionSnapshot | None = session.snapshot() if restarts else None
 
     @property
