@@ -113,8 +113,8 @@ def experiment(**changes):
 
 def test_a_batch_and_single_trials_measure_equal_positions_across_the_ends():
     together = experiment().run()["place"].values
-    # an action makes the trials run one by one
-    single = experiment(actions=[Set(60, "u.tau", 10.0)]).run()["place"].values
+    # the action changes nothing, but prevents a batch
+    single = experiment(actions=[Set(60, "u.quadrature", "point")]).run()["place"].values
     np.testing.assert_allclose(together, single, atol=1e-9)
     assert (
         np.abs(together[:, 0] - 9.3).max() < 1 and np.abs((together[:, 1] - 178 + 180) % 360 - 180).max() < 10
@@ -123,7 +123,7 @@ def test_a_batch_and_single_trials_measure_equal_positions_across_the_ends():
 
 
 def test_a_trial_without_a_peak_has_no_position():
-    for actions in ([], [Set(60, "u.tau", 10.0)]):
+    for actions in ([], [Set(60, "u.quadrature", "point")]):
         data = experiment(
             actions=actions, trials=2, measures=[Measure("place", "u.activation", "place", threshold=50.0)]
         ).run()

@@ -26,8 +26,9 @@ class Experiment(Design):
     """An unattended experiment: many trials of a model, each ended by a condition, and a table of the
     results.
 
-    Trials run together in batches if no action changes them and their world, if any, can be computed inside
-    the step; otherwise one by one. Trial k has the noise of trial k of the seed in any batch.
+    Trials run together in batches if their world, if any, can be computed inside the step, and no action sets
+    a parameter that needs another program; otherwise one by one. Trial k has the noise of trial k of the seed
+    in any batch.
 
     Attributes:
         name: name of the experiment.
