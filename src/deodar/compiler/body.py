@@ -92,16 +92,18 @@ class Body:
             name = self.motors[ident].motor
             held[name] = jnp.where(listens, command[None].astype(held[name].dtype), held[name])
 
-        def advance() -> dict[str, PyTree]:
-            with errors_of(self.world, "advance"):
-                now = self.world.advance(shared, own, _copy(state["now"]), _copy(held))
-            now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, _copy(state["now"]))
-            return _rows({"now": now, "sensed": self._sensed(shared, own, now, self.sensed(state))})
+        # without the axis of one: the compiler gives arrays that have it another layout in the branches, and
+        # copies the readings of a batch in each step
+        before = _copy(state["now"]), self.sensed(state)
 
-        moved = lax.cond(
-            (tick + jnp.uint32(1)) % period == 0, advance, lambda: {k: state[k] for k in ("now", "sensed")}
-        )
-        return {"now": moved["now"], "sensed": moved["sensed"], "commands": held}
+        def advance() -> tuple[PyTree, Arrays]:
+            with errors_of(self.world, "advance"):
+                now = self.world.advance(shared, own, before[0], _copy(held))
+            now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, before[0])
+            return now, self._sensed(shared, own, now, before[1])
+
+        now, sensed = lax.cond((tick + jnp.uint32(1)) % period == 0, advance, lambda: before)
+        return {"now": _rows(now), "sensed": _rows(sensed), "commands": held}
 
     def _sensed(self, shared: Arrays, own: PyTree, now: PyTree, before: Arrays) -> Arrays:
         """Return the readings of the sensors; `before` are the last ones, which may be held."""
