@@ -157,21 +157,29 @@ test("a double click places a box, arrow keys move it, Delete removes it", async
   await observer.until(() => object("box 1") === undefined);
 });
 
-test("a panel of 390 pixels shows all colours, and the picture above a plan of its whole width", async () => {
+test("a wide panel shows the picture beside the plan, one of 390 pixels above it", async () => {
   const { page } = studio;
+  const parts = async () => ({
+    picture: await world()
+      .getByRole("img", { name: /^Picture of the camera/ })
+      .boundingBox(),
+    plan: await canvas().boundingBox(),
+  });
   for (const title of ["Architecture", "Inspector", "Sliders"]) {
     await page.getByRole("tab", { name: title }).press("Delete");
   }
+  await expect.poll(async () => (await canvas().boundingBox())?.width).toBeGreaterThan(700);
+  const wide = await parts();
+  expect(wide.picture?.x).toBeGreaterThan((wide.plan?.x ?? 0) + (wide.plan?.width ?? 0));
+  expect(wide.picture?.width).toBeGreaterThan(400);
+  await shot(page, "studio-world-wide");
   await page.setViewportSize({ width: 390, height: 800 });
   await expect.poll(async () => (await canvas().boundingBox())?.width).toBeLessThan(391);
-  const picture = await world()
-    .getByRole("img", { name: /^Picture of the camera/ })
-    .boundingBox();
-  const plan = await canvas().boundingBox();
-  expect(picture?.height).toBeGreaterThan(120);
-  expect((picture?.y ?? 0) + (picture?.height ?? 0)).toBeLessThan(plan?.y ?? 0);
-  expect(plan?.width).toBeGreaterThan(370);
-  expect(plan?.height).toBeGreaterThan(250);
+  const narrow = await parts();
+  expect(narrow.picture?.height).toBeGreaterThan(120);
+  expect((narrow.picture?.y ?? 0) + (narrow.picture?.height ?? 0)).toBeLessThan(narrow.plan?.y ?? 0);
+  expect(narrow.plan?.width).toBeGreaterThan(370);
+  expect(narrow.plan?.height).toBeGreaterThan(250);
   const swatches = await world().getByRole("group", { name: "Blocks in front of the robot" }).boundingBox();
   expect(swatches?.height).toBeLessThan(35);
   await shot(page, "studio-world-390");

@@ -147,6 +147,42 @@ for (const colours of COLOURS) {
     await shot(page, name("world"));
   });
 
+  test(`blocks, ${colours}`, async () => {
+    const parts = ["left", "right"].flatMap((side, k) => [
+      [`go ${side}`, { kind: "Boost", id: `0000000${k + 1}`, axes: [], amplitude: 300 }],
+      [`${side} wheel`, { kind: "Motor", id: `0000000${k + 3}`, axes: [], motor: side }],
+    ]);
+    const document = {
+      deodar: 1,
+      name: "driving",
+      dt: 64,
+      axes: {},
+      elements: Object.fromEntries(parts) as object,
+      connections: ["left", "right"].map((side) => ({
+        source: `go ${side}.output`,
+        target: `${side} wheel.input`,
+      })),
+    };
+    const studio = await open(colours, {
+      file: "driving.json",
+      files: { "driving.json": JSON.stringify(document) },
+      words: ["--world", "arena:blocks, start=0.2 0.4"],
+    });
+    const { page } = studio;
+    const observer = await studio.observe();
+    await observer.runs();
+    for (const title of ["Inspector", "Sliders"]) {
+      await page.getByRole("tab", { name: title }).press("Delete");
+    }
+    const world = page.getByRole("tabpanel", { name: "World", exact: true });
+    await world.getByRole("button", { name: "Add its camera" }).click();
+    await world.getByRole("img", { name: /^Picture of the camera/ }).waitFor(PATIENCE);
+    await world.getByRole("button", { name: "yellow block" }).click();
+    await observer.until(() => observer.world.now.scene?.boxes.some((box) => box.name === "yellow block"));
+    await run(page, 8);
+    await shot(page, name("blocks"));
+  });
+
   test(`problems, ${colours}`, async () => {
     const { page, folder } = await open(colours, { copies: ["examples/selection.json"] });
     const broken = JSON.stringify({
