@@ -43,7 +43,8 @@ class Signal:
         samples = (
             "" if self.shape is None else " x ".join(map(str, self.shape)) if self.shape else "one number"
         )
-        return "; ".join(part for part in (self.meaning, f"{samples} {self.unit}".strip()) if part)
+        new = "" if self.period is None else f"a new value every {self.period:g} ms"
+        return "; ".join(part for part in (self.meaning, f"{samples} {self.unit}".strip(), new) if part)
 
 
 class World:

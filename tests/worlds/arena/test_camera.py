@@ -351,6 +351,7 @@ def test_invalid_periods_of_the_camera_are_refused(every: Any) -> None:
         Arena("blocks", camera_every=every)
     assert Arena.open("blocks, camera_every=4").camera_every == 4
     assert Arena.open("blocks, camera_every=4").sensors["camera"].period == 256.0
+    assert str(Arena.open("blocks, camera_every=4").sensors["line"]).endswith("; a new value every 256 ms")
     assert Arena.again(Arena("blocks", camera_every=4).describe()).camera_every == 4
 
 
