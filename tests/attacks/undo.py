@@ -137,9 +137,11 @@ def written(doc: Document) -> tuple[str, bytes | None]:
 
 
 def whole(doc: Document) -> Any:
-    """Return a document as a page has it, without the warnings, which follow later."""
-    shown = json.loads(msgspec.json.encode(view.document(doc, "", False, 0, 0)))
-    return {key: value for key, value in shown.items() if key != "problems"}
+    """Return a document as a page has it, with problems of its structure: the warnings follow later."""
+    made = converted.convert(doc)
+    shown = view.document(doc, "", False, 0, 0, made)
+    shown = msgspec.structs.replace(shown, problems=view.problems(made.problems, doc))
+    return json.loads(msgspec.json.encode(shown))
 
 
 def _scripted(doc: Document) -> Document:
@@ -193,9 +195,11 @@ def attack(steps: int, seed: int) -> Outcome:
         if outcome.steps % SCRIPTED == 0 and written(_scripted(doc)) != written(doc):
             outcome.errors.append(f"step {outcome.steps}: the script makes another document")
         after = converted.convert(doc, shown)
-        found = converted.patch(shown, after, Status(1, False, 0, 0, "live"), lambda: [])
+        status = Status(1, False, 0, 0, "live")
+        found = converted.patch(
+            shown, after, status, lambda after=after, doc=doc: view.problems(after.problems, doc)
+        )
         page = whole(doc) if found is None else patched(page, json.loads(msgspec.json.encode(found)))
-        page.pop("problems", None)
         if page != whole(doc):
             outcome.errors.append(f"step {outcome.steps}: the patched document differs")
         shown = after
