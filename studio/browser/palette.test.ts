@@ -73,6 +73,19 @@ test("a double click on the ground adds the element that is clicked, at the poin
   await shot(page, "palette-added");
 });
 
+test("a sensor from the palette senses a world at once", async () => {
+  const { page } = studio;
+  const at = await ground(0.3, 0.4);
+  await page.mouse.dblclick(at.x, at.y);
+  await search().fill("sensor");
+  await option("Sensor").click();
+  await box(page, "sensor").waitFor();
+  await inspected("sensor");
+  await button(page, "World: Picture: an example; choose another one").waitFor();
+  await observer.runs();
+  expect(observer.document?.problems).toEqual([]);
+});
+
 test("a new element is shown in less than 100 ms, and the document can run at once", async () => {
   const { page } = studio;
   // Other tests load the machine at the same time: one of several attempts has to be fast.

@@ -12,6 +12,7 @@ import { expect, onTestFinished, test } from "vitest";
 import { frameOf, toPixels } from "../../src/world/plan";
 import { python } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
+import { writeTwoTargets } from "../twoTargets";
 
 const COLOURS = ["light", "dark"] as const;
 const PATIENCE = { timeout: 60_000 };
@@ -61,12 +62,13 @@ for (const colours of COLOURS) {
     await select(page, "u");
     await run(page, 700);
     await shot(page, name("selection"));
-    for (const curve of ["input", "interaction"])
-      await page
-        .getByRole("button", { name: new RegExp(`^${curve}`, "i") })
-        .first()
-        .click();
-    await page.waitForTimeout(500);
+    for (const curve of ["input", "interaction"]) {
+      const toggle = page.getByRole("button", { name: new RegExp(`^${curve}`, "i") }).first();
+      await toggle.click();
+      await expect.poll(() => toggle.getAttribute("aria-pressed")).toBe("true");
+    }
+    await page.mouse.move(3, 400);
+    await page.waitForTimeout(1000); // until the curves are drawn
     await shot(page, name("curves"));
   });
 
@@ -181,6 +183,20 @@ for (const colours of COLOURS) {
     await observer.until(() => observer.world.now.scene?.boxes.some((box) => box.name === "yellow block"));
     await run(page, 8);
     await shot(page, name("blocks"));
+  });
+
+  test(`experiment, ${colours}`, async () => {
+    const { page, folder } = await open(colours, {});
+    writeTwoTargets(folder);
+    await page.keyboard.press("Control+o");
+    const dialog = page.getByRole("dialog");
+    await dialog.getByRole("button", { name: "two-targets.json", exact: true }).click();
+    await dialog.waitFor({ state: "detached" });
+    await page.getByRole("button", { name: "Run the experiment" }).click();
+    await page.getByText("100 of 100 trials, complete").waitFor({ timeout: 120_000 });
+    await page.mouse.move(3, 400);
+    await page.waitForTimeout(500); // until the bars are drawn
+    await shot(page, name("experiment"));
   });
 
   test(`problems, ${colours}`, async () => {
