@@ -619,29 +619,6 @@ export type InsertElement = {
   positions?: Record<string, unknown[]>;
 };
 
-// Save the present values of the parameters as a preset under a new name.
-export type KeepPreset = {
-  type: "keep_preset";
-  request?: number;
-  session?: number;
-  name: string;
-};
-
-// Save the present state of the run as a snapshot under a new name.
-export type KeepSnapshot = {
-  type: "keep_snapshot";
-  request?: number;
-  session?: number;
-  name: string;
-};
-
-// The snapshots and presets of the open document, the newest first.
-export type KeptFiles = {
-  type: "kept_files";
-  snapshots: SnapshotView[];
-  presets: PresetView[];
-};
-
 // A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 //
 // `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
@@ -703,9 +680,9 @@ export type ListFolder = {
   path?: string;
 };
 
-// List snapshots and presets again; a `kept_files` message follows if the list changed.
-export type ListKept = {
-  type: "list_kept";
+// List snapshots and presets again; a `saved_files` message follows if the list changed.
+export type ListSaved = {
+  type: "list_saved";
   request?: number;
 };
 
@@ -1111,19 +1088,19 @@ export type RemoveElements = {
   connections?: Ends[];
 };
 
-// Delete a snapshot or a preset.
-export type RemoveKept = {
-  type: "remove_kept";
-  request?: number;
-  session?: number;
-  sort: "preset" | "snapshot";
-  name: string;
-};
-
 // Remove an object from the world.
 export type RemoveObject = {
   type: "remove_object";
   request?: number;
+  name: string;
+};
+
+// Delete a snapshot or a preset.
+export type RemoveSaved = {
+  type: "remove_saved";
+  request?: number;
+  session?: number;
+  sort: "preset" | "snapshot";
   name: string;
 };
 
@@ -1270,6 +1247,29 @@ export type SaveFigure = {
   range?: unknown[] | null;
 };
 
+// Save the present values of the parameters as a preset under a new name.
+export type SavePreset = {
+  type: "save_preset";
+  request?: number;
+  session?: number;
+  name: string;
+};
+
+// Save the present state of the run as a snapshot under a new name.
+export type SaveSnapshot = {
+  type: "save_snapshot";
+  request?: number;
+  session?: number;
+  name: string;
+};
+
+// The snapshots and presets of the open document, the newest first.
+export type SavedFiles = {
+  type: "saved_files";
+  snapshots: SnapshotView[];
+  presets: PresetView[];
+};
+
 // Boxes and marks of the world, in its unit of length; `border` is lower x, lower y, upper x, upper y.
 export type SceneView = {
   unit: string;
@@ -1388,7 +1388,7 @@ export type ToPage =
   | Gallery
   | Opened
   | FileProblems
-  | KeptFiles
+  | SavedFiles
   | Comparison
   | Changed
   | Edited
@@ -1458,11 +1458,11 @@ export type ToServer =
   | Seek
   | RunFrom
   | RunRecordFrom
-  | ListKept
-  | KeepSnapshot
+  | ListSaved
+  | SaveSnapshot
   | ReturnTo
-  | KeepPreset
-  | RemoveKept
+  | SavePreset
+  | RemoveSaved
   | ChooseCopy
   | SeekFrames
   | StartRecord
@@ -1694,8 +1694,6 @@ export const MEANT: readonly ToServer["type"][] = [
   "end_comparison",
   "group",
   "insert",
-  "keep_preset",
-  "keep_snapshot",
   "leave_trial",
   "link",
   "move_into",
@@ -1708,13 +1706,15 @@ export const MEANT: readonly ToServer["type"][] = [
   "redo_experiment",
   "remove",
   "remove_document_parameter",
-  "remove_kept",
+  "remove_saved",
   "rename",
   "return_to",
   "run_experiment",
   "run_from",
   "save",
   "save_experiment",
+  "save_preset",
+  "save_snapshot",
   "set",
   "set_many",
   "undo",

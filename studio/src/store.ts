@@ -12,7 +12,7 @@ import type {
   ElementView,
   ExperimentView,
   Gallery,
-  KeptFiles,
+  SavedFiles,
   Kind,
   ListedProblem,
   ToPage,
@@ -51,7 +51,7 @@ export type Studio = {
   // The rows of its run, as they arrive.
   trials: { run: number; rows: TrialRow[] };
   // The snapshots and presets of the open document, as listed last.
-  kept: KeptFiles | null;
+  savedFiles: SavedFiles | null;
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -80,7 +80,7 @@ export const useStudio = create<Studio>((set) => ({
   comparison: null,
   experiment: null,
   trials: { run: 0, rows: [] },
-  kept: null,
+  savedFiles: null,
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -140,8 +140,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { fileProblems: message.problems.length > 0 ? message : null };
     case "clock":
       return { clock: message };
-    case "kept_files":
-      return { kept: message };
+    case "saved_files":
+      return { savedFiles: message };
     case "comparison":
       return { comparison: message.path === "" ? null : message };
     case "costs":

@@ -44,7 +44,7 @@ def test_old_sizes_are_dropped() -> None:
 def test_times_are_stored_between_runs_of_the_studio(tmp_path: Path) -> None:
     store = StateStore(tmp_path / "state")
     assert store.compile_times() == {}
-    store.keep_compile_times({12: 3.5})
+    store.store_compile_times({12: 3.5})
     assert StateStore(tmp_path / "state").compile_times() == {12: 3.5}
     (tmp_path / "state" / "compile_times.json").write_text('{"x": 1, "0": 2, "7": "a", "8": 2}')
     assert store.compile_times() == {8: 2.0}

@@ -427,7 +427,7 @@ def test_the_studio_checks_an_experiment_after_a_check_that_failed(
 def test_the_document_with_its_edits_is_open_again_after_the_record_of_a_trial(
     folder: Path, monkeypatch: pytest.MonkeyPatch, own_state: Path
 ) -> None:
-    monkeypatch.setattr(hub, "KEEP_SECONDS", 1e6)  # only the opening of the record stores edits
+    monkeypatch.setattr(hub, "STORE_SECONDS", 1e6)  # only the opening of the record stores edits
     few(1).run(folder / "results")
     few(1).save(folder / "two-targets.json")
     ready, computed = threading.Event(), ExperimentRun.repeat
@@ -612,7 +612,7 @@ def test_an_edited_experiment_is_recovered_after_a_kill(
             with pytest.raises(ConfirmationRequired, match="replace"):
                 await d.do(to_server.SaveExperiment())  # another program may have changed it meanwhile
             await d.do(to_server.SaveExperiment(replace=True))
-            assert not (await d.hub.gallery()).recoveries and not d.hub.store.kept()
+            assert not (await d.hub.gallery()).recoveries and not d.hub.store.stored_edits()
 
     asyncio.run(recovered())
     assert json.loads((folder / "a.json").read_text())["trials"] == 7

@@ -697,7 +697,7 @@ def test_the_state_folder_is_accessed_outside_of_the_event_loop(
     names = ("keep", "forget", "kept", "read", "opened", "recent")
     for name in names:
         monkeypatch.setattr(StateStore, name, beside(name, getattr(StateStore, name)))
-    monkeypatch.setattr(hub, "KEEP_SECONDS", 0.02)
+    monkeypatch.setattr(hub, "STORE_SECONDS", 0.02)
 
     async def scene(p: Page) -> None:
         await p.runs()

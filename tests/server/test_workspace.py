@@ -213,15 +213,17 @@ def test_unsaved_edits_are_kept_until_they_are_discarded(tmp_path: Path) -> None
     model = dd.Model("mine")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)], kernel=[dd.Gaussian(1, 2)]))
     name = store.new_name()
-    store.keep(name, model.document, "/somewhere/mine.json")
-    assert store.kept() == [], "this process still holds them"
+    store.store_edits(name, model.document, "/somewhere/mine.json")
+    assert store.stored_edits() == [], "this process still holds them"
     note = next((tmp_path / "unsaved").glob("*.note"))
     note.write_text(json.dumps(json.loads(note.read_text()) | {"process": [os.getpid(), 1.0]}))
-    assert [(r.name, r.title, r.file) for r in store.kept()] == [(name, "mine", "/somewhere/mine.json")]
+    assert [(r.name, r.title, r.file) for r in store.stored_edits()] == [
+        (name, "mine", "/somewhere/mine.json")
+    ]
     document, file = store.read(name)
     assert document == model.document and file == "/somewhere/mine.json"
     store.forget(name)
-    assert store.kept() == [] and not list((tmp_path / "unsaved").iterdir())
+    assert store.stored_edits() == [] and not list((tmp_path / "unsaved").iterdir())
 
 
 @pytest.mark.parametrize("name", ["", "..", "../../etc", "0123456789abcde", "0123456789abcdeg", "*"])
@@ -245,9 +247,9 @@ def test_recent_files_are_the_last_ones_that_exist(tmp_path: Path) -> None:
 def test_an_unusable_state_folder_is_ignored(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     store = StateStore(tmp_path / "file")
-    store.keep(store.new_name(), dd.Model("m").document, "")
+    store.store_edits(store.new_name(), dd.Model("m").document, "")
     store.opened(tmp_path / "x.json")
-    assert store.kept() == [] and store.recent() == []
+    assert store.stored_edits() == [] and store.recent() == []
     (tmp_path / "recent.json").write_text("{broken")
     assert StateStore(tmp_path).recent() == []
 

@@ -36,9 +36,9 @@ from deodar.server.to_page import (
     Fits,
     Folder,
     Gallery,
-    KeptFiles,
     ListedProblem,
     RunClock,
+    SavedFiles,
     TimelineView,
     WorldScene,
 )
@@ -292,7 +292,7 @@ class PageConnection:
             self._new("checked", project.checker.found, out)
         self._new("costs", self._hub.costs(), out)
         self._new("comparison", project.compared(), out)
-        self._new("kept_files", project.kept, out)
+        self._new("saved_files", project.saved_files, out)
         experiment = self._hub.experiment.view()
         self._experiment = experiment.version
         self._new("experiment", experiment, out)
@@ -314,7 +314,7 @@ class PageConnection:
         self,
         what: str,
         message: Gallery
-        | KeptFiles
+        | SavedFiles
         | FileProblems
         | Checked
         | RunClock

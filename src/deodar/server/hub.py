@@ -36,7 +36,7 @@ from deodar.session.meter import Meter
 from deodar.session.session import Session
 from deodar.worlds._base import World
 
-KEEP_SECONDS = 3.0
+STORE_SECONDS = 3.0
 """Wall time between two checks for unsaved edits to store, in seconds."""
 
 
@@ -75,7 +75,7 @@ class Hub:
             templates=templates.listed(),
             plots=plots.views(),
         )
-        self._keeping = asyncio.create_task(_repeat(self._keep, KEEP_SECONDS))
+        self._storing = asyncio.create_task(_repeat(self._store, STORE_SECONDS))
         self._following = asyncio.create_task(_repeat(self._follow, FOLLOW_SECONDS))
 
     # ---------------------------------------------------------------------------------------------- notifying
@@ -99,7 +99,7 @@ class Hub:
 
         def read() -> None:
             recent = [self.workspace.shown(p) for p in self.store.recent() if self.workspace.holds(p)]
-            kept = [r for r in self.store.kept() if r.name not in own]
+            kept = [r for r in self.store.stored_edits() if r.name not in own]
             self._gallery = Gallery(recent=recent, recoveries=kept)
 
         await try_in_file_thread(read)
@@ -233,11 +233,11 @@ class Hub:
 
     # ------------------------------------------------------------------------------------------------- ending
 
-    async def _keep(self) -> None:
+    async def _store(self) -> None:
         """Store unsaved edits."""
 
         async def store() -> None:
-            await self.project.keep()
+            await self.project.store_edits()
             await self.experiment.store_edits()
 
         await self.project.queue.run(store)  # `forget` cannot run while edits are written
@@ -250,10 +250,10 @@ class Hub:
 
     async def close(self) -> None:
         """Store unsaved edits and stop the engine."""
-        self._keeping.cancel()
+        self._storing.cancel()
         self._following.cancel()
         self.project.end()
-        await self.project.keep()
+        await self.project.store_edits()
         await self.experiment.store_edits()
         await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.engine.close)

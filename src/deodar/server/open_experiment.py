@@ -339,7 +339,7 @@ class OpenExperiment:
         self.edits = self.edits or self._project.store.new_name()
         note = StoredExperiment(self.data, "" if self.file is None else str(self.file))
         name, file = self.edits, "" if own is None else str(own)
-        await try_in_file_thread(lambda: self._project.store.keep(name, doc, file, note))
+        await try_in_file_thread(lambda: self._project.store.store_edits(name, doc, file, note))
         self._stored = self.data, doc
 
     async def recover(self, name: str, discard: bool, discard_experiment: bool) -> None:

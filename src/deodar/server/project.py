@@ -29,17 +29,17 @@ from deodar.model.model import Model
 from deodar.recording import files
 from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
-from deodar.server import content, converted, embodiment, kept_files, record_frames, view
+from deodar.server import content, converted, embodiment, record_frames, saved_files, view
 from deodar.server.change_queue import ChangeQueue
 from deodar.server.checker import Checker
 from deodar.server.comparison import RecordComparison
 from deodar.server.converted import Converted, Status
 from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
-from deodar.server.kept_files import KeptFolder
 from deodar.server.recent_changes import DocumentChange, RecentChanges
+from deodar.server.saved_files import SavedFolder
 from deodar.server.state_store import StateStore
-from deodar.server.to_page import Changed, Comparison, DocumentView, KeptFiles, ListedProblem, Opened
+from deodar.server.to_page import Changed, Comparison, DocumentView, ListedProblem, Opened, SavedFiles
 from deodar.server.workspace import Workspace
 from deodar.session.exchange import used
 from deodar.session.session import Session
@@ -74,7 +74,7 @@ class SetAside:
         saved: the document as saved last.
         digest: the digest of its file as read or written last.
         name: the name under which its unsaved edits are stored.
-        kept: the document as stored last under that name.
+        stored: the document as stored last under that name.
     """
 
     model: Model
@@ -82,7 +82,7 @@ class SetAside:
     saved: Document | None
     digest: str
     name: str
-    kept: Document | None
+    stored: Document | None
 
     @property
     def unsaved(self) -> bool:
@@ -113,7 +113,7 @@ class OpenProject:
         aside: the document in whose place the open record is shown; None: the record is not that of a trial.
         comparison: the comparison of the open record with another one.
         scene: the view of the record's world at its start, and a sentence on what it does not contain.
-        kept: the snapshots and presets of the document, as listed last.
+        saved_files: the snapshots and presets of the document, as listed last.
         checker: finds the warnings after changes of single parameters.
     """
 
@@ -146,10 +146,10 @@ class OpenProject:
             self.queue,
             changed,
         )
-        self.kept = kept_files.NOTHING
+        self.saved_files = saved_files.NOTHING
         self._name = ""
         self._saved: Document | None = None
-        self._kept: Document | None = None
+        self._stored: Document | None = None
         self._digest = ""
         self._gesture: object = None
         self._recent = RecentChanges()
@@ -261,10 +261,10 @@ class OpenProject:
             DeodarError: the record cannot be read; the document stays open.
         """
         record, scene = await in_file_thread(lambda: record_frames.opened(path), str(path))
-        await self.keep()
+        await self.store_edits()
         aside = self.aside
         if self.model is not None and self.record is None:
-            aside = SetAside(self.model, self.file, self._saved, self._digest, self._name, self._kept)
+            aside = SetAside(self.model, self.file, self._saved, self._digest, self._name, self._stored)
         self._name, self.aside = "", None  # its stored edits stay
         await self._leave()
         self.aside = aside
@@ -278,7 +278,7 @@ class OpenProject:
             return
         await self._leave()
         self.model, self.file, self._saved, self._digest = aside.model, aside.file, aside.saved, aside.digest
-        self._name, self._kept = aside.name, aside.kept
+        self._name, self._stored = aside.name, aside.stored
         self._run_opened()
 
     async def open_record_model(self, discard: bool) -> None:
@@ -344,7 +344,7 @@ class OpenProject:
         """Open stored unsaved edits."""
         if await self._open_stored(name, discard) is not None and self.model is not None:
             self._saved = None
-            self._name, self._kept = name, self.model.document
+            self._name, self._stored = name, self.model.document
             self._moved()
 
     async def recover_model(self, name: str, discard: bool) -> None:
@@ -388,7 +388,7 @@ class OpenProject:
         await self._leave()
         self.model = Model(document=doc, trusted=self.trust)
         self.file, self._saved, self._digest = file, view.plain(doc), await self._hash(file)
-        self._name, self._kept = self.store.new_name(), doc
+        self._name, self._stored = self.store.new_name(), doc
         if file is not None:
             await try_in_file_thread(lambda: self.store.opened(file))
         self._run_opened()
@@ -416,7 +416,7 @@ class OpenProject:
         self._attempt += 1
         self.model, self.file, self._saved, self._name, self._gesture = None, None, None, "", None
         self.file_problems, self.failure, self.busy = ("", ()), (), ""
-        self.record, self.aside, self.scene, self.kept = None, None, (None, ""), kept_files.NOTHING
+        self.record, self.aside, self.scene, self.saved_files = None, None, (None, ""), saved_files.NOTHING
         self._converted.clear()
         self.end_comparison()
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.load(None)))
@@ -438,7 +438,7 @@ class OpenProject:
             session.program.chunk(())
             if session.program.compiled:
                 times.took(doc, compilation.elapsed)
-                self.store.keep_compile_times(times.known)
+                self.store.store_compile_times(times.known)
             return session
 
         try:
@@ -497,7 +497,7 @@ class OpenProject:
         await in_file_thread(lambda: self.workspace.save(doc, place), path or str(place))
         if self.record is not None:
             return place
-        self.file, self._saved, self._digest, self._kept = (
+        self.file, self._saved, self._digest, self._stored = (
             place,
             view.plain(doc),
             await self._hash(place),
@@ -511,12 +511,12 @@ class OpenProject:
     async def _hash(self, place: Path | None) -> str:
         return "" if place is None else await in_file_thread(lambda: self.workspace.digest(place), str(place))
 
-    async def keep(self) -> None:
+    async def store_edits(self) -> None:
         """Store unsaved edits, if they are new."""
-        if self.model is not None and self.unsaved and self._kept is not self.model.document:
+        if self.model is not None and self.unsaved and self._stored is not self.model.document:
             doc, name, file = self.model.document, self._name, "" if self.file is None else str(self.file)
-            await try_in_file_thread(lambda: self.store.keep(name, doc, file))
-            self._kept = doc
+            await try_in_file_thread(lambda: self.store.store_edits(name, doc, file))
+            self._stored = doc
 
     # ------------------------------------------------------------------------------------------------ editing
 
@@ -608,7 +608,7 @@ class OpenProject:
         await self._leave()
         self.model = Model(document=doc, trusted=self.trust)
         self._saved, self._digest = view.plain(doc), ""
-        self._name, self._kept = self.store.new_name(), doc
+        self._name, self._stored = self.store.new_name(), doc
         if world is not None:
             kind = type(world).__name__
             self.embodiment.choose(world, kind, str((described(world) or {}).get("file", "")), doc)
@@ -620,29 +620,31 @@ class OpenProject:
         """End the repetition of a record, if one is computed."""
         self._attempt += 1
 
-    async def list_kept(self) -> None:
+    async def list_saved(self) -> None:
         """Read the list of snapshots and presets of the open document again."""
         doc = None if self.model is None or self.record is not None else self.model.document
-        found: list[KeptFiles] = [kept_files.NOTHING]
+        found: list[SavedFiles] = [saved_files.NOTHING]
         if doc is not None:
-            await try_in_file_thread(lambda: found.append(KeptFolder(self.workspace, doc.name).listed()))
-        self.kept = found[-1]
+            await try_in_file_thread(lambda: found.append(SavedFolder(self.workspace, doc.name).listed()))
+        self.saved_files = found[-1]
         self._changed()
 
-    async def keep_snapshot(self, name: str) -> Path:
+    async def save_snapshot(self, name: str) -> Path:
         """Save the present state of the run under a new name; return the file."""
         self.require_run()
         snapshot = await asyncio.wrap_future(self.engine.call(self.engine.snapshot))
-        folder = KeptFolder(self.workspace, self._require().document.name)
+        folder = SavedFolder(self.workspace, self._require().document.name)
         path = await in_file_thread(lambda: folder.save_snapshot(name, snapshot), name)
-        await self.list_kept()
+        await self.list_saved()
         return path
 
-    async def keep_preset(self, name: str) -> Path:
+    async def save_preset(self, name: str) -> Path:
         """Save the present values of the parameters under a new name; return the file."""
         doc = self._require_model().document
-        path = await in_file_thread(lambda: KeptFolder(self.workspace, doc.name).save_preset(name, doc), name)
-        await self.list_kept()
+        path = await in_file_thread(
+            lambda: SavedFolder(self.workspace, doc.name).save_preset(name, doc), name
+        )
+        await self.list_saved()
         return path
 
     async def return_to(self, name: str) -> None:
@@ -653,16 +655,16 @@ class OpenProject:
             ParameterError: it is of another model.
         """
         self.require_run()
-        folder = KeptFolder(self.workspace, self._require().document.name)
+        folder = SavedFolder(self.workspace, self._require().document.name)
         snapshot = await in_file_thread(lambda: folder.snapshot(name, self.trust), name)
         await asyncio.wrap_future(self.engine.call(lambda: self.engine.restore(snapshot)))
         await self._follow_run()
 
-    async def remove_kept(self, sort: kept_files.Sort, name: str) -> None:
+    async def remove_saved(self, sort: saved_files.Sort, name: str) -> None:
         """Delete a snapshot or a preset."""
-        folder = KeptFolder(self.workspace, self._require_model().document.name)
+        folder = SavedFolder(self.workspace, self._require_model().document.name)
         await in_file_thread(lambda: folder.remove(sort, name), name)
-        await self.list_kept()
+        await self.list_saved()
 
     async def _follow_run(self) -> None:
         """Take over elements, connections and parameters of the running session, as one step of undo."""

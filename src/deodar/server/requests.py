@@ -289,14 +289,14 @@ async def _run_record_from(hub: Hub, page: Page, m: to_server.RunRecordFrom) -> 
     page.seek(None)
 
 
-@handles(to_server.ListKept)
-async def _list_kept(hub: Hub, page: Page, m: to_server.ListKept) -> None:
-    await hub.project.list_kept()
+@handles(to_server.ListSaved)
+async def _list_saved(hub: Hub, page: Page, m: to_server.ListSaved) -> None:
+    await hub.project.list_saved()
 
 
-@handles(to_server.KeepSnapshot)
-async def _keep_snapshot(hub: Hub, page: Page, m: to_server.KeepSnapshot) -> Answer:
-    path = await hub.project.keep_snapshot(m.name)
+@handles(to_server.SaveSnapshot)
+async def _save_snapshot(hub: Hub, page: Page, m: to_server.SaveSnapshot) -> Answer:
+    path = await hub.project.save_snapshot(m.name)
     return Answer(request=m.request, file=hub.workspace.shown(path))
 
 
@@ -306,15 +306,15 @@ async def _return_to(hub: Hub, page: Page, m: to_server.ReturnTo) -> None:
     page.seek(None)
 
 
-@handles(to_server.KeepPreset)
-async def _keep_preset(hub: Hub, page: Page, m: to_server.KeepPreset) -> Answer:
-    path = await hub.project.keep_preset(m.name)
+@handles(to_server.SavePreset)
+async def _save_preset(hub: Hub, page: Page, m: to_server.SavePreset) -> Answer:
+    path = await hub.project.save_preset(m.name)
     return Answer(request=m.request, file=hub.workspace.shown(path))
 
 
-@handles(to_server.RemoveKept)
-async def _remove_kept(hub: Hub, page: Page, m: to_server.RemoveKept) -> None:
-    await hub.project.remove_kept(m.sort, m.name)
+@handles(to_server.RemoveSaved)
+async def _remove_saved(hub: Hub, page: Page, m: to_server.RemoveSaved) -> None:
+    await hub.project.remove_saved(m.sort, m.name)
 
 
 @handles(to_server.Seek)

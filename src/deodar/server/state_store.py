@@ -57,7 +57,7 @@ class StateStore:
         """Return a new name for the edits of one document."""
         return secrets.token_hex(8)
 
-    def keep(
+    def store_edits(
         self, name: str, document: Document, file: str, experiment: StoredExperiment | None = None
     ) -> None:
         """Store the edited document of a file, or an edited experiment with its model."""
@@ -82,7 +82,7 @@ class StateStore:
             for path in self._unsaved.glob(f"{name}.*"):
                 path.unlink(missing_ok=True)
 
-    def kept(self) -> list[Recovery]:
+    def stored_edits(self) -> list[Recovery]:
         """Return stored edits that no running studio has open, newest first."""
         out: list[Recovery] = []
         for path in self._unsaved.glob("*.note"):
@@ -146,7 +146,7 @@ class StateStore:
             if str(size).isdecimal() and int(size) > 0 and isinstance(seconds, (int, float))
         }
 
-    def keep_compile_times(self, times: Mapping[int, float]) -> None:
+    def store_compile_times(self, times: Mapping[int, float]) -> None:
         """Store what `compile_times` returns."""
         with contextlib.suppress(OSError, OutputError):
             self._times.parent.mkdir(parents=True, exist_ok=True)

@@ -321,7 +321,7 @@ class PresetView(Data, frozen=True):
 
 
 @MESSAGES.register
-class KeptFiles(Message, frozen=True, tag="kept_files"):
+class SavedFiles(Message, frozen=True, tag="saved_files"):
     """The snapshots and presets of the open document, the newest first."""
 
     snapshots: list[SnapshotView]

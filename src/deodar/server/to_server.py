@@ -534,12 +534,12 @@ class RunRecordFrom(Request, frozen=True, kw_only=True, tag="run_record_from"):
 
 
 @MESSAGES.register
-class ListKept(Request, frozen=True, kw_only=True, tag="list_kept"):
-    """List snapshots and presets again; a `kept_files` message follows if the list changed."""
+class ListSaved(Request, frozen=True, kw_only=True, tag="list_saved"):
+    """List snapshots and presets again; a `saved_files` message follows if the list changed."""
 
 
 @MESSAGES.register
-class KeepSnapshot(DocumentRequest, frozen=True, kw_only=True, tag="keep_snapshot"):
+class SaveSnapshot(DocumentRequest, frozen=True, kw_only=True, tag="save_snapshot"):
     """Save the present state of the run as a snapshot under a new name."""
 
     name: Text
@@ -553,14 +553,14 @@ class ReturnTo(DocumentRequest, frozen=True, kw_only=True, tag="return_to"):
 
 
 @MESSAGES.register
-class KeepPreset(DocumentRequest, frozen=True, kw_only=True, tag="keep_preset"):
+class SavePreset(DocumentRequest, frozen=True, kw_only=True, tag="save_preset"):
     """Save the present values of the parameters as a preset under a new name."""
 
     name: Text
 
 
 @MESSAGES.register
-class RemoveKept(DocumentRequest, frozen=True, kw_only=True, tag="remove_kept"):
+class RemoveSaved(DocumentRequest, frozen=True, kw_only=True, tag="remove_saved"):
     """Delete a snapshot or a preset."""
 
     sort: Literal["snapshot", "preset"]

@@ -26,7 +26,7 @@ import {
   stop,
   useReplay,
 } from "./replay";
-import { KeptMenu } from "./KeptMenu";
+import { SavedMenu } from "./SavedMenu";
 import { ReplaySpeed } from "./ReplaySpeed";
 import { RunFromButton } from "./RunFromButton";
 import classes from "./Timeline.module.css";
@@ -149,7 +149,7 @@ export function Timeline() {
               : ""}
         </span>
       </div>
-      {!record && <KeptMenu />}
+      {!record && <SavedMenu />}
       <RunFromButton />
       {!record && (
         <Tooltip label="Back to the present">

@@ -10,14 +10,14 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import { timeText } from "../transport/format";
 import { stop } from "./replay";
-import classes from "./KeptMenu.module.css";
+import classes from "./SavedMenu.module.css";
 
-export function KeptMenu() {
+export function SavedMenu() {
   const [opened, setOpened] = useState(false);
   const toggle = () => {
     setOpened(!opened);
     if (!opened) {
-      void request({ type: "list_kept" });
+      void request({ type: "list_saved" });
     }
   };
   return (
@@ -48,7 +48,7 @@ export function KeptMenu() {
 }
 
 function Snapshots() {
-  const kept = useStudio((state) => state.kept?.snapshots);
+  const kept = useStudio((state) => state.savedFiles?.snapshots);
   const unit = useStudio((state) => state.document?.time_unit ?? "");
   const dt = useStudio((state) => state.clock?.dt ?? 1);
   const now = useStudio((state) => state.clock?.time ?? 0);
@@ -64,7 +64,7 @@ function Snapshots() {
         label="Name of the snapshot"
         suggested={`at ${timeText(now, unit, dt)}`}
         save="Save snapshot"
-        send={(name) => request({ type: "keep_snapshot", name })}
+        send={(name) => request({ type: "save_snapshot", name })}
       />
       {kept?.map(({ name, time, saved, size }) => (
         <Row
@@ -81,7 +81,7 @@ function Snapshots() {
 }
 
 function Presets() {
-  const kept = useStudio((state) => state.kept?.presets);
+  const kept = useStudio((state) => state.savedFiles?.presets);
   return (
     <section aria-label="Presets">
       <h3 className={classes.title}>Presets</h3>
@@ -90,7 +90,7 @@ function Presets() {
         label="Name of the preset"
         suggested=""
         save="Save preset"
-        send={(name) => request({ type: "keep_preset", name })}
+        send={(name) => request({ type: "save_preset", name })}
       />
       {kept?.map(({ name, path, saved, size }) => (
         <Row
@@ -161,7 +161,7 @@ function Row({ sort, name, about, title, run }: KeptProps) {
         onClick={(event) => {
           // this button disappears: without a focus inside, Escape would not close the menu
           event.currentTarget.closest("section")?.querySelector("input")?.focus();
-          void request({ type: "remove_kept", sort, name });
+          void request({ type: "remove_saved", sort, name });
         }}
       />
     </div>

@@ -17,7 +17,7 @@ from deodar.errors import DeodarError, OutputError, OutputExists, UnknownName
 from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import stored
-from deodar.server.to_page import KeptFiles, PresetView, SnapshotView
+from deodar.server.to_page import PresetView, SavedFiles, SnapshotView
 from deodar.server.workspace import Workspace
 from deodar.session.clock import Clock
 from deodar.session.snapshot import SessionSnapshot
@@ -29,10 +29,10 @@ ENDINGS: dict[Sort, str] = {"snapshot": ".npz", "preset": ".json"}
 MOST_LISTED = 200
 """Largest number of files of each sort that are listed, the newest ones."""
 
-NOTHING = KeptFiles(snapshots=[], presets=[])
+NOTHING = SavedFiles(snapshots=[], presets=[])
 
 
-class KeptFolder:
+class SavedFolder:
     """The snapshots and presets of one document.
 
     Args:
@@ -44,7 +44,7 @@ class KeptFolder:
         self._workspace = workspace
         self._title = _plain(title) or "document"
 
-    def listed(self) -> KeptFiles:
+    def listed(self) -> SavedFiles:
         """Return all snapshots and presets, the newest first; files that cannot be read are left out."""
         snapshots: list[SnapshotView] = []
         for path, saved, size in self._files("snapshot"):
@@ -58,7 +58,7 @@ class KeptFolder:
             PresetView(name=path.stem, path=self._workspace.shown(path), saved=saved, size=size)
             for path, saved, size in self._files("preset")
         ]
-        return KeptFiles(snapshots=snapshots, presets=presets)
+        return SavedFiles(snapshots=snapshots, presets=presets)
 
     def save_snapshot(self, name: str, snapshot: SessionSnapshot) -> Path:
         """Write a snapshot under a new name."""
