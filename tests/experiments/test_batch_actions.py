@@ -179,6 +179,22 @@ def test_what_was_learned_starts_the_next_phase(keep_learned: bool) -> None:
         assert trial.events["up"] is not None
 
 
+def test_a_trial_that_diverges_by_an_action_leaves_the_others() -> None:
+    """At other times in two of the trials; in the others the action is never due."""
+    model = dd.Model("runaway")
+    u = model.add(dd.Field("u", [], tau=10, sigmoid=dd.Logistic(beta=1), resting_level=1.0, noise=0.1))
+    u["activation"] >> model.add(dd.Gain(0.1, name="g")) >> u
+    given: dict[str, Any] = {"watch": ["u"], "tolerant": True, "precision": "float64", "every": 2}
+    actions = [Set([200, 21, 200, 34], "g.factor", 1e6), Snapshot(30, "then", ["u"])]
+    many = run_batch(model, 200, range(4), actions=actions, **given)
+    for k, trial in enumerate(many):
+        one = run_trial(model, 200, trial=k, actions=actions, **given)
+        assert trial.outcome == one.outcome == ("diverged" if k % 2 else "time")
+        np.testing.assert_array_equal(trial.times, one.times)
+        np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
+        assert str(trial.error) == str(one.error) and list(trial.snapshots) == list(one.snapshots)
+
+
 def test_an_action_with_a_time_for_each_trial_is_part_of_the_file_and_needs_enough_times() -> None:
     several = [Set([10, 20, 30], "u.resting_level", 1.0), Push([5, 6, 7], "u", 1.0, 5)]
     experiment = dd.Experiment("schedules", noisy(), 60, 3, actions=several)

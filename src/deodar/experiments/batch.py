@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -126,7 +127,9 @@ def run_batch(
         swept,
         any(isinstance(a, Reset) for a in actions),
     )
-    records = _Records(copies, Observations(events, measures, len(numbers)), doc, at, watch, watched)
+    observed = Observations(events, measures, len(numbers))
+    pauses = any(isinstance(a, Record) for a in actions)
+    records = _Records(copies, observed, doc, at, watch, watched, pauses)
     running = [CopyTrial(copies, row, actions, pushes) for row in range(len(numbers))]
     for trial in running:
         trial.recording = not any(isinstance(a, Record) and a.on for a in actions)
@@ -136,7 +139,7 @@ def run_batch(
     while True:
         records.advance(to, clock, running)
         here = [running[row] for row in copies.rows if not records.ended(row)]
-        for trial in here:
+        for trial in here if actions else ():
             trial.notice(records.observed.events_of(trial.row))
         due = [trial for trial in here if trial.due == to]
         if ends and due and not clock.sampled(to):
@@ -151,7 +154,8 @@ def run_batch(
         if not left:
             break
         copies.shrink(left, steps - to)
-        to = clock.after(to, [running[row] for row in copies.rows if not records.ended(row)])
+        here = [running[row] for row in copies.rows if not records.ended(row)] if actions else []
+        to = clock.after(to, here)
     out = [records.trial(trial) for trial in running]
     lost = [result.error for result in out if result.error is not None]
     if lost and not tolerant:
@@ -204,7 +208,7 @@ class _Stops:
 
 
 class _Records:
-    """The samples of all trials of a batch."""
+    """The samples of all trials of a batch; `pauses`: whether actions start and stop recording."""
 
     def __init__(
         self,
@@ -214,6 +218,7 @@ class _Records:
         at: Mapping[Observable, ReadPlace],
         watch: Sequence[str],
         watched: Sequence[int] | None,
+        pauses: bool,
     ) -> None:
         self.copies, self.observed, self.watch, self.at = copies, observed, watch, at
         count = len(copies.trials)
@@ -228,7 +233,8 @@ class _Records:
         self.times: list[float] = []
         self.looks = np.zeros(count, int)
         self.last: dict[int, float] = {}
-        self.recorded: list[list[float]] = [[] for _ in range(count)]
+        self.pauses = pauses
+        self.recorded: list[list[slice]] = [[] for _ in range(count)]
         self.kept: list[list[list[np.ndarray]]] = [[] for _ in range(count)]
         self.latest: tuple[Mapping[ReadPlace, np.ndarray], Mapping[Observable, np.ndarray]] = ({}, {})
 
@@ -263,12 +269,17 @@ class _Records:
         if not sampled:
             self.last[row] = trial.time
             if trial.recording:
-                self._keep(row, [trial.time], {port: values[k, -1:] for port, values in by.items()})
+                self._keep(row, {port: values[k, -1:] for port, values in by.items()})
         self.observed.end(row, trial.outcome, seen, k)
 
     def ended(self, row: int) -> bool:
         """Return whether a trial has ended."""
         return bool(self.observed.outcome[row])
+
+    @cached_property
+    def moments(self) -> np.ndarray:
+        """Document time of each sample, after the last one."""
+        return np.asarray(self.times)
 
     def trial(self, trial: CopyTrial) -> Trial:
         """Return the result of a trial."""
@@ -281,13 +292,17 @@ class _Records:
             found = np.concatenate([part[i] for part in kept]) if kept else nothing
             values[name] = found if error is None else np.full_like(found, np.nan)
         last = [self.last[row]] if row in self.last else []
+        times = recorded = np.concatenate([self.moments[: self.looks[row]], last])
+        if self.pauses:
+            parts = [self.moments[part] for part in self.recorded[row]]
+            recorded = np.concatenate([*parts, last if trial.recording else []])
         return Trial(
-            np.asarray([*self.times[: self.looks[row]], *last]),
+            times,
             values,
             self.observed.events_of(row),
             outcome,
             self.observed.measures_of(row, {view: self.axes[p] for view, p in self.places.items()}),
-            np.asarray(self.recorded[row]),
+            recorded,
             trial.snapshots,
             error,
         )
@@ -295,18 +310,19 @@ class _Records:
     def _take(
         self, ticks: Sequence[int], arrays: Sequence[np.ndarray], last: bool, running: Sequence[CopyTrial]
     ) -> None:
-        new = [self.t0 + tick * self.step for tick in ticks]
+        new, before = [self.t0 + tick * self.step for tick in ticks], len(self.times)
         self.times.extend(new)
         rows, good = self.copies.rows, self.copies.good(np.asarray(ticks))
         self.latest = by, seen = self._seen(arrays, good)
         counts = self.observed.take(rows, np.asarray(new), seen, last, good)
         self.looks[rows] += counts
-        for k, n in enumerate(counts.tolist()):
+        for k, n in enumerate(counts.tolist() if self.ports or self.pauses else ()):
             if n and running[rows[k]].recording:
-                self._keep(rows[k], new[:n], {port: values[k, :n] for port, values in by.items()})
+                if self.pauses:
+                    self.recorded[rows[k]].append(slice(before, before + n))
+                self._keep(rows[k], {port: by[port][k, :n] for port in self.ports})
 
-    def _keep(self, row: int, times: Sequence[float], values: Mapping[ReadPlace, np.ndarray]) -> None:
-        self.recorded[row].extend(times)
+    def _keep(self, row: int, values: Mapping[ReadPlace, np.ndarray]) -> None:
         if self.ports and self.wanted[row]:
             self.kept[row].append([np.array(values[port]) for port in self.ports])
 
