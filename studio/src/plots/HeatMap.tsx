@@ -8,7 +8,7 @@ import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
-import { ColorControl } from "./ColorControl";
+import { ColorsControl } from "./ColorsControl";
 import { plane } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
@@ -20,7 +20,6 @@ import { paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { PushControl } from "./PushControl";
 import { readPlane } from "./readPlane";
-import { RangeControl } from "./RangeControl";
 import { allAxes } from "./section";
 import { SectionStrip } from "./SectionStrip";
 import type { Injection } from "./spot";
@@ -133,12 +132,7 @@ export function HeatMap(props: PlotProps) {
       controls={
         <>
           <AxisControl axes={allAxes(form)} labels={["To the right", "Upwards"]} set={set} />
-          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
-          <RangeControl
-            range={settings.range}
-            shown={() => colors.current.now.range}
-            set={(range) => set({ range })}
-          />
+          <ColorsControl settings={settings} shown={() => colors.current.now.range} set={set} />
           {element.pushable && (
             <PushControl
               amplitude={settings.amplitude ?? pushAmplitude(levels.current)}

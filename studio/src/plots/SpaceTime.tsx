@@ -11,7 +11,7 @@ import { useStudio } from "../store";
 import type { Wish } from "../streams";
 import { drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
-import { ColorControl } from "./ColorControl";
+import { ColorsControl } from "./ColorsControl";
 import { plane } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, edges, isPicture, points } from "./kinds";
@@ -21,7 +21,6 @@ import { drawMoment } from "./momentLine";
 import { extent, paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
 import { reading } from "./range";
-import { RangeControl } from "./RangeControl";
 import { allAxes } from "./section";
 import { SectionStrip } from "./SectionStrip";
 import { timeRange } from "./traces";
@@ -165,12 +164,7 @@ export function SpaceTime(props: PlotProps) {
             value={down ? "down" : "right"}
             onChange={(value) => set({ down: value === "down" })}
           />
-          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
-          <RangeControl
-            range={settings.range}
-            shown={() => colors.current.now.range}
-            set={(range) => set({ range })}
-          />
+          <ColorsControl settings={settings} shown={() => colors.current.now.range} set={set} />
         </>
       }
       table={() => {

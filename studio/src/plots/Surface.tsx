@@ -5,12 +5,11 @@ import { useMemo, useRef } from "react";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { AxisControl } from "./AxisControl";
-import { ColorControl } from "./ColorControl";
+import { ColorsControl } from "./ColorsControl";
 import { plane } from "./exportCsv";
 import { axisLabel, commonScale, edges, isPicture, points } from "./kinds";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
-import { RangeControl } from "./RangeControl";
 import type { SceneFrame } from "./sceneFrame";
 import { allAxes } from "./section";
 import { SectionStrip } from "./SectionStrip";
@@ -83,12 +82,7 @@ export function Surface(props: PlotProps) {
       controls={
         <>
           <AxisControl axes={allAxes(form)} labels={["First axis", "Second axis"]} set={set} />
-          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
-          <RangeControl
-            range={settings.range}
-            shown={() => colors.current.now.range}
-            set={(range) => set({ range })}
-          />
+          <ColorsControl settings={settings} shown={() => colors.current.now.range} set={set} />
         </>
       }
       table={() => {

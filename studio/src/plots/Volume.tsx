@@ -6,13 +6,12 @@ import type { AxisView } from "../protocol";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { AxisControl } from "./AxisControl";
-import { ColorControl } from "./ColorControl";
+import { ColorsControl } from "./ColorsControl";
 import { plane, type Table } from "./exportCsv";
 import { axisLabel, commonScale, edges, isPicture, points, portAxes } from "./kinds";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { extent, paintHeat } from "./paint";
 import { PlotFrame, type PlotProps } from "./PlotFrame";
-import { RangeControl } from "./RangeControl";
 import type { SceneFrame } from "./sceneFrame";
 import { cameraAt, type Viewpoint } from "./sceneView";
 import { SectionStrip } from "./SectionStrip";
@@ -108,12 +107,7 @@ export function Volume(props: PlotProps) {
       controls={
         <>
           <AxisControl axes={axes} labels={["First axis", "Second axis", "Upwards"]} set={set} />
-          <ColorControl scale={settings.scale} set={(scale) => set({ scale })} />
-          <RangeControl
-            range={settings.range}
-            shown={() => colors.current.now.range}
-            set={(range) => set({ range })}
-          />
+          <ColorsControl settings={settings} shown={() => colors.current.now.range} set={set} />
         </>
       }
       table={() => tableOf(drawn, newest.current, at, port)}
