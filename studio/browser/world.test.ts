@@ -1,6 +1,7 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { frameOf, type PlanPoint, toPixels } from "../src/world/plan";
+import { findings, smallTargets } from "./axe";
 import { button, colours, panel } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -182,5 +183,7 @@ test("a wide panel shows the picture beside the plan, one of 390 pixels above it
   expect(narrow.plan?.height).toBeGreaterThan(250);
   const swatches = await world().getByRole("group", { name: "Blocks in front of the robot" }).boundingBox();
   expect(swatches?.height).toBeLessThan(35);
+  expect(await findings(page)).toEqual([]);
+  expect(await smallTargets(page)).toEqual([]);
   await shot(page, "studio-world-390");
 });
