@@ -153,7 +153,7 @@ export function PlotFrame(props: PlotFrameProps) {
                 Export CSV
               </Menu.Item>
             )}
-            {hasFigure(kind) && (
+            {hasFigure(kind, axes.length) && (
               <Menu.Item
                 leftSection={<IconFileDescription size={15} />}
                 onClick={() => void saveFigure({ element: element.id, port, kind, range })}

@@ -143,8 +143,14 @@ describe("kinds of plots", () => {
 
 describe("figure files", () => {
   it("are offered for plots that deodar plot draws in the same way", () => {
-    expect(["course", "curve", "heat", "space_time"].every(hasFigure)).toBe(true);
-    expect(["kernel", "phase", "ridges"].some(hasFigure)).toBe(false);
+    expect(["course", "curve", "space_time"].every((kind) => hasFigure(kind, 1))).toBe(true);
+    expect(["course", "heat"].every((kind) => hasFigure(kind, 2))).toBe(true);
+    expect(["kernel", "phase", "ridges"].some((kind) => hasFigure(kind, 1))).toBe(false);
+  });
+
+  it("are not offered for sections, which figures do not have", () => {
+    expect(["curve", "space_time"].some((kind) => hasFigure(kind, 2))).toBe(false);
+    expect(hasFigure("heat", 3)).toBe(false);
   });
 });
 

@@ -65,11 +65,18 @@ export function plotKinds(
   ];
 }
 
-const FIGURES: PlotKind[] = ["course", "curve", "heat", "picture", "space_time"];
+// The most axes of an array in the figure of a plot: figures have no sections.
+const FIGURES = new Map<PlotKind, number>([
+  ["course", Number.POSITIVE_INFINITY],
+  ["curve", 1],
+  ["heat", 2],
+  ["picture", 3],
+  ["space_time", 1],
+]);
 
-// Whether `deodar plot` has a figure that draws the same as a plot.
-export function hasFigure(kind: PlotKind): boolean {
-  return FIGURES.includes(kind);
+// Whether `deodar plot` has a figure that draws the same as a plot of an array over this number of axes.
+export function hasFigure(kind: PlotKind, axes: number): boolean {
+  return axes <= (FIGURES.get(kind) ?? -1);
 }
 
 // Whether a plot of a package can show an array over these axes.
