@@ -35,8 +35,8 @@ DOTS = 100
 """Dots an inch of the pictures on pages; those that `deodar reproduce` writes have those of print."""
 
 ABOUT, ROWS, RESULTS = "about.json", "runs.jsonl.xz", "results.json"
-PLACE = re.compile(r"<!-- evidence (\w+) (\S+) -->(.*?)<!-- end -->", re.DOTALL)
-REGION = re.compile(r"<!-- numbers of (\w+) -->(.*?)<!-- end of numbers -->", re.DOTALL)
+PLACE = re.compile(r"<!-- evidence ([\w-]+) (\S+) -->(.*?)<!-- end -->", re.DOTALL)
+REGION = re.compile(r"<!-- numbers of ([\w-]+) -->(.*?)<!-- end of numbers -->", re.DOTALL)
 NAMED = re.compile(
     r"!?\[[^\]]*\]\([^)]*\)|`[^`]*`|\(\d{4}\)|(?:figures?|sections?|tables?|eqs?\.|equations?|cases?)"
     r" \d[\d.]*(?:(?:, | to | and )\d[\d.]*)*|95 %"

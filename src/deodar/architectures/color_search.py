@@ -25,6 +25,7 @@ import numpy as np
 
 from deodar.architectures.serial_order import CLEAR, QUADRATURE, START, STEEP, TAU, serial_order
 from deodar.couplings.color_histogram import ColorHistogram
+from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.gain import Gain
 from deodar.couplings.obstacle_repulsion import ObstacleRepulsion
 from deodar.couplings.product import Product
@@ -89,6 +90,9 @@ single colour gives 1. Both are ours: the paper states neither; the share of sin
 thresholds.
 """
 
+WHOLE = math.hypot(SPREAD, HUE_NOISE) / SPREAD
+"""Factor with which a column of a single colour gives 1: its maximum is lower where hue scatters."""
+
 REPULSION, ATTRACTION, TURNING = 1.0, 0.2, 80.0
 """lambda_obs, lambda_tar and tau_nav.
 
@@ -108,6 +112,17 @@ The table prints 60 and 30 (5 and 2.5 mm/s); deodar drives five times as fast, w
 NEAR = 80.0
 """Distance below which an obstacle counts as near, mm (ours)."""
 
+
+HABITUATION = {
+    "delay": 100.0,
+    "tau_build": 10.0,
+    "tau_decay": 10_000.0,
+    "satisfaction": -3.0,
+    "colour space": -3.0,
+}
+"""Delay and time constants of the trace of the colours that were found, ms, and its strengths (ours): such a
+colour attracts again after about 7 s. Without the delay the trace would break the transition off.
+"""
 
 BEFORE = 100.0, 200.0
 """Time constants of the two memories of the mode, ms: after a change all nodes are inhibited for 230 ms, and
@@ -142,7 +157,9 @@ def column_axis(samples: int = COLUMNS // COARSE) -> Axis:
     return Axis("column", -half, half, samples)
 
 
-def color_search(items: int = 5, noise: float = 0.22, look_around: bool = True) -> Model:
+def color_search(
+    items: int = 5, noise: float = 0.22, look_around: bool = True, habituation: bool = False
+) -> Model:
     """Create the architecture for a vehicle with a camera, infrared sensors that read distances in mm, and
     two wheels, such as the Khepera of the world `Arena`.
 
@@ -159,6 +176,9 @@ def color_search(items: int = 5, noise: float = 0.22, look_around: bool = True) 
         look_around: whether the vehicle looks around while no block of the wanted colour is in view: it turns
             on the spot, towards the side where it has not looked for a while, until it has looked everywhere.
             Without it the vehicle drives straight until an obstacle turns it, as in the paper.
+        habituation: whether a colour that was found neither satisfies nor attracts for some seconds. Without
+            it, as in the paper's equations, a repeated colour is found again at once if its block is still in
+            view.
 
     Reference:
         Sandamirskaya & Schöner (2010), figure 8, eqs. 4 to 8 and A.1 to A.6, table B.1.
@@ -182,6 +202,8 @@ def color_search(items: int = 5, noise: float = 0.22, look_around: bool = True) 
     _changes(model, items)
     searched = _colour_space(model, hue, noise)
     turn, speed = _wheels(model, searched)
+    if habituation:
+        _habituate(model, hue)
     if look_around:
         _look_around(model, searched, turn, speed, noise)
     # these two are only for records and figures
@@ -234,8 +256,6 @@ def _colour_space(model: Model, hue: Axis, noise: float) -> Handle:
         )
     )
     colours = model.add(ColorHistogram([column, coarse], sigma=SPREAD, name="colours"))
-    # a column of pixels whose hue scatters has a lower maximum than a column of one hue
-    whole = math.hypot(SPREAD, HUE_NOISE) / SPREAD
     field = model.add(
         Field(
             "colour space",
@@ -249,7 +269,7 @@ def _colour_space(model: Model, hue: Axis, noise: float) -> Handle:
             quadrature=QUADRATURE,
         )
     )
-    seen = model.add(Gain(SEEN * whole, name="seen"))
+    seen = model.add(Gain(SEEN * WHOLE, name="seen"))
     picture >> colours >> seen >> field
     boost = model.add(Gain(TAUGHT, name="taught"))
     model["learning"] >> boost
@@ -270,14 +290,31 @@ def _colour_space(model: Model, hue: Axis, noise: float) -> Handle:
     model.connect(model["not teaching"], "shown.factor")
     shown >> model["action"]
     inside = (np.abs(column.points) < PATCH * COLUMNS / 2).astype(float)
-    middle = np.repeat((LARGE * whole * inside / inside.sum())[:, None], coarse.samples, axis=1)
+    middle = np.repeat((inside / inside.sum())[:, None], coarse.samples, axis=1)
     (
         colours
         >> model.add(Weighting(middle, (column, coarse), name="middle"))  # type: ignore[arg-type]
         >> model.add(Project([hue], reduce="sum", name="large"))
+        >> model.add(Gain(LARGE * WHOLE, name="strength of large"))
         >> model["satisfaction"]
     )
     return field
+
+
+def _habituate(model: Model, hue: Axis) -> None:
+    """Create a trace of the colours that were found, which inhibits the field of the condition of
+    satisfaction and the colour-space field.
+    """
+    group, times = "habituation", (HABITUATION["tau_build"], HABITUATION["tau_decay"])
+    gate = model.add(Product(name="while producing"), group=group)
+    model["satisfaction"] >> gate
+    model.connect(model["producing"], f"{gate.path}.factor")
+    trace = model.add(
+        MemoryTrace("found colours", [hue], tau_build=times[0], tau_decay=times[1], fades=True), group=group
+    )
+    gate >> model.add(DelayLine("later", [hue], HABITUATION["delay"]), group=group) >> trace
+    for target in ("satisfaction", "colour space"):
+        trace >> model.add(Gain(HABITUATION[target], name=f"less {target}"), group=group) >> model[target]
 
 
 def _wheels(model: Model, field: Handle) -> tuple[Handle, Handle]:

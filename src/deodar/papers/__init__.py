@@ -62,14 +62,15 @@ def names() -> list[str]:
 
 
 def own() -> list[str]:
-    """Return the names of the papers of deodar."""
-    return sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
+    """Return the names of the papers of deodar: those of their folders, with hyphens."""
+    return sorted(m.name.replace("_", "-") for m in pkgutil.iter_modules(__path__) if m.name[0] != "_")
 
 
 def demos() -> dict[str, ModuleType]:
     """Return the demonstrations of deodar's papers, by the name of the paper."""
-    found = [name for name in own() if importlib.util.find_spec(f"deodar.papers.{name}.demo")]
-    return {name: importlib.import_module(f"deodar.papers.{name}.demo") for name in found}
+    paths = {name: f"deodar.papers.{name.replace('-', '_')}.demo" for name in own()}
+    found = {name: path for name, path in paths.items() if importlib.util.find_spec(path)}
+    return {name: importlib.import_module(path) for name, path in found.items()}
 
 
 def packaged() -> list[Plugin]:
@@ -84,7 +85,7 @@ def paper(name: str) -> ModuleType:
         UnknownName: no paper has this name (the nearest name is suggested), or its package cannot be used.
     """
     if name in own():
-        return importlib.import_module(f"deodar.papers.{name}")
+        return importlib.import_module(f"deodar.papers.{name.replace('-', '_')}")
     for p in packaged():
         if p.name == name:
             module, problem = p.load()

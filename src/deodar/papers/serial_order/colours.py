@@ -1,0 +1,55 @@
+"""Colours of the sequences, by letters, and the sequences."""
+
+from __future__ import annotations
+
+import colorsys
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from deodar.architectures.color_search import HUES
+from deodar.errors import ParameterError
+
+FIVE: Mapping[str, float] = {"R": 0.0, "Y": 30.0, "G": 60.0, "B": 120.0, "V": 150.0}
+"""Red, yellow, green, blue and violet, in samples of the hue axis (2 degrees each)."""
+
+TEN: Mapping[str, float] = {letter: 18.0 * k for k, letter in enumerate("0123456789")}
+"""Ten hues at equal distances."""
+
+VALUE = 0.9
+"""Value (largest channel) of the blocks; their saturation is 1."""
+
+PAPER = ("RBGBY", "RGBY", "RGGY", "GYB")
+"""The sequences that the paper names (sections 5.3 and 5.4)."""
+
+CLUTTERED = "GYB"
+"""The sequence that is learned in clutter."""
+
+
+def random_sequences(count: int = 20, seed: int = 7) -> tuple[str, ...]:
+    """Draw sequences of 2 to 5 of the five colours; a colour may be repeated."""
+    rng = np.random.default_rng(seed)
+    return tuple("".join(rng.choice(list(FIVE), int(rng.integers(2, 6)))) for _ in range(count))
+
+
+def rgb(letter: str) -> tuple[float, float, float]:
+    """Return red, green and blue of a colour."""
+    return colorsys.hsv_to_rgb(hue_of(letter) / HUES, 1.0, VALUE)
+
+
+def hue_of(letter: str) -> float:
+    """Return the sample of hue of a colour."""
+    known = {**FIVE, **TEN}
+    if letter not in known:
+        raise ParameterError(f"there is no colour {letter!r}", fix=f"Colours are {', '.join(FIVE)}")
+    return known[letter]
+
+
+def letter_at(hue: float, among: Sequence[str] = tuple(FIVE)) -> str:
+    """Return the colour nearest to a sample of hue."""
+    return min(among, key=lambda letter: away(hue, hue_of(letter)))
+
+
+def away(one: float, other: float) -> float:
+    """Return the distance of two hues on their circle, in samples."""
+    return abs((one - other + HUES / 2) % HUES - HUES / 2)

@@ -1,0 +1,131 @@
+"""Design: the conditions, and the runs of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from deodar.codec import JsonObject
+from deodar.papers.serial_order.arenas import SearchArena, random_arena, ring
+from deodar.papers.serial_order.colours import CLUTTERED, FIVE, PAPER, TEN, random_sequences
+from deodar.papers.serial_order.teaching import LONGEST, Showing, lesson
+from deodar.papers.serial_order.variations import PARAMETERS
+
+Ground = Literal["none", "arena", "ring"]
+
+LIMIT = 600.0
+"""Longest production, s."""
+
+BRIEF = 5.0
+"""Longest showing of a block in conditions that do not test its duration, s."""
+
+CLUTTER = 0.25
+"""Share of the background rows of the picture that random colours cover while `GYB` is learned."""
+
+RING = ("RBGBY", "RGGY", "GYB", "VVRY")
+RING_LIMIT = 45.0
+
+BACK = 60.0
+"""Time for which a block is taken away, s."""
+
+STEPS = {"-20": 0.8, "+20": 1.2}
+
+
+@dataclass(frozen=True)
+class SearchCondition:
+    """A condition: runs that differ in their sequences, lessons, arenas and noise.
+
+    Attributes:
+        name: keys of rows begin with it.
+        sequences: run k has sequence k modulo their number.
+        count: number of runs.
+        body: `none` (learning only, after which the weights are read), `arena` or `ring`.
+        longest: longest showing of a block, s.
+        duplicates: blocks whose colour another wanted block has, too; None: 0 or 1.
+        clutter: share of the background rows that random colours cover.
+        look_around, habituation: as in `color_search`.
+        event: `removed`: the second block is taken away while the vehicle looks for it; `carried`: the
+            vehicle is carried elsewhere while it does; empty: neither.
+        limit: longest production, s.
+        varied, factor: a parameter of table B.1, and its factor.
+    """
+
+    name: str
+    sequences: tuple[str, ...]
+    count: int
+    body: Ground = "arena"
+    longest: float = BRIEF
+    duplicates: int | None = None
+    clutter: float = 0.0
+    look_around: bool = True
+    habituation: bool = False
+    event: Literal["", "removed", "carried"] = ""
+    limit: float = LIMIT
+    varied: str = ""
+    factor: float = 1.0
+
+    def sequence(self, k: int) -> str:
+        """Return the sequence of run k."""
+        return self.sequences[k % len(self.sequences)]
+
+    def key(self, k: int) -> str:
+        """Return the key of the row of run k."""
+        return f"{self.name}/{k}"
+
+    def arena(self, k: int) -> SearchArena:
+        """Return the arena of run k."""
+        if self.body == "ring":
+            return ring()
+        duplicates = k % 2 if self.duplicates is None else self.duplicates
+        colours = tuple(TEN) if self.sequence(k)[0] in TEN else tuple(FIVE)
+        return random_arena(self.sequence(k), (sum(map(ord, self.name)), k), duplicates, colours)
+
+    def settings(self) -> JsonObject:
+        """Return the settings of the condition, as plain data."""
+        return {**vars(self), "sequences": list(self.sequences)}
+
+
+def conditions(quick: bool) -> dict[str, SearchCondition]:
+    """Return all conditions by name, those of the paper first."""
+    twenty = random_sequences()
+    every = (*PAPER, *twenty)
+    clear = tuple(s for s in every if s != CLUTTERED)
+    found = [
+        SearchCondition("ring", RING, 4 if quick else 20, "ring", limit=RING_LIMIT),
+        SearchCondition("learning", clear, 23 if quick else 13 * 23, "none", LONGEST),
+        SearchCondition("clutter", (CLUTTERED,), 4 if quick else 13, "none", LONGEST, clutter=CLUTTER),
+        SearchCondition("arena", every, 16 if quick else 5 * 24),
+        SearchCondition("duplicates", every, 4 if quick else 52, duplicates=3),
+        SearchCondition("removed", every, 4 if quick else 50, duplicates=0, event="removed"),
+        SearchCondition("habituation", ("RGGY",), 4 if quick else 24, habituation=True),
+        SearchCondition("repetition", ("RGGY",), 4 if quick else 24),
+        SearchCondition("wander", PAPER, 4 if quick else 52, look_around=False),
+        SearchCondition("carried", every, 4 if quick else 50, duplicates=0, event="carried"),
+        SearchCondition("ten", ten_sequences(), 2 if quick else 50),
+    ]
+    if not quick:
+        like = found[0]
+        for parameter in PARAMETERS:
+            for sign, factor in STEPS.items():
+                name = f"vary/{parameter}/{sign}"
+                found.append(replace(like, name=name, varied=parameter, factor=factor))
+    return {c.name: c for c in found}
+
+
+def ten_sequences(count: int = 10, seed: int = 10) -> tuple[str, ...]:
+    """Draw sequences of all ten hues, each in an order of its own."""
+    rng = np.random.default_rng(seed)
+    return tuple("".join(rng.permutation(list(TEN))) for _ in range(count))
+
+
+def design(quick: bool) -> JsonObject:
+    """Return the design as plain data."""
+    return {"runs": {name: c.settings() for name, c in conditions(quick).items()}}
+
+
+def taught(c: SearchCondition, k: int) -> tuple[Sequence[Showing], float]:
+    """Return the lesson of run k, and its duration in ms."""
+    return lesson(c.sequence(k), k, c.longest)

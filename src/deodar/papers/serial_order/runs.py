@@ -1,0 +1,349 @@
+"""Runs of a batch: a sequence is taught, then produced in an arena; what a run leaves, as a row."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from deodar.architectures.color_search import HUES, PATCH, color_search
+from deodar.architectures.serial_order import OFF
+from deodar.couplings.peak_position import PeakPosition
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.elements.boost import Boost
+from deodar.experiments.actions import Action
+from deodar.experiments.batch import run_batch
+from deodar.experiments.events import Crosses
+from deodar.experiments.rows import Row
+from deodar.experiments.trial import Trial
+from deodar.model.model import Model
+from deodar.numerics.windows import Window
+from deodar.papers.serial_order.arenas import BLOCK, SearchArena
+from deodar.papers.serial_order.colours import FIVE, TEN, hue_of, letter_at
+from deodar.papers.serial_order.teaching import Showing
+from deodar.papers.serial_order.world import world
+from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.khepera import KHEPERA
+
+EVERY, COARSE = 4.0, 20.0
+"""Sampling intervals, ms; the step of the model is 2 ms."""
+
+OVER = 100
+"""Samples for which the node behind the sequence is active at the end of a run: more than its activity after
+the lesson lasts.
+"""
+
+READ = 800.0
+"""Interval in which the weights of one node are read after a lesson, ms."""
+
+FAR = 170.0
+"""Largest distance between the middle of the vehicle and a block that satisfies its condition, mm."""
+
+CHANGED = 250.0
+"""Time after the change of the mode at which the activity of the lesson is over, and the first node has not
+begun, ms.
+"""
+
+SOON = 40.0
+"""Time within which a peak of the condition of satisfaction has formed, ms."""
+
+ABSENT = -1.0
+STRONG = 0.3
+"""Smallest maximum of the weights of a learned node."""
+
+
+@dataclass(frozen=True)
+class TaughtRun:
+    """What is run: a sequence, its lesson and an arena.
+
+    Attributes:
+        sequence: letters of the colours.
+        lesson: how it is taught, with times of the run.
+        taught: duration of the lesson, ms.
+        arena: the arena.
+    """
+
+    sequence: str
+    lesson: Sequence[Showing]
+    taught: float
+    arena: SearchArena
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings that all runs of a batch have.
+
+    Attributes:
+        limit: longest production, ms.
+        clutter: share of the background rows of the picture that random colours cover.
+        look_around, habituation: as in `color_search`.
+        values: parameters of the model that differ from those of the paper's set, by path.
+        actions: actions on each run; `looks for K` is the event that item K becomes active in production.
+        coarse: whether samples are taken every 20 ms, where no times of instabilities are wanted.
+    """
+
+    limit: float = 600_000.0
+    clutter: float = 0.0
+    look_around: bool = True
+    habituation: bool = False
+    values: Mapping[str, float] = field(default_factory=dict[str, float])
+    actions: Sequence[Action] = ()
+    coarse: bool = False
+
+
+def prepared(length: int, settings: Settings) -> Model:
+    """Create the model of a batch: the architecture with a node more than the sequence has colours, and what
+    reads single numbers of its fields.
+    """
+    model = color_search(length + 1, look_around=settings.look_around, habituation=settings.habituation)
+    for path, value in settings.values.items():
+        model.set(path, value)
+    for name in ("action", "satisfaction"):
+        strongest = model.add(Project([], reduce="max", name=f"strongest {name}"))
+        model.connect(f"{name}.activation", strongest)
+        model[name] >> model.add(PeakPosition(absent=ABSENT, name=f"hue of {name}"))
+    model["colour space"] >> model.add(Project([], reduce="max", name="strongest peak"))
+    for k in range(1, length + 2):
+        produced = model.add(Product(name=f"produced {k}"))
+        model[f"item {k}.node"] >> produced
+        model.connect("producing", f"{produced.path}.factor")
+    model.set("mode", 1.0)
+    return model
+
+
+def run_many(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -> list[tuple[Trial, float]]:
+    """TaughtRun a batch of runs whose sequences have equal length.
+
+    Lessons end at one time, the shorter ones begin later. Returns each trial, and the time at which
+    production begins, ms.
+    """
+    [length] = {len(run.sequence) for run in runs}
+    produced = _end_of_lessons(runs)
+    model = prepared(length, settings)
+    model.set("producing.windows", [Window(produced)])
+    nodes = [f"item {k}.node" for k in range(1, length + 2)]
+    watch = [
+        *(f"{node}.activation" for node in nodes),
+        *(f"strongest {name}.output" for name in ("action", "satisfaction", "peak")),
+        *(f"hue of {name}.output" for name in ("action", "satisfaction")),
+        "pose.output",
+        "touching.output",
+    ]
+    events = [Crosses("over", f"produced {length + 1}.output", 0.5, times=OVER)]
+    if settings.actions:
+        looks = (
+            Crosses(f"looks for {k}", f"produced {k}.output", 0.5, ends=False) for k in range(1, length + 1)
+        )
+        events = [*looks, *events]
+    trials = run_batch(
+        model,
+        produced + settings.limit,
+        range(len(runs)),
+        watch,
+        events,
+        seed=seed,
+        world=_world(runs, produced, settings),
+        every=COARSE if settings.coarse else EVERY,
+        actions=settings.actions,
+        tolerant=True,
+    )
+    return [(trial, produced) for trial in trials]
+
+
+def read_weights(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -> list[np.ndarray]:
+    """Teach a batch of runs, and return the weights of each (nodes, hues), with those of the node behind the
+    sequence.
+
+    The weights are read as the model reads them: after the lesson one node after another is active, each
+    until a pulse inhibits all nodes; there is nothing in view.
+    """
+    [length] = {len(run.sequence) for run in runs}
+    produced = _end_of_lessons(runs)
+    model = prepared(length, settings)
+    model.set("producing.windows", [Window(produced)])
+    begins = [produced + READ * (k + 1) for k in range(length + 1)]
+    pulse = model.add(
+        Boost("next", [], amplitude=OFF, windows=[Window(begin - 100.0, begin - 40.0) for begin in begins])
+    )
+    for k in range(1, length + 2):
+        pulse >> model[f"item {k}.node"]
+    limit = READ * (length + 1)
+    trials = run_batch(
+        model,
+        produced + limit,
+        range(len(runs)),
+        ["all meanings.output"],
+        seed=seed,
+        world=_world([replace(run, arena=replace(run.arena, blocks=())) for run in runs], produced, settings),
+        every=READ / 8,
+        tolerant=True,
+    )
+    # read shortly before each pulse
+    at = [round((begin - 200.0) / (READ / 8)) for begin in begins]
+    return [trial.values["all meanings.output"][at] for trial in trials]
+
+
+def learned(run: TaughtRun, weights: np.ndarray) -> Row:
+    """Return what a lesson leaves: the colour of each node, and the shape of its weights."""
+    hues = np.arange(HUES)
+    shapes: list[list[float]] = []
+    letters = ""
+    for row in weights:
+        top = float(row.max())
+        among = tuple(TEN if run.sequence[0] in TEN else FIVE)
+        letter = letter_at(float(row.argmax()), among) if top >= STRONG else "-"
+        letters += letter
+        if letter != "-":
+            turn = np.angle(np.sum(row * np.exp(2j * math.pi * hues / HUES))) * HUES / (2 * math.pi)
+            deviation = (turn - hue_of(letter) + HUES / 2) % HUES - HUES / 2
+            shapes.append([round(top, 3), int((row > top / 2).sum()), round(float(deviation), 3)])
+    return {
+        "sequence": run.sequence,
+        "learned": letters,
+        "right": letters == run.sequence + "-",
+        "weights": shapes,
+        "taught": round(run.taught / 1000, 3),
+    }
+
+
+def _end_of_lessons(runs: Sequence[TaughtRun]) -> float:
+    """Return the time at which the lessons of a batch end, a multiple of the periods of the world."""
+    return math.ceil(max(run.taught for run in runs) / 800.0) * 800.0
+
+
+def _world(runs: Sequence[TaughtRun], produced: float, settings: Settings) -> Arena:
+    lessons = [_later(run.lesson, produced - run.taught) for run in runs]
+    return world([run.arena for run in runs], lessons, produced, settings.clutter)
+
+
+def _later(lesson: Sequence[Showing], by: float) -> list[Showing]:
+    return [
+        Showing(s.letter, s.begins + by, s.centred + by, s.ends + by, s.aside, s.ahead, s.lateral)
+        for s in lesson
+    ]
+
+
+def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
+    """Return what a production leaves: the blocks found, the times of all instabilities, and the outcome.
+
+    A block is found where an ordinal node is switched off and another one is active next; its colour is that
+    of the peak of the condition of satisfaction, `?` without one.
+    """
+    v, times = trial.values, trial.times
+    begin = int(np.searchsorted(times, produced))
+    t = times[begin:] - produced
+    count = len(run.sequence) + 1
+    nodes = np.stack([v[f"item {k}.node.activation"][begin:] > 0 for k in range(1, count + 1)], axis=1)
+    nodes[t < CHANGED] = False
+    on = {name: v[f"strongest {name}.output"][begin:] > 0 for name in ("action", "satisfaction")}
+    on["peak"] = v["strongest peak.output"][begin:] > 0.5
+    pose = v["pose.output"][begin:]
+    letters = tuple(sorted({b.letter for b in run.arena.blocks} | set(run.sequence)))
+    begun = np.flatnonzero(np.diff(on["satisfaction"].astype(int), prepend=0) == 1)
+    ends, got = list[int](), list[str]()
+    for off in _completed(nodes):
+        # the peak that switched the node off
+        before = begun[(begun <= off) & (t[begun] >= t[off] - SOON)]
+        k = int(before[-1]) if len(before) else off
+        hue = _peak(v["hue of satisfaction.output"][begin + k :], times[begin + k :])
+        ends.append(k)
+        got.append("?" if hue is None else letter_at(hue, letters))
+    far = [distance(run.arena, letter, pose[k]) for letter, k in zip(got, ends, strict=True)]
+    produced_ = "".join(got)
+    right = run.sequence.startswith(produced_) and all(d <= FAR for d in far)
+    starts = [0.0, *(float(t[k]) for k in ends)]
+    return {
+        "sequence": run.sequence,
+        "produced": produced_,
+        "outcome": "wrong" if not right else "complete" if produced_ == run.sequence else "unfinished",
+        "found": [round(float(t[k]) / 1000, 3) for k in ends],
+        "actions": [round((b - a) / 1000, 3) for a, b in itertools.pairwise(starts)],
+        "distances": [round(d, 1) for d in far],
+        "transitions": transitions(t, nodes, on),
+        "touching": round(float(v["touching.output"][begin:].mean()), 4),
+        "length": round(float(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum()), 1),
+    }
+
+
+def transitions(t: np.ndarray, nodes: np.ndarray, on: Mapping[str, np.ndarray]) -> list[list[float | None]]:
+    """Return for each node that is switched off, and followed by the next one, the times of the instabilities
+    in ms from then on: satisfaction on, action off, peak off, satisfaction off, next node on, next action on.
+    """
+    out: list[list[float | None]] = []
+    for k in range(nodes.shape[1] - 1):
+        off = np.flatnonzero(np.diff(nodes[:, k].astype(int)) == -1) + 1
+        for i in off.tolist():
+            later = np.flatnonzero(nodes[i:, k + 1])
+            if not len(later):
+                continue
+            j = i + int(later[0])
+            begun = np.flatnonzero(np.diff(on["satisfaction"][: i + 1].astype(int), prepend=0) == 1)
+            row = [
+                t[begun[-1]] if len(begun) else None,
+                _first(t, ~on["action"], i),
+                _first(t, ~on["peak"], i),
+                _last_off(t, on["satisfaction"], i, j),
+                t[j],
+                _first(t, on["action"], j),
+            ]
+            out.append([None if value is None else round(float(value - t[i]), 3) for value in row])
+    return out
+
+
+def _completed(nodes: np.ndarray) -> list[int]:
+    """Return the samples at which a node is switched off and another one, or none, is active next."""
+    out: list[int] = []
+    for k in range(nodes.shape[1]):
+        for off in (np.flatnonzero(np.diff(nodes[:, k].astype(int)) == -1) + 1).tolist():
+            later = np.flatnonzero(nodes[off:].any(axis=1))
+            if not len(later) or not nodes[off + later[0], k]:
+                out.append(off)
+    return sorted(out)
+
+
+def _peak(hues: np.ndarray, times: np.ndarray) -> float | None:
+    """Return the hue of a peak that begins now; None if there is none soon."""
+    soon = hues[times <= times[0] + SOON]
+    known = soon[soon != ABSENT]
+    return float(known[-1]) if len(known) else None
+
+
+def _first(t: np.ndarray, true: np.ndarray, begin: int) -> float | None:
+    found = np.flatnonzero(true[begin:])
+    return float(t[begin + found[0]]) if len(found) else None
+
+
+def _last_off(t: np.ndarray, on: np.ndarray, begin: int, end: int) -> float | None:
+    """Return the last time from `begin` to `end` at which something is switched off."""
+    off = np.flatnonzero(np.diff(on[begin : end + 1].astype(int)) == -1)
+    return float(t[begin + off[-1] + 1]) if len(off) else None
+
+
+def distance(arena: SearchArena, letter: str, pose: np.ndarray) -> float:
+    """Return the distance, mm, of the nearest block of a colour of which a part is in the middle of the
+    picture; infinite without one.
+    """
+    x, y, heading = (float(value) for value in pose)
+    camera = KHEPERA.camera
+    assert camera is not None
+    widest = math.tan(camera.horizontal / 2) * PATCH
+    best = math.inf
+    for block in arena.blocks:
+        if block.letter != letter:
+            continue
+        corners = (
+            np.asarray([[sx, sy] for sx in (-1, 1) for sy in (-1, 1)]) * BLOCK / 2 + block.center - [x, y]
+        )
+        cos, sin = math.cos(heading), math.sin(heading)
+        ahead, left = corners @ [cos, sin], corners @ [-sin, cos]
+        if (ahead <= 0).any():
+            continue
+        slopes = left / ahead
+        if slopes.min() <= widest and slopes.max() >= -widest:
+            gap = np.maximum(np.abs(np.asarray([x, y]) - block.center) - BLOCK / 2, 0.0)
+            best = min(best, float(np.hypot(*gap)))
+    return best

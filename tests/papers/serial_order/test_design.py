@@ -1,0 +1,70 @@
+"""The design: sequences, lessons, arenas, and what is varied."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from deodar import papers
+from deodar.architectures.color_search import color_search
+from deodar.errors import ParameterError, UnknownName
+from deodar.papers.serial_order import arenas, colours, conditions, teaching, trials, variations
+from deodar.papers.serial_order.arenas import random_arena
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_every_run_belongs_to_one_job_whose_sequences_have_one_length(quick: bool) -> None:
+    keys = [key for job in papers.paper("serial-order").jobs(quick) for key in job.keys]
+    known = conditions.conditions(quick)
+    assert sorted(keys) == sorted(c.key(k) for c in known.values() for k in range(c.count))
+    for c in known.values():
+        for batch in trials.batches(c):
+            assert len({len(c.sequence(k)) for k in batch}) == 1 and len(batch) <= trials.BATCH
+
+
+def test_the_runs_are_as_many_as_the_claims_need() -> None:
+    known = conditions.conditions(False)
+    assert known["learning"].count + known["clutter"].count >= 300
+    assert known["arena"].count >= 100 and known["removed"].count == 50
+    assert known["duplicates"].count >= 50 and known["duplicates"].duplicates == 3
+    assert {known["arena"].sequence(k) for k in range(120)} >= {*colours.PAPER, *colours.random_sequences()}
+
+
+@pytest.mark.parametrize("k", range(20))
+def test_blocks_of_an_arena_are_apart_from_walls_and_from_each_other(k: int) -> None:
+    arena = random_arena("RBGBY", (k,), duplicates=3)
+    letters = [b.letter for b in arena.blocks]
+    assert arena.side == arenas.WIDE and random_arena("RBGBY", (k,)).side == arenas.SIDE
+    assert set("RBGY") <= set(letters) and len(letters) == 4 + arenas.DISTRACTORS + 3
+    for n, block in enumerate(arena.blocks):
+        assert max(map(abs, block.center)) <= arena.side / 2 - arenas.FROM_WALL
+        for other in arena.blocks[n + 1 :]:
+            assert max(abs(a - b) for a, b in zip(block.center, other.center, strict=True)) > arenas.APART
+
+
+def test_a_lesson_shows_each_colour_once_at_the_side_and_then_in_the_middle() -> None:
+    showings, end = teaching.lesson("RGGY", 5)
+    assert "".join(s.letter for s in showings) == "RGGY"
+    times = [t for s in showings for t in (s.begins, s.centred, s.ends)]
+    assert times == sorted(times) and times[0] == teaching.FIRST and end > times[-1]
+    assert teaching.lesson("RGGY", 5) == (showings, end) != teaching.lesson("RGGY", 6)
+
+
+def test_a_factor_of_one_leaves_every_parameter_as_it_is() -> None:
+    model = color_search(3)
+    for name in variations.PARAMETERS:
+        for path, value in variations.values(name, 1.0, 3).items():
+            assert model.get(path) == pytest.approx(value), (name, path)
+        changed = variations.values(name, 1.2, 3)
+        assert any(model.get(path) != pytest.approx(value) for path, value in changed.items()), name
+    with pytest.raises(UnknownName, match="no parameter"):
+        variations.values("h_x", 1.2, 3)
+
+
+def test_hues_are_nearest_on_their_circle() -> None:
+    assert colours.letter_at(178.0) == "R" and colours.letter_at(100.0) == "B"
+    assert colours.rgb("G") == pytest.approx((0.0, 0.9, 0.0))
+    assert colours.away(2.0, 178.0) == 4.0 and not math.isnan(colours.hue_of("7"))
+    with pytest.raises(ParameterError, match="no colour 'X'"):
+        colours.hue_of("X")
