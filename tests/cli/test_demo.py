@@ -16,7 +16,9 @@ from deodar.cli import main
         ("spa", [], "spa"),
         ("spa", ["--noise", "low"], "spa"),
         ("saliency", ["--cue", "30"], "saliency"),
+        ("serial-order", ["--sequence", "RGB"], "serial-order"),
         ("spa", ["--cue", "30"], "saliency"),
+        ("spa", ["--sequence", "RGB"], "serial-order"),
         ("saliency", ["--noise", "low"], "spa"),
     ],
 )

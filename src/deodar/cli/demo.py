@@ -19,7 +19,10 @@ from deodar.recording import places
 if TYPE_CHECKING:
     from deodar.papers import Demonstration
 
-HELP = "run the quick form of a paper: saliency on photographs, or spa, a robot that plans and drives"
+HELP = (
+    "run the quick form of a paper: saliency on photographs; serial-order, a robot that learns a sequence; or"
+    " spa, a robot that plans and drives"
+)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -115,18 +115,31 @@ def prepared(length: int, settings: Settings) -> Model:
     return model
 
 
-def run_many(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -> list[tuple[Trial, float]]:
+def run_many(
+    runs: Sequence[TaughtRun],
+    settings: Settings,
+    seed: int = 0,
+    watch: Sequence[str] = (),
+    between: Callable[[int], None] | None = None,
+) -> list[tuple[Trial, float]]:
     """TaughtRun a batch of runs whose sequences have equal length.
 
     Lessons end at one time, the shorter ones begin later. Returns each trial, and the time at which
     production begins, ms.
+
+    Args:
+        runs: the runs.
+        settings: their common settings.
+        seed: seed of all noise.
+        watch: paths of ports that are sampled too.
+        between: called after each call of the program, as in `run_batch`.
     """
     [length] = {len(run.sequence) for run in runs}
     produced = _end_of_lessons(runs)
     model = prepared(length, settings)
     model.set("producing.windows", [Window(produced)])
     nodes = [f"item {k}.node" for k in range(1, length + 2)]
-    watch = [
+    needed = [
         *(f"{node}.activation" for node in nodes),
         *(f"strongest {name}.output" for name in ("action", "satisfaction", "peak")),
         *(f"hue of {name}.output" for name in ("action", "satisfaction")),
@@ -143,11 +156,12 @@ def run_many(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -> li
         model,
         produced + settings.limit,
         range(len(runs)),
-        watch,
+        list(dict.fromkeys([*needed, *watch])),
         events,
         seed=seed,
         world=_world(runs, produced, settings),
         every=COARSE if settings.coarse else EVERY,
+        between=between,
         actions=settings.actions,
         tolerant=True,
     )

@@ -29,6 +29,9 @@ one in the middle, mm.
 LATERAL = 8.0
 """Largest deviation of a block from the middle, mm."""
 
+BRIEF, BREAK = 2000.0, 1000.0
+"""Time for which a block is shown in a brief lesson, and the pause after it, ms."""
+
 
 @dataclass(frozen=True)
 class Showing:
@@ -68,3 +71,16 @@ def lesson(sequence: str, seed: int, longest: float = LONGEST) -> tuple[tuple[Sh
         out.append(Showing(letter, now, now + enters, now + shown, side * ASIDE[1], ahead, lateral))
         now += shown + 1000.0 * float(rng.uniform(*PAUSE))
     return tuple(out), now
+
+
+def brief_lesson(sequence: str) -> tuple[tuple[Showing, ...], float]:
+    """Return a lesson without randomness: each block is shown for `BRIEF` ms, and the time at which it ends,
+    ms.
+    """
+    begins = [FIRST + (BRIEF + BREAK) * k for k in range(len(sequence) + 1)]
+    enters, ahead = min(ENTERS[0] * BRIEF, ENTERS[1]), sum(NEAR) / 2
+    showings = (
+        Showing(letter, now, now + enters, now + BRIEF, ASIDE[1] * (-1) ** k, ahead, 0.0)
+        for k, (letter, now) in enumerate(zip(sequence, begins, strict=False))
+    )
+    return tuple(showings), begins[-1]

@@ -1,0 +1,48 @@
+"""Demonstration: a sequence of colours is taught, and produced in an arena, with a figure."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from deodar.papers import Demonstration, Show
+
+HELP = "a robot is taught a sequence of colours and looks for them in an arena, in this order"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the demonstration."""
+    group = parser.add_argument_group("serial-order", HELP)
+    group.add_argument(
+        "--sequence",
+        metavar="COLOURS",
+        help="serial-order: 1 to 10 letters of R, Y, G, B, V: red, yellow, green, blue, violet"
+        " (default RBGBY)",
+    )
+
+
+def run(args: argparse.Namespace, show: Show) -> Demonstration:
+    """Teach a sequence and produce it."""
+    # start-up time: these bring JAX
+    from deodar.figures._files import save_figure
+    from deodar.figures.sequence import sequence_figure
+    from deodar.papers.serial_order import narrative
+    from deodar.recording import files
+
+    def shown(share: float, producing: bool) -> None:
+        show("looking for the colours" if producing else "being taught", share)
+
+    sequence = narrative.SEQUENCE if args.sequence is None else args.sequence
+    result = narrative.run(sequence, args.seed, shown)
+
+    def fill(folder: Path) -> None:
+        save_figure(sequence_figure(result), folder / "serial-order.png")
+        files.save_record(result.small, folder / "serial-order.zarr")
+
+    return Demonstration(
+        claims=narrative.claims(result),
+        settings={"sequence": result.sequence},
+        written="serial-order.png, the record (serial-order.zarr)",
+        sentence=narrative.sentence(result),
+        fill=fill,
+    )

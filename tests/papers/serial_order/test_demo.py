@@ -1,0 +1,110 @@
+"""The demonstration of serial order: a short sequence, and claims that follow from a trial."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from PIL import Image
+
+from deodar.cli import main
+from deodar.experiments.trial import Trial
+from deodar.figures.sequence import sequence_figure
+from deodar.papers.serial_order import narrative
+from deodar.papers.serial_order.arenas import Block, SearchArena
+from deodar.papers.serial_order.colours import hue_of
+from deodar.papers.serial_order.runs import ABSENT, COARSE, TaughtRun
+from deodar.papers.serial_order.teaching import brief_lesson
+
+BEGINS = 2000.0
+SEARCH = 2000.0
+"""Duration of each search of the made trials, ms."""
+
+
+def made(taught: str, recalled: str, found: str) -> narrative.SearchRun:
+    """Return the events of a trial without noise: one node after another is active for `SEARCH`, has the
+    recalled colours in the action field, and is switched off by a block of the colours in `found`.
+    """
+    arena = SearchArena(600.0, tuple(Block(c, (100.0, 0.0)) for c in "RGBYV"), (0.0, 0.0, 0.0))
+    lesson, end = brief_lesson(taught)
+    times = np.arange(0.0, BEGINS + SEARCH * len(taught) + 1000.0, COARSE)
+    count = len(times)
+    v = {name: np.full(count, -1.0) for name in ("strongest action.output", "strongest satisfaction.output")}
+    v |= {f"hue of {name}.output": np.full(count, ABSENT) for name in narrative.FIELDS}
+    v |= {f"{name}.activation": np.full((count, 180), -3.0) for name in narrative.FIELDS}
+    v |= {f"item {k}.node.activation": np.full(count, -3.0) for k in range(1, len(taught) + 2)}
+    v["strongest peak.output"], v["touching.output"] = np.zeros(count), np.zeros(count)
+    v[narrative.PROJECTION], v[narrative.POSE] = np.zeros((count, 80)), np.zeros((count, 3))
+    for k, (remembered, got) in enumerate(zip(recalled, found, strict=False), 1):
+        on, off = BEGINS + SEARCH * (k - 1) + 500.0, BEGINS + SEARCH * k
+        active = (times >= on) & (times < off)
+        v[f"item {k}.node.activation"][active] = 5.0
+        v["hue of action.output"][active] = hue_of(remembered)
+        v["strongest peak.output"][(times >= off - 600.0) & (times < off)] = 1.0
+        satisfied = (times >= off - COARSE) & (times < off + 60.0)
+        v["strongest satisfaction.output"][satisfied] = 1.0
+        v["hue of satisfaction.output"][satisfied] = hue_of(got)
+    v[f"item {len(found) + 1}.node.activation"][times >= BEGINS + SEARCH * len(found) + 100.0] = 5.0
+    return narrative.read(TaughtRun(taught, lesson, end, arena), Trial(times, v, {}, "over"), BEGINS)
+
+
+def test_claims_and_times_follow_from_the_trial() -> None:
+    run = made("RGB", "RGB", "RGB")
+    assert (run.recalled, run.produced) == ("RGB", "RGB")
+    assert run.found == pytest.approx([BEGINS + SEARCH * k - COARSE for k in (1, 2, 3)])
+    assert run.seen == pytest.approx([BEGINS + SEARCH * k - 600.0 for k in (1, 2, 3)])
+    assert [c.holds for c in narrative.claims(run)] == [True, True, True, None]
+    assert narrative.sentence(run) == "Taught RGB; found R after 2.0 s, G after 4.0 s, B after 6.0 s."
+    assert sequence_figure(run).axes[1].get_title(loc="left") == "action field"
+
+
+@pytest.mark.parametrize(
+    ("recalled", "found", "false"), [("RYB", "RGB", 0), ("RGB", "RBG", 1), ("RGB", "RG", 1), ("RG", "", 1)]
+)
+def test_another_order_or_an_unfinished_sequence_fails_a_required_claim(
+    recalled: str, found: str, false: int
+) -> None:
+    run = made("RGB", recalled, found)
+    claim = narrative.claims(run)[false]
+    assert claim.kind == "required" and claim.holds is False
+    if len(found) < 3:
+        assert f"{3 - len(found)} not found in" in narrative.sentence(run)
+
+
+@pytest.mark.parametrize(
+    ("sequence", "what", "fix"),
+    [
+        ("", "has 0 colours; expected 1 to 10", "--sequence RBGBY"),
+        ("RGBYVRGBYVR", "has 11 colours; expected 1 to 10", "--sequence RBGBY"),
+        ("RXB", "has the letter 'X'", "R, Y, G, B, V"),
+    ],
+)
+def test_a_wrong_sequence_is_refused_before_the_run(
+    sequence: str, what: str, fix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    assert main(["demo", "serial-order", "--sequence", sequence, "--out", str(out), "--no-progress"]) == 1
+    said = capsys.readouterr().err
+    assert "--sequence: " in said and what in said and fix in said
+    assert not out.exists()
+
+
+def test_the_command_teaches_and_produces_a_sequence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "order"
+    assert main(["demo", "serial-order", "--sequence", "gr", "--out", str(out), "--no-progress"]) == 0
+    assert "Taught GR; found G after" in capsys.readouterr().out.splitlines()[-1]
+    found = json.loads((out / "results.json").read_text())
+    assert found["settings"]["sequence"] == "GR"
+    assert [c["value"] for c in found["claims"][:2]] == ["GR", "GR"]
+    with Image.open(out / "serial-order.png") as picture:
+        assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100
+    record = xarray.open_zarr(out / "serial-order.zarr")
+    assert record["action.activation"].dims == ("time", "hue")
+    assert record["pose.output"].sizes["x_y_heading"] == 3
+    learning = record["item_1.node.activation"].values[record["time"].values < 1500.0]
+    assert learning.max() > 0
