@@ -103,6 +103,8 @@ def test_the_command_teaches_and_produces_a_sequence(
     assert [c["value"] for c in found["claims"][:2]] == ["GR", "GR"]
     with Image.open(out / "serial-order.png") as picture:
         assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100
+    with Image.open(out / "serial-order.gif") as film:
+        assert film.size == (420, 460) and 100 < film.n_frames <= 200
     record = xarray.open_zarr(out / "serial-order.zarr")
     assert record["action.activation"].dims == ("time", "hue")
     assert record["pose.output"].sizes["x_y_heading"] == 3

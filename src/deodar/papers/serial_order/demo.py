@@ -1,4 +1,4 @@
-"""Demonstration: a sequence of colours is taught, and produced in an arena, with a figure."""
+"""Demonstration: a sequence of colours is taught, and produced in an arena, with a figure and a video."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     # start-up time: these bring JAX
     from deodar.figures._files import save_figure
     from deodar.figures.sequence import sequence_figure
+    from deodar.figures.sequence_animation import save_sequence_animation
     from deodar.papers.serial_order import narrative
     from deodar.recording import files
 
@@ -37,12 +38,14 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
 
     def fill(folder: Path) -> None:
         save_figure(sequence_figure(result), folder / "serial-order.png")
+        arena = result.taught.arena
+        save_sequence_animation(result, arena.blocks, arena.side, folder / "serial-order.gif")
         files.save_record(result.small, folder / "serial-order.zarr")
 
     return Demonstration(
         claims=narrative.claims(result),
         settings={"sequence": result.sequence},
-        written="serial-order.png, the record (serial-order.zarr)",
+        written="serial-order.png, serial-order.gif, the record (serial-order.zarr)",
         sentence=narrative.sentence(result),
         fill=fill,
     )

@@ -1,0 +1,110 @@
+"""A video of a vehicle that is taught a sequence of colours and looks for them, seen from above."""
+
+from __future__ import annotations
+
+import colorsys
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from deodar.architectures.color_search import HUES
+from deodar.figures.sequence import DrawnSearch
+from deodar.model import output
+
+WIDTH, TOP = 420, 40
+"""Side of the arena in the picture, and height of the row of taught colours above it, pixels."""
+
+FRAMES = 200
+"""Largest number of frames."""
+
+SHOWN_MS = 80
+"""Duration of a frame, ms."""
+
+TONES = 32
+"""Colours of a frame: fewer make a smaller file."""
+
+SIDE = 50.0
+"""Side of a block, mm."""
+
+RADIUS, VIEW, REACH = 27.5, 30.0, 180.0
+"""Radius of the vehicle, mm; half of the angle of its camera, degrees; drawn length of the view, mm."""
+
+FLOOR, SEEN, BODY = (250, 250, 248), (228, 228, 224), (20, 20, 20)
+
+
+class DrawnBlock(Protocol):
+    """A block: its letter, and its middle in mm."""
+
+    @property
+    def letter(self) -> str: ...
+    @property
+    def center(self) -> tuple[float, float]: ...
+
+
+def save_sequence_animation(
+    result: DrawnSearch, blocks: Sequence[DrawnBlock], side: float, file: str | Path
+) -> Path:
+    """Write a GIF of the arena with the vehicle, its path and its view; above it the taught colours, those
+    that were found with a bar below them. Blocks of the arena appear when production begins.
+
+    Args:
+        result: the run.
+        blocks: the blocks of the arena.
+        side: side of the arena, mm.
+        file: the video.
+    """
+    path = output.claim(file)
+    stride = max(1, math.ceil(result.record.sizes["time"] / FRAMES))
+    frames = [_frame(result, blocks, side, k) for k in range(0, result.record.sizes["time"], stride)]
+    output.write(
+        path,
+        lambda beside: frames[0].save(
+            beside, format="GIF", save_all=True, append_images=frames[1:], duration=SHOWN_MS, loop=0
+        ),
+    )
+    return path
+
+
+def _frame(r: DrawnSearch, blocks: Sequence[DrawnBlock], side: float, k: int) -> Image.Image:
+    image = Image.new("RGB", (WIDTH, WIDTH + TOP), FLOOR)
+    pen, scale = ImageDraw.Draw(image), WIDTH / side
+    time, poses = float(r.record["time"].values[k]), r.record["pose.output"].values
+    producing = time >= r.begins
+    x, y, heading = (float(v) for v in poses[k])
+
+    def at(px: float, py: float) -> tuple[float, float]:
+        return (px + side / 2) * scale, TOP + (side / 2 - py) * scale
+
+    view = math.degrees(-heading)
+    px, py = at(x, y)
+    reach = REACH * scale
+    pen.pieslice([px - reach, py - reach, px + reach, py + reach], view - VIEW, view + VIEW, fill=SEEN)
+    for block in blocks if producing else ():
+        bx, by = block.center
+        corners = [*at(bx - SIDE / 2, by + SIDE / 2), *at(bx + SIDE / 2, by - SIDE / 2)]
+        pen.rectangle(corners, fill=_rgb(r, block.letter))
+    begin = int(np.searchsorted(r.record["time"].values, r.begins))
+    if k > begin:
+        pen.line([at(*p) for p in poses[begin : k + 1, :2]], fill=BODY, width=2)
+    radius = RADIUS * scale
+    pen.ellipse([px - radius, py - radius, px + radius, py + radius], (255, 255, 255), BODY, 2)
+    ahead = at(x + RADIUS * math.cos(heading), y + RADIUS * math.sin(heading))
+    pen.line([(px, py), ahead], fill=BODY, width=3)
+    pen.rectangle([0, TOP, WIDTH - 1, WIDTH + TOP - 1], outline=BODY)
+    for n, letter in enumerate(r.sequence):
+        left = 8 + 26 * n
+        pen.rectangle([left, 6, left + 20, 26], fill=_rgb(r, letter))
+        if n < len(r.found) and time >= r.found[n]:
+            pen.rectangle([left, 30, left + 20, 34], fill=BODY)
+    words = "production" if producing else "teaching"
+    pen.text((WIDTH - 124, 12), f"{words}, {time / 1000:.0f} s", fill=BODY, font_size=13)
+    return image.quantize(TONES, dither=Image.Dither.NONE)
+
+
+def _rgb(r: DrawnSearch, letter: str) -> tuple[int, int, int]:
+    red, green, blue = (round(255 * c) for c in colorsys.hsv_to_rgb(r.hues[letter] / HUES, 1.0, 0.9))
+    return red, green, blue
