@@ -37,7 +37,7 @@ def test_forces_add_up_and_parameters_scale_them() -> None:
     both = [20.0, *[FAR] * 3, 40.0, FAR]
     assert force(both) == pytest.approx(force(one) + force(other), rel=1e-9)
     assert force(one, strength=30.0) == pytest.approx(2 * force(one), rel=1e-9)
-    assert abs(force(one, decay=10.0)) < abs(force(one)) < abs(force(one, size=1000.0))
+    assert abs(force(one, reach=10.0)) < abs(force(one)) < abs(force(one, size=1000.0))
     assert abs(force(one, view=90.0)) > abs(force(one))
 
 

@@ -15,8 +15,8 @@ KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.s
 COMMANDS = {
     "frac", "int", "sum", "prod", "exp", "ln", "max", "min", "sqrt", "arg", "sin", "bmod", "cdot", "left",
     "right", "leftarrow", "mathrm", "text", "operatorname", "quad", "begin", "end", "forall", "in", "langle",
-    "rangle", "le", "ge", "alpha", "beta", "epsilon", "theta", "lambda", "phi", "pi", "sigma", "tau", "xi",
-    "Delta",
+    "rangle", "le", "ge", "alpha", "beta", "epsilon", "theta", "lambda", "phi", "pi", "psi", "sigma", "tau",
+    "xi", "Delta", "tan", "arctan",
 }
 # fmt: on
 """All commands in use; KaTeX and MathML support each. View a new one before you add it here."""

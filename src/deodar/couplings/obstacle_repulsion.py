@@ -27,14 +27,14 @@ class ObstacleRepulsion(Coupling):
 
     Equation:
         F = -\sum_i \operatorname{sign}(\psi_i)\, S_i \exp\!\left( -\frac{\psi_i^2}{2 R_i^2} \right)
-        S_i = \mathrm{strength}\, \exp\!\left( -\frac{D_i}{\mathrm{decay}} \right)
+        S_i = \mathrm{strength}\, \exp\!\left( -\frac{D_i}{\mathrm{reach}} \right)
         R_i = \arctan\!\left( \tan\frac{\mathrm{view}}{2} + \frac{\mathrm{size}}{\mathrm{size} +
             D_i} \right)
 
     Parameters:
         angles: psi, direction of each sensor relative to the heading, degrees, positive to the right.
         strength: force of a single obstacle at distance 0 straight ahead.
-        decay: distance over which a force decreases by a factor of e, in the unit of the distances.
+        reach: distance over which a force decreases by a factor of e, in the unit of the distances.
         size: size of the vehicle, in the unit of the distances.
         view: opening angle of a sensor, degrees.
 
@@ -57,7 +57,7 @@ class ObstacleRepulsion(Coupling):
     strength: Annotated[float, Live(lower=0, meaning="force of an obstacle at distance 0 straight ahead")] = (
         15.0
     )
-    decay: Annotated[float, Live(lower=1e-6, meaning="distance over which a force decreases by e")] = 30.0
+    reach: Annotated[float, Live(lower=1e-6, meaning="distance over which a force decreases by e")] = 30.0
     size: Annotated[float, Live(lower=1e-6, meaning="size of the vehicle")] = 100.0
     view: Annotated[float, Live(lower=0, upper=179, meaning="opening angle of a sensor, degrees")] = 45.0
 
@@ -79,7 +79,7 @@ class ObstacleRepulsion(Coupling):
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
         angles, distances = constants["angles"], inputs["input"]
-        strength = self.strength * jnp.exp(-distances / self.decay)
+        strength = self.strength * jnp.exp(-distances / self.reach)
         half = jnp.tan(jnp.deg2rad(jnp.asarray(self.view, distances.dtype)) / 2)
         wide = jnp.rad2deg(jnp.arctan(half + self.size / (self.size + distances)))
         return {"output": -jnp.sum(jnp.sign(angles) * strength * jnp.exp(-0.5 * (angles / wide) ** 2))}

@@ -82,7 +82,7 @@ PARAMETERS: Mapping[str, Callable[[float], ParameterValues]] = {
     "lambda_tar": lambda factor: _turns(ATTRACTION * factor, REPULSION),
     "lambda_obs": lambda factor: _turns(ATTRACTION, REPULSION * factor),
     "beta_1": _scaled("repulsion.strength", of=15.0),
-    "beta_2": _scaled("repulsion.decay", of=30.0),
+    "beta_2": _scaled("repulsion.reach", of=30.0),
     "R": _scaled("repulsion.size", of=100.0),
     "delta_psi": _scaled("repulsion.view", of=45.0),
     "v_tar": lambda factor: {
