@@ -182,9 +182,8 @@ def _record(run: TaughtRun, trial: Trial) -> xarray.Dataset:
     }
     coords = {
         "time": ("time", trial.times, {"units": "ms"}),
-        "hue": ("hue", hue.points),
-        "column": ("column", column.points),
-        "x_y_heading": ("x_y_heading", np.arange(3)),
+        "hue": ("hue", hue.points, {"periodic": 1, "lower": hue.lower, "upper": hue.upper}),
+        "column": ("column", column.points, {"periodic": 0, "lower": column.lower, "upper": column.upper}),
     }
     return xarray.Dataset(data, coords, {"title": f"the sequence {run.sequence}, taught and produced"})
 
