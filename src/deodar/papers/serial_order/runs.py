@@ -40,6 +40,9 @@ the lesson lasts.
 READ = 800.0
 """Interval in which the weights of one node are read after a lesson, ms."""
 
+PICTURE = 120.0
+"""Age up to which a picture may satisfy a condition, ms: a frame of the camera, and the rise of the peak."""
+
 FAR = 170.0
 """Largest distance between the middle of the vehicle and a block that satisfies its condition, mm."""
 
@@ -266,7 +269,12 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
         hue = _peak(v["hue of satisfaction.output"][begin + k :], times[begin + k :])
         ends.append(k)
         got.append("?" if hue is None else letter_at(hue, letters))
-    far = [distance(run.arena, letter, pose[k]) for letter, k in zip(got, ends, strict=True)]
+    # the picture is that of a moment ago, before the vehicle was carried
+    moments = [pose[(t <= t[k]) & (t >= t[k] - PICTURE)] for k in ends]
+    far = [
+        min(distance(run.arena, letter, row) for row in rows)
+        for letter, rows in zip(got, moments, strict=True)
+    ]
     produced_ = "".join(got)
     right = run.sequence.startswith(produced_) and all(d <= FAR for d in far)
     starts = [0.0, *(float(t[k]) for k in ends)]
