@@ -694,7 +694,7 @@ def test_the_state_folder_is_accessed_outside_of_the_event_loop(
 
         return call
 
-    names = ("keep", "forget", "kept", "read", "opened", "recent")
+    names = ("store_edits", "forget", "stored_edits", "read", "opened", "recent")
     for name in names:
         monkeypatch.setattr(StateStore, name, beside(name, getattr(StateStore, name)))
     monkeypatch.setattr(hub, "STORE_SECONDS", 0.02)
@@ -702,7 +702,7 @@ def test_the_state_folder_is_accessed_outside_of_the_event_loop(
     async def scene(p: Page) -> None:
         await p.runs()
         await p.do("set", element=p.element("u"), parameter="tau", value=33)
-        await p.until(lambda: "keep" in used)
+        await p.until(lambda: "store_edits" in used)
         await p.do("save")
         assert p.said["gallery"]["recent"] == ["node.json"]
         await p.do("close")

@@ -462,8 +462,10 @@ class OpenExperiment:
         path = await asyncio.to_thread(run.repeat, trial)
 
         async def show() -> None:
-            if run is not self.run or latest != self._repeats:
-                raise DocumentError(f"another trial was opened meanwhile; the record of trial {trial} is not")
+            if run is not self.run:
+                raise DocumentError(f"trial {trial} is not opened: its experiment was closed")
+            if latest != self._repeats:
+                raise DocumentError(f"trial {trial} is not opened: another trial was opened meanwhile")
             await self._project.open_trial(path)
             if self._project.record is not None:
                 self.repeated, self._shown = trial, self._project.record.path
