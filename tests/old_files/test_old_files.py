@@ -95,7 +95,7 @@ def test_an_old_preset_sets_its_values(old: Path) -> None:
 def test_unsaved_edits_of_the_studio_are_offered_and_open(old: Path, tmp_path: Path) -> None:
     shutil.copytree(old / "state", tmp_path / "state")
     store = StateStore(tmp_path / "state")
-    (offered,) = store.kept()
+    (offered,) = store.stored_edits()
     found, file = store.read(offered.name)
     assert file == "choice.json" and migrated(dd.Model(document=found), old)
 
