@@ -127,7 +127,7 @@ def main(version: str, folder: Path) -> None:
     except KeyboardInterrupt:
         rows = folder / "stopped" / "trials.jsonl"
         rows.write_bytes(rows.read_bytes()[:-40])
-    StateStore(folder / "state").keep("0123456789abcdef", model.document, "choice.json")
+    StateStore(folder / "state").store_edits("0123456789abcdef", model.document, "choice.json")
 
 
 if __name__ == "__main__":
