@@ -50,6 +50,11 @@ def letter_at(hue: float, among: Sequence[str] = tuple(FIVE)) -> str:
     return min(among, key=lambda letter: away(hue, hue_of(letter)))
 
 
+def offset(one: float, other: float) -> float:
+    """Return how far a hue lies from another one on their circle, with its sign, in samples."""
+    return (one - other + HUES / 2) % HUES - HUES / 2
+
+
 def away(one: float, other: float) -> float:
     """Return the distance of two hues on their circle, in samples."""
-    return abs((one - other + HUES / 2) % HUES - HUES / 2)
+    return abs(offset(one, other))

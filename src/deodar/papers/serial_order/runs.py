@@ -23,7 +23,7 @@ from deodar.experiments.trial import Trial
 from deodar.model.model import Model
 from deodar.numerics.windows import Window
 from deodar.papers.serial_order.arenas import BLOCK, SearchArena
-from deodar.papers.serial_order.colours import FIVE, TEN, hue_of, letter_at
+from deodar.papers.serial_order.colours import FIVE, TEN, hue_of, letter_at, offset
 from deodar.papers.serial_order.teaching import Showing
 from deodar.papers.serial_order.world import world
 from deodar.worlds.arena.arena import Arena
@@ -125,7 +125,7 @@ def run_many(
     watch: Sequence[str] = (),
     between: Callable[[int], None] | None = None,
 ) -> list[tuple[Trial, float]]:
-    """TaughtRun a batch of runs whose sequences have equal length.
+    """Run a batch of runs whose sequences have equal length.
 
     Lessons end at one time, the shorter ones begin later. Returns each trial, and the time at which
     production begins, ms.
@@ -137,10 +137,7 @@ def run_many(
         watch: paths of ports that are sampled too.
         between: called after each call of the program, as in `run_batch`.
     """
-    [length] = {len(run.sequence) for run in runs}
-    produced = _end_of_lessons(runs)
-    model = prepared(length, settings)
-    model.set("producing.windows", [Window(produced)])
+    model, length, produced = _staged(runs, settings)
     nodes = [f"item {k}.node" for k in range(1, length + 2)]
     needed = [
         *(f"{node}.activation" for node in nodes),
@@ -178,10 +175,7 @@ def read_weights(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -
     The weights are read as the model reads them: after the lesson one node after another is active, each
     until a pulse inhibits all nodes; there is nothing in view.
     """
-    [length] = {len(run.sequence) for run in runs}
-    produced = _end_of_lessons(runs)
-    model = prepared(length, settings)
-    model.set("producing.windows", [Window(produced)])
+    model, length, produced = _staged(runs, settings)
     begins = [produced + READ * (k + 1) for k in range(length + 1)]
     pulse = model.add(
         Boost("next", [], amplitude=OFF, windows=[Window(begin - 100.0, begin - 40.0) for begin in begins])
@@ -216,8 +210,8 @@ def learned(run: TaughtRun, weights: np.ndarray) -> Row:
         letters += letter
         if letter != "-":
             turn = np.angle(np.sum(row * np.exp(2j * math.pi * hues / HUES))) * HUES / (2 * math.pi)
-            deviation = (turn - hue_of(letter) + HUES / 2) % HUES - HUES / 2
-            shapes.append([round(top, 3), int((row > top / 2).sum()), round(float(deviation), 3)])
+            deviation = offset(float(turn), hue_of(letter))
+            shapes.append([round(top, 3), int((row > top / 2).sum()), round(deviation, 3)])
     return {
         "sequence": run.sequence,
         "learned": letters,
@@ -232,16 +226,21 @@ def _end_of_lessons(runs: Sequence[TaughtRun]) -> float:
     return math.ceil(max(run.taught for run in runs) / 800.0) * 800.0
 
 
+def _staged(runs: Sequence[TaughtRun], settings: Settings) -> tuple[Model, int, float]:
+    """Return the model of a batch, the length of its sequences, and the time at which production begins."""
+    [length] = {len(run.sequence) for run in runs}
+    model, produced = prepared(length, settings), _end_of_lessons(runs)
+    model.set("producing.windows", [Window(produced)])
+    return model, length, produced
+
+
 def _world(runs: Sequence[TaughtRun], produced: float, settings: Settings) -> Arena:
     lessons = [_later(run.lesson, produced - run.taught) for run in runs]
     return world([run.arena for run in runs], lessons, produced, settings.clutter)
 
 
 def _later(lesson: Sequence[Showing], by: float) -> list[Showing]:
-    return [
-        Showing(s.letter, s.begins + by, s.centred + by, s.ends + by, s.aside, s.ahead, s.lateral)
-        for s in lesson
-    ]
+    return [replace(s, begins=s.begins + by, centred=s.centred + by, ends=s.ends + by) for s in lesson]
 
 
 def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
@@ -260,7 +259,7 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
     on["peak"] = v["strongest peak.output"][begin:] > 0.5
     pose = v["pose.output"][begin:]
     letters = tuple(sorted({b.letter for b in run.arena.blocks} | set(run.sequence)))
-    begun = np.flatnonzero(np.diff(on["satisfaction"].astype(int), prepend=0) == 1)
+    begun = _rises(on["satisfaction"])
     ends, got = list[int](), list[str]()
     for off in _completed(nodes):
         # the peak that switched the node off
@@ -296,14 +295,14 @@ def transitions(t: np.ndarray, nodes: np.ndarray, on: Mapping[str, np.ndarray]) 
     in ms from then on: satisfaction on, action off, peak off, satisfaction off, next node on, next action on.
     """
     out: list[list[float | None]] = []
+    rises = _rises(on["satisfaction"])
     for k in range(nodes.shape[1] - 1):
-        off = np.flatnonzero(np.diff(nodes[:, k].astype(int)) == -1) + 1
-        for i in off.tolist():
+        for i in _falls(nodes[:, k]).tolist():
             later = np.flatnonzero(nodes[i:, k + 1])
             if not len(later):
                 continue
             j = i + int(later[0])
-            begun = np.flatnonzero(np.diff(on["satisfaction"][: i + 1].astype(int), prepend=0) == 1)
+            begun = rises[rises <= i]
             row = [
                 t[begun[-1]] if len(begun) else None,
                 _first(t, ~on["action"], i),
@@ -316,11 +315,21 @@ def transitions(t: np.ndarray, nodes: np.ndarray, on: Mapping[str, np.ndarray]) 
     return out
 
 
+def _rises(on: np.ndarray) -> np.ndarray:
+    """Return the samples at which something is switched on; the first one, if it is on at the start."""
+    return np.flatnonzero(np.diff(on.astype(int), prepend=0) == 1)
+
+
+def _falls(on: np.ndarray) -> np.ndarray:
+    """Return the samples at which something is switched off."""
+    return np.flatnonzero(np.diff(on.astype(int)) == -1) + 1
+
+
 def _completed(nodes: np.ndarray) -> list[int]:
     """Return the samples at which a node is switched off and another one, or none, is active next."""
     out: list[int] = []
     for k in range(nodes.shape[1]):
-        for off in (np.flatnonzero(np.diff(nodes[:, k].astype(int)) == -1) + 1).tolist():
+        for off in _falls(nodes[:, k]).tolist():
             later = np.flatnonzero(nodes[off:].any(axis=1))
             if not len(later) or not nodes[off + later[0], k]:
                 out.append(off)
@@ -341,8 +350,8 @@ def _first(t: np.ndarray, true: np.ndarray, begin: int) -> float | None:
 
 def _last_off(t: np.ndarray, on: np.ndarray, begin: int, end: int) -> float | None:
     """Return the last time from `begin` to `end` at which something is switched off."""
-    off = np.flatnonzero(np.diff(on[begin : end + 1].astype(int)) == -1)
-    return float(t[begin + off[-1] + 1]) if len(off) else None
+    off = _falls(on[begin : end + 1])
+    return float(t[begin + off[-1]]) if len(off) else None
 
 
 def distance(arena: SearchArena, letter: str, pose: np.ndarray) -> float:

@@ -63,7 +63,7 @@ def batches(c: SearchCondition) -> list[tuple[int, ...]]:
 
 
 def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
-    """TaughtRun some runs of a condition as one batch, and return their rows."""
+    """Run some runs of a condition as one batch, and return their rows."""
     c = conditions(quick)[name]
     runs = [TaughtRun(c.sequence(k), *taught(c, k), c.arena(k)) for k in trials]
     seed = zlib.crc32(c.key(trials[0]).encode()) % 2**31
