@@ -93,6 +93,17 @@ def test_a_run_without_a_speed_never_waits_and_is_never_late() -> None:
     )
 
 
+def test_the_cost_of_a_step_is_measured_again_for_a_new_program() -> None:
+    wall = Wall(session(), cost=1e-7)
+    wall.live(200_000, None)
+    most = wall.pace.most(wall.session)
+    assert most == pytest.approx(EXCHANGE / 1e-7, rel=1e-3)
+    wall.session.edit(session(every=2).document)
+    assert wall.pace.most(wall.session) == 1
+    wall.pace.took(wall.session, 1, 1.0, 0.004)
+    assert wall.pace.most(wall.session) == 2
+
+
 def test_a_delay_is_one_overrun_and_is_caught_up_with_steps_of_dt() -> None:
     wall = Wall(session(), cost=0.0002, hiccups={500: 0.1})
     meter = wall.live(1000)

@@ -10,7 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.session.interrupt import stoppable
-from deodar.session.run import Run
+from deodar.session.run import PROBE_STEPS, Run
 
 
 def test_an_interrupt_acts_between_chunks_and_the_handler_is_restored(
@@ -31,6 +31,25 @@ def test_an_interrupt_acts_between_chunks_and_the_handler_is_restored(
         dd.simulate(model, 10_000_000, record=["u.activation"], every=1000)
     assert len(calls) == 3 and caught.value.data.sizes["time"] >= 1
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_new_program_starts_with_a_short_chunk(monkeypatch: pytest.MonkeyPatch) -> None:
+    model = dd.Model("m")
+    session = dd.Session(model)
+    chunk, sizes = Run._chunk, list[int]()
+
+    def counted(self: Run, program: object, counts: dict[str, int], used: int) -> object:
+        sizes.append(used)
+        return chunk(self, program, counts, used)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Run, "_chunk", counted)
+    session.step(20_000)
+    assert max(sizes) > 1000, "steps of an empty document take no time"
+    model.add(dd.Field("u", []))
+    session.edit(model.document)
+    sizes.clear()
+    session.step(20_000)
+    assert sizes[0] == PROBE_STEPS
 
 
 def test_a_second_interrupt_stops_at_once() -> None:

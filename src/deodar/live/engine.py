@@ -340,7 +340,7 @@ class Engine:
         session = self.session
         if session is None or not (self.running or self._steps):
             return 0.02 if self._stale and self._wanted else 0.5
-        n = min(self._steps, self.pace.most()) if self._steps else self.pace.due(session)
+        n = min(self._steps, self.pace.most(session)) if self._steps else self.pace.due(session)
         if n == 0:
             return self.pace.rest(session)
         parts = max(1, min(n, SAMPLES)) if self.traces or self.track.scene is not None else 1

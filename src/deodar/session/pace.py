@@ -104,6 +104,7 @@ class Pace:
         self._cost = 0.0
         self._planned = self._asked = 0.0
         self._of: Paced | None = None
+        self._program: Executable | None = None
         self.restart()
 
     def go(self, speed: float | None) -> None:
@@ -123,21 +124,26 @@ class Pace:
         self._taken = self._overruns = self._lengthened = 0
         self.factor = self.steps = 0.0
 
-    def most(self) -> int:
-        """Return the number of steps that fit between two exchanges."""
+    def most(self, session: Paced) -> int:
+        """Return the number of steps that fit between two exchanges.
+
+        It is 1 after a change of the program: a step of an empty document takes about a nanosecond, and as
+        many steps of the next program would take hours.
+        """
+        self._follow(session)
         return max(1, int(EXCHANGE / self._cost)) if self._cost else 1
 
     def due(self, session: Paced) -> int:
         """Return the number of steps to take now."""
         if self.speed is None:
-            return self.most()
+            return self.most(session)
         owed = self._owed(session)
         most = max(MOST_LAG, 2 * self._wall(session))
         if owed > most:  # dropped, as for a pause of this length
             self._given_up += owed - most
             owed = most
         self._late(owed - self._wall(session), session)
-        return min(int(owed / self._wall(session) + 1e-6), self.most())
+        return min(int(owed / self._wall(session) + 1e-6), self.most(session))
 
     def rest(self, session: Paced) -> float:
         """Return the wall time until the next step is due, in seconds."""
@@ -145,6 +151,7 @@ class Pace:
 
     def took(self, session: Paced, n: int, passed: float, seconds: float) -> None:
         """Record that `n` steps were taken, `passed` in document time, `seconds` in wall time."""
+        self._follow(session)
         each = seconds / n
         self._cost = each if not self._cost else 0.7 * self._cost + 0.3 * each
         self._passed += passed
@@ -176,7 +183,7 @@ class Pace:
             wanted = 1
         else:
             wall = self._planned * self._unit / self.speed
-            needed = max(RESERVE * self._cost / wall, self._lag / (self.most() * wall))
+            needed = max(RESERVE * self._cost / wall, self._lag / (self.most(session) * wall))
             wanted = max(1, math.ceil(needed - 1e-6))
         factor = round(self._asked / self._planned)
         if wanted < factor and self._now() - self._changed < MEASURED:
@@ -208,6 +215,11 @@ class Pace:
         )
 
     # ------------------------------------------------------------------------------------------------- inside
+
+    def _follow(self, session: Paced) -> None:
+        """Forget the cost of a step if the program has changed."""
+        if session.program is not self._program:
+            self._program, self._cost = session.program, 0.0
 
     def _owed(self, session: Paced) -> float:
         """Return the wall time for which no step was taken yet, in seconds."""

@@ -63,7 +63,6 @@ class Run:
         self.clock = Clock(0, doc.t0, 0, dt)
         self.exchange = Exchange(doc, world)
         self.load(program, doc)
-        self.pace = 0.0
         self.probe = PROBE_STEPS
         """Steps of the first chunk, which measures the pace."""
         self.tolerated = 0
@@ -85,6 +84,8 @@ class Run:
         self.exchange.take(doc)
         self.exchange.body = program.body
         self.program, self.doc = program, doc
+        self.pace = 0.0
+        """Steps per second of wall time; 0 before the first chunk of a program."""
         self.values = program.values(doc, self.swept)
         self.constants = program.prepare(self.values)
 
