@@ -44,3 +44,18 @@ def test_a_negative_gate_counts_as_zero():
     model.connect(model.add(Boost("gate", (), -1.0)), out["gate"])
     y = dd.simulate(model, 5, record=["w.output"], precision="float64")["w.output"].values
     assert np.allclose(y, X.step * PRE.sum() * 0.2, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize(("source", "shape"), [([X], (3, 4)), ([], (3,))])
+def test_the_port_weights_shows_them_target_samples_first(source, shape):
+    model = dd.Model("learning", dt=0.5)
+    out = model.add(AdaptiveWeights([Z], rate=0.1, initial=0.2, name="w"))
+    model.connect(model.add(Pattern("pre", source, PRE) if source else Boost("pre", ())), out["input"])
+    model.connect(model.add(Pattern("post", [Z], POST)), out["post"])
+    session = dd.Session(model, precision="float64")
+    session.run(5)
+    found = session.read("w.weights")
+    session.keep()
+    assert found.shape == shape
+    assert np.array_equal(found, np.moveaxis(model.get("w.start").data, -1, 0))
+    assert abs(found - 0.2).max() > 0.1

@@ -47,6 +47,7 @@ class AdaptiveWeights(Coupling):
         gate: one number; only if `gated`. Values below 0 count as 0.
         pre: factor of the learning rate of each source sample, over the axes of the input; only if `apart`.
         output: over `axes`; computed from the input of the same step, with the weights learned so far.
+        weights: the weights learned so far, over `axes`, then the input's axes.
 
     Shapes:
         start: samples of the input's axes, then samples of `axes`; per unit of the source's axes.
@@ -76,7 +77,7 @@ class AdaptiveWeights(Coupling):
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
-        return {"output": tuple(self.axes)}
+        return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         needed = shape(ins["input"]) + shape(self.axes)
@@ -94,10 +95,10 @@ class AdaptiveWeights(Coupling):
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:
-        x = inputs["input"]
+        x, w = inputs["input"], state["weights"]
         return {
-            "output": cell(at.ins["input"])
-            * jnp.tensordot(x, state["weights"], axes=x.ndim, precision="highest")
+            "output": cell(at.ins["input"]) * jnp.tensordot(x, w, axes=x.ndim, precision="highest"),
+            "weights": jnp.moveaxis(w, range(x.ndim), range(-x.ndim, 0)),
         }
 
     def advance(

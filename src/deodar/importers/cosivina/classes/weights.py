@@ -61,7 +61,7 @@ def adaptive_weight_matrix(b: SourceElement) -> Piece:
         *([[Inlet(b.label, (None, None), "gate")]] if gated else []),
     ]
     why = "AdaptiveWeights, from weights of 0"
-    elsewhere = {"weights": f"Session.keep writes them to the parameter {display((b.label, 'start'))}"}
+    elsewhere = {"weights": f"read {display((b.label, 'weights'))}"}
     return Piece([element], inlets, {"output": Outlet(b.label, dims)}, elsewhere=elsewhere, needs=1, why=why)
 
 
