@@ -71,9 +71,13 @@ EXCITATION, WIDTH, INHIBITION = 0.9, 3.0, 0.5
 The table prints 5.0 for the inhibition, with which no peak can exist.
 """
 
-READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -15.0
+READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -8.0
 """c_ord; the homogeneous boost (c_ord in the table, with which the whole field would be above threshold); c_A
-(1.5 in the table); c_CoS.
+(1.5 in the table); c_CoS (15 in the table).
+
+An active node is at 6.7, so that with 15 a single noisy sample above threshold switches it off within 6 ms:
+in 2 of 450 transitions in arenas the sample then fell below threshold again before the peak of the action
+field did. With 8 a single sample needs 18 ms, after which the peak is complete or the sample has vanished.
 """
 
 SHOWN, SEEN = 2.0, 0.95

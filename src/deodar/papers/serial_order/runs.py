@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from deodar.architectures.color_search import HUES, PATCH, color_search
-from deodar.architectures.serial_order import OFF
 from deodar.couplings.peak_position import PeakPosition
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
@@ -39,6 +38,9 @@ the lesson lasts.
 
 READ = 800.0
 """Interval in which the weights of one node are read after a lesson, ms."""
+
+PULSE = -15.0
+"""Input that switches an active node off, to read the weights of the next one."""
 
 PICTURE = 120.0
 """Age up to which a picture may satisfy a condition, ms: a frame of the camera, and the rise of the peak."""
@@ -178,7 +180,7 @@ def read_weights(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -
     model, length, produced = _staged(runs, settings)
     begins = [produced + READ * (k + 1) for k in range(length + 1)]
     pulse = model.add(
-        Boost("next", [], amplitude=OFF, windows=[Window(begin - 100.0, begin - 40.0) for begin in begins])
+        Boost("next", [], amplitude=PULSE, windows=[Window(begin - 100.0, begin - 40.0) for begin in begins])
     )
     for k in range(1, length + 2):
         pulse >> model[f"item {k}.node"]
