@@ -270,6 +270,27 @@ def test_objects_are_changed_in_the_arena_of_each_trial(actions: list[Action]) -
     assert len({(trial.events["touched"], trial.events["far"]) for trial in many}) > 2
 
 
+def test_a_placed_object_has_its_own_height_in_each_trial() -> None:
+    model = straight(0.0)
+    picture = [dd.Axis("column", 0, 7, 8), dd.Axis("row", 0, 23, 24), dd.Axis("channel", 0, 2, 3)]
+    model.add(dd.Sensor("eye", picture, sensor="camera"))
+    block: dict[str, Any] = {"object": "block", "center": (40, 20), "size": (4, 30), "color": (0, 1, 0)}
+    actions = [
+        Place([30, 31, 33, 36, 40], height=2.0, **block),
+        Place(50, height=8.0, **block),
+        Place(70, **block),
+    ]
+    empty = {**ROOM, "walls": [], "start": [8, 20]}
+    world = dd.Arena([empty] * 5, unit="cm")
+    many = requires_equal(model, actions, [], ["eye.output"], 90, world=world, every=2)
+    for trial in many:
+        green = (trial.values["eye.output"][:, 4, :, 1] > 0.9) & (
+            trial.values["eye.output"][:, 4, :, 0] < 0.1
+        )
+        rows = green.sum(axis=1)[[k // 2 for k in (20, 48, 68, 88)]]
+        assert rows[0] == 0 < rows[1] < rows[2] < rows[3]  # by default as tall as the walls, 10 cm
+
+
 def test_trials_in_a_world_may_have_other_parameters_in_one_batch() -> None:
     speeds = [300.0, 600.0, 500.0, 400.0]
     given: dict[str, Any] = {"watch": WATCH, "world": rooms(), "precision": "float64", "events": [TOUCHED]}

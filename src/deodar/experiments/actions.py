@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -41,6 +42,11 @@ class Action(Part):
 
     world_method: ClassVar[str] = ""
     """Name of the world's method that `apply` calls: "place", "move" or "remove"; empty: none."""
+
+    @property
+    def world_arguments(self) -> tuple[str, ...]:
+        """The arguments of that method which `World` does not have, but the action passes."""
+        return ()
 
     @property
     def times(self) -> tuple[float, ...]:
@@ -100,6 +106,8 @@ class Place(Action):
         size: along x and y.
         color: red, green and blue, 0 to 1.
         when: the event after which the action is carried out; empty: at a time of its own.
+        height: height of the object, above 0, in the unit of the world; None: the default of the world. Only
+            a world whose `place` has this argument, such as `Arena`, accepts it.
     """
 
     at: Annotated[PerTrial, AT]
@@ -112,15 +120,24 @@ class Place(Action):
         0.3,
     )
     when: Annotated[str, WHEN] = ""
+    height: Annotated[float | None, Recompile(meaning="height; none: the default of the world")] = None
 
     world_method: ClassVar[str] = "place"
 
+    @property
+    def world_arguments(self) -> tuple[str, ...]:
+        return () if self.height is None else ("height",)
+
     def validate(self) -> Iterator[tuple[str, str]]:
         yield from _plane(self, "center", "size")
+        if self.height is not None and not self.height > 0:
+            yield "height", f"is {self.height:g}; expected a number above 0"
 
     def apply(self, running: RunningTrial) -> None:
         found: Any = self
-        changed(self, running.world).place(self.object, found.center, found.size, found.color)
+        world: Any = changed(self, running.world)
+        tall = {} if self.height is None else {"height": self.height}
+        world.place(self.object, found.center, found.size, found.color, **tall)
 
 
 @ACTIONS.register
@@ -393,8 +410,8 @@ def changed(action: Action, world: World | None) -> World:
     """Return the world that an action changes.
 
     Raises:
-        WorldError: the model has no world, the world lacks the method, or it cannot be restored after the
-            trial.
+        WorldError: the model has no world, the world lacks the method or an argument of it, or it cannot be
+            restored after the trial.
     """
     name = type(action).__name__
     if world is None:
@@ -412,5 +429,12 @@ def changed(action: Action, world: World | None) -> World:
             raise WorldError(
                 f"the action {name} {what.format(method)}, which the world {kind} does not have",
                 fix="Use a world that has it, such as dd.Arena",
+            )
+    for argument in action.world_arguments:
+        if argument not in inspect.signature(getattr(type(world), action.world_method)).parameters:
+            raise WorldError(
+                f"the action {name} has a {argument}, and {type(world).__name__}.{action.world_method} has no"
+                f" argument {argument!r}",
+                fix=f"Leave {argument} out, or use a world that has it, such as dd.Arena",
             )
     return world
