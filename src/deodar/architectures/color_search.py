@@ -34,6 +34,7 @@ from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.space_code import SpaceCode
 from deodar.couplings.sum import Sum
 from deodar.couplings.weighting import Weighting
+from deodar.elements.boost import Boost
 from deodar.elements.field import Field
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.motor import Motor
@@ -158,7 +159,11 @@ def column_axis(samples: int = COLUMNS // COARSE) -> Axis:
 
 
 def color_search(
-    items: int = 5, noise: float = 0.22, look_around: bool = True, habituation: bool = False
+    items: int = 5,
+    noise: float = 0.22,
+    look_around: bool = True,
+    habituation: bool = False,
+    cues: int = 1,
 ) -> Model:
     """Create the architecture for a vehicle with a camera, infrared sensors that read distances in mm, and
     two wheels, such as the Khepera of the world `Arena`.
@@ -168,6 +173,11 @@ def color_search(
     the resting level of the colour-space field, and the wheels. A change of the mode inhibits all nodes, the
     action field and the field of the condition of satisfaction for a moment, and then activates the first
     node; the weights stay.
+
+    With more than one cue several sequences are taught and produced; the document parameter `cue` says which
+    one, as in `serial_order`. A change of the cue while a sequence is produced leaves the ordinal nodes as
+    they are: the vehicle looks for the colour that the other sequence has at the present position. While a
+    sequence is taught, it starts again with the first node, like a change of the mode.
 
     Args:
         items: number of positions, 1 to 50. A sequence may be shorter.
@@ -179,12 +189,13 @@ def color_search(
         habituation: whether a colour that was found neither satisfies nor attracts for some seconds. Without
             it, as in the paper's equations, a repeated colour is found again at once if its block is still in
             view.
+        cues: number of sequences that can be taught, 1 to 50; with 1 there is no parameter `cue`.
 
     Reference:
         Sandamirskaya & Schöner (2010), figure 8, eqs. 4 to 8 and A.1 to A.6, table B.1.
     """
     hue = hue_axis()
-    model = serial_order(items, hue, noise)
+    model = serial_order(items, hue, noise, cues)
     model.describe(
         name="color search",
         notes=(
@@ -199,7 +210,7 @@ def color_search(
     producing >> teaching
     for k in range(1, items + 1):
         model.connect(teaching, f"item {k}.meaning.gate")
-    _changes(model, items)
+    _changes(model, items, producing if cues == 1 else _taught_cue(model))
     searched = _colour_space(model, hue, noise)
     turn, speed = _wheels(model, searched)
     if habituation:
@@ -212,10 +223,27 @@ def color_search(
     return model
 
 
-def _changes(model: Model, items: int) -> None:
-    """Create what a change of the mode does: a pause, then a pulse to the first node."""
+def _taught_cue(model: Model) -> Handle:
+    """Create the number of the cue while a sequence is taught, 0 while one is produced.
+
+    It changes with the mode, and with the cue only while a sequence is taught.
+    """
+    number = model.add(Boost("cue number", []))
+    model.link("cue number.amplitude", "cue")
+    taught = model.add(Product(name="taught cue"))
+    number >> taught
+    for factor in ("learning", "not teaching"):
+        model.connect(model[factor], "taught cue.factor")
+    return taught
+
+
+def _changes(model: Model, items: int, source: Handle) -> None:
+    """Create what a change of the mode does: a pause, then a pulse to the first node.
+
+    `source` is the signal whose changes count.
+    """
     model.remove(model["clear"])
-    group, producing = "change of mode", model["producing"]
+    group = "change of mode"
     minus = model.add(Gain(-1.0, name="less"), group=group)
     other = model.add(Gain(-1.0, name="less the slower"), group=group)
     changed: dict[str, Handle] = {}
@@ -223,8 +251,8 @@ def _changes(model: Model, items: int) -> None:
         last = model.add(Field(name, [], tau=tau, resting_level=0.0, sigmoid=Linear()), group=group)
         difference = model.add(Sum(name=f"change from {name}"), group=group)
         square = model.add(Product(name=f"square of {name}"), group=group)
-        producing >> last >> through >> difference
-        producing >> difference
+        source >> last >> through >> difference
+        source >> difference
         difference >> square
         model.connect(difference, f"{square.path}.factor")
         changed[name] = square

@@ -6,6 +6,9 @@ node that is active until the next ordinal node is. Weights from each ordinal no
 the action of that node. An action ends when the field of the condition of satisfaction detects its predicted
 outcome. The peak of that field switches all ordinal nodes off, and the memory node activates the next one.
 
+Several sequences share one chain when each has weights of its own from the ordinal nodes to the action field,
+which a cue node opens (`serial_order(cues=2)`). The order of the positions does not depend on the cue.
+
 `serial_order` creates the chain; `lesson` adds a demonstration and then the perceived outcomes during
 production, both as timed stimuli, so that it runs without a world.
 
@@ -48,10 +51,11 @@ With `cell` the model produces the same sequences (`python benchmarks/quadrature
 LEARN = 1 / 20.0
 """Speed of learning, 1/ms: tau_l is 20 ms (table B.1)."""
 
-RESTING = {"node": -0.5, "memory": -2.0, "action": -1.8, "satisfaction": -2.0}
+RESTING = {"node": -0.5, "memory": -2.0, "action": -1.8, "satisfaction": -2.0, "cue nodes": -1.5}
 """Resting levels.
 
-Table B.1 prints -5 for ordinal nodes: too low for c2, as no next node could become active.
+Table B.1 prints -5 for ordinal nodes: too low for c2, as no next node could become active. The cue nodes are
+deodar's.
 """
 
 STRENGTHS = {
@@ -85,6 +89,11 @@ SHOWN, SEEN = 2.0, 0.95
 (c_vis^C, slightly below the table's 1).
 """
 
+CUE = 2.0, 0.5
+"""Strength and width of the input of the cue nodes (ours): the node of the cue gets 2, one beside it 0.27; at
+1.5, between two cues, no node is active.
+"""
+
 START, CLEAR = 3.8, -20.0
 """Strengths of the pulse that activates the first node, and of the inhibition of all nodes and fields between
 learning and production.
@@ -106,7 +115,7 @@ def action_axis() -> Axis:
     return Axis("action", 0.0, 60.0, 60, periodic=True)
 
 
-def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
+def ordinal_pair(axis: Axis, noise: float = 0.22, cues: int = 1) -> Model:
     """Create one position of a sequence, to be inserted as a group: ordinal node, memory node, and the
     weights to the action field.
 
@@ -119,9 +128,13 @@ def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
     `others` is the sum of all other ordinal nodes: the sum of all nodes, which arrives at `others.input`,
     minus this one. U_A arrives at `meaning.post`; `meaning.output` is f(d) M(x).
 
+    With more than one cue each cue k has its own weights M_k, and f(d) f(c_k) is in the place of f(d), both
+    where they learn and where they are read; the output f(c) of the cue nodes arrives at `cued.input`.
+
     Args:
         axis: axis of the actions.
         noise: strength of the noise of both nodes; 0.22 is a standard deviation of 0.05 at rest.
+        cues: number of cues.
 
     Reference:
         Sandamirskaya & Schöner (2010), eqs. 4, 5 and 7.
@@ -139,11 +152,15 @@ def ordinal_pair(axis: Axis, noise: float = 0.22) -> Model:
     _couple(model, memory, node, "c3 own memory")
     _couple(model, others, memory, "c5 other nodes to memory")
     _couple(model, node, memory, "c6 to memory")
-    node >> model.add(AdaptiveWeights([axis], rate=LEARN, gated=True, name="meaning"))
+    source = node
+    if cues > 1:
+        source = model.add(Product(name="cued"))
+        model.connect(node, "cued.factor")
+    source >> model.add(AdaptiveWeights([axis], rate=LEARN, gated=True, name="meaning"))
     return model
 
 
-def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) -> Model:
+def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22, cues: int = 1) -> Model:
     """Create the chain: pairs `item 1`, `item 2`, ..., the fields `action` and `satisfaction`.
 
     Connect demonstrated actions to `action` and perceived outcomes to `satisfaction`. `learning` and
@@ -151,17 +168,32 @@ def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) 
     they are always read, so that an error of learning would sustain itself). `start` is a pulse at the first
     node, `clear` inhibits all nodes and fields; the weights keep their values.
 
+    With more than one cue the chain holds as many sequences. The document parameter `cue`, from 1 on,
+    activates one of the `cue nodes`; only the weights of this cue learn and are read::
+
+        tau_l dM_ik(x)/dt = gate (f(U_A(x)) - M_ik(x)) f(d_i) f(c_k)
+        action field: + c_ord sum_i f(d_i) sum_k f(c_k) M_ik(x)
+
+    The cue enters only these two equations (7 and 6), so a new cue leaves the ordinal nodes as they are: the
+    order continues at the present position, with the action of the other sequence. A cue of 0 activates no
+    node; then nothing is learned, and no action is recalled.
+
     Args:
         items: number of positions, 1 to 50. A sequence may be shorter.
         axis: axis of the actions and of their perceived outcomes, in steps of 1; none: a circle of 60.
         noise: strength of the noise of all nodes, and of the fields at each of their samples.
+        cues: number of sequences that the chain holds, 1 to 50; with 1 it has no cue nodes.
 
     Reference:
-        Sandamirskaya & Schöner (2010), eqs. 4 to 8.
+        Sandamirskaya & Schöner (2010), eqs. 4 to 8; the cue nodes are deodar's.
     """
     if isinstance(items, bool) or not isinstance(items, int) or not 1 <= items <= MOST:
         raise ParameterError(
             f"a chain has 1 to {MOST} items, not {show(items)}", fix="For example serial_order(5)"
+        )
+    if isinstance(cues, bool) or not isinstance(cues, int) or not 1 <= cues <= MOST:
+        raise ParameterError(
+            f"a chain has 1 to {MOST} cues, not {show(cues)}", fix="For example serial_order(5, cues=2)"
         )
     x = axis or action_axis()
     model = Model("serial order", dt=2.0)
@@ -177,7 +209,7 @@ def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) 
     off = model.add(Gain(OFF, name="off"))
     for k in range(1, items + 1):
         group = f"item {k}"
-        model.insert(ordinal_pair(x, noise), group)
+        model.insert(ordinal_pair(x, noise, cues), group)
         node, memory, meaning = (model[f"{group}.{name}"] for name in ("node", "memory", "meaning"))
         node >> nodes
         nodes >> model[f"{group}.others"]
@@ -200,7 +232,22 @@ def serial_order(items: int = 5, axis: Axis | None = None, noise: float = 0.22) 
     satisfaction >> model.add(Project([], name="satisfied")) >> off
     for field in (action, satisfaction):
         clear >> field
+    if cues > 1:
+        _cue(model, items, cues, noise)
     return model
+
+
+def _cue(model: Model, items: int, cues: int, noise: float) -> None:
+    """Create the cue nodes, of which the document parameter `cue` activates one."""
+    numbers = Axis("cue", 1.0, float(cues), cues)
+    amplitude, sigma = CUE
+    given = model.add(GaussianStimulus("cue input", [numbers], center=1.0, sigma=sigma, amplitude=amplitude))
+    model.parameter("cue", 1.0)
+    model.link("cue input.center", "cue")
+    nodes = model.add(_field("cue nodes", [numbers], [], noise))
+    given >> nodes
+    for k in range(1, items + 1):
+        model.connect(nodes, f"item {k}.cued.input")
 
 
 def lesson(
