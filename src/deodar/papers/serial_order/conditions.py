@@ -10,7 +10,14 @@ import numpy as np
 
 from deodar.codec import JsonObject
 from deodar.papers.serial_order.arenas import SearchArena, random_arena, ring
-from deodar.papers.serial_order.colours import CLUTTERED, FIVE, PAPER, TEN, random_sequences
+from deodar.papers.serial_order.colours import (
+    CLUTTERED,
+    FIVE,
+    PAPER,
+    TEN,
+    random_pairs,
+    random_sequences,
+)
 from deodar.papers.serial_order.teaching import LONGEST, Showing, lesson
 from deodar.papers.serial_order.variations import PARAMETERS
 
@@ -81,11 +88,59 @@ class SearchCondition:
             return ring()
         duplicates = k % 2 if self.duplicates is None else self.duplicates
         colours = tuple(TEN) if self.sequence(k)[0] in TEN else tuple(FIVE)
-        return random_arena(self.sequence(k), (sum(map(ord, self.name)), k), duplicates, colours)
+        return random_arena(self.wanted(k), (sum(map(ord, self.name)), k), duplicates, colours)
+
+    def wanted(self, k: int) -> str:
+        """Return the colours of which run k has a block."""
+        return self.sequence(k)
 
     def settings(self) -> JsonObject:
         """Return the settings of the condition, as plain data."""
         return {**vars(self), "sequences": list(self.sequences)}
+
+
+@dataclass(frozen=True)
+class CuedCondition(SearchCondition):
+    """A condition in which each run is taught two sequences, one after another, each with its own cue.
+
+    Odd runs are produced with the second cue.
+
+    Attributes:
+        pairs: run k is taught pair k modulo their number; `sequences` is empty.
+        changed: whether the other cue is given while the vehicle looks for the second item (in the first two
+            runs of four) or the third one.
+    """
+
+    pairs: tuple[tuple[str, str], ...] = ()
+    changed: bool = False
+
+    def pair(self, k: int) -> tuple[str, str]:
+        """Return both sequences of run k, in the order in which they are taught."""
+        return self.pairs[k % len(self.pairs)]
+
+    def cue(self, k: int) -> int:
+        """Return the cue with which the production of run k begins."""
+        return 1 + k % 2
+
+    def position(self, k: int) -> int:
+        """Return the position of run k at which the other cue is given; 0: never."""
+        return 2 + k // 2 % 2 if self.changed else 0
+
+    def sequence(self, k: int) -> str:
+        """Return the sequence that run k is to produce."""
+        pair, cue = self.pair(k), self.cue(k)
+        return mixed(pair[cue - 1], pair[2 - cue], self.position(k)) if self.changed else pair[cue - 1]
+
+    def wanted(self, k: int) -> str:
+        return "".join(self.pair(k))
+
+    def settings(self) -> JsonObject:
+        return {**super().settings(), "pairs": [list(pair) for pair in self.pairs]}
+
+
+def mixed(begun: str, other: str, position: int) -> str:
+    """Return what is produced if the cue of another sequence is given at a position: the order continues."""
+    return begun[: position - 1] + other[position - 1 :]
 
 
 def conditions(quick: bool) -> dict[str, SearchCondition]:
@@ -105,6 +160,8 @@ def conditions(quick: bool) -> dict[str, SearchCondition]:
         SearchCondition("wander", PAPER, 4 if quick else 52, look_around=False),
         SearchCondition("carried", every, 4 if quick else 50, duplicates=0, event="carried"),
         SearchCondition("ten", ten_sequences(), 2 if quick else 50),
+        CuedCondition("cued", (), 4 if quick else 50, pairs=random_pairs(True)),
+        CuedCondition("cued-changed", (), 4 if quick else 50, pairs=random_pairs(False), changed=True),
     ]
     if not quick:
         like = found[0]
@@ -127,5 +184,15 @@ def design(quick: bool) -> JsonObject:
 
 
 def taught(c: SearchCondition, k: int) -> tuple[Sequence[Showing], float]:
-    """Return the lesson of run k, and its duration in ms."""
+    """Return the lesson of run k, and its duration in ms; that of both sequences, if it has two."""
+    if isinstance(c, CuedCondition):
+        first, second = c.pair(k)
+        showings, begins = lesson(first, k, c.longest)
+        later, lasts = lesson(second, c.count + k, c.longest)
+        return (*showings, *(s.later(begins) for s in later)), begins + lasts
     return lesson(c.sequence(k), k, c.longest)
+
+
+def second_begins(c: CuedCondition, k: int) -> float:
+    """Return the time at which the lesson of the second sequence of run k begins, ms."""
+    return lesson(c.pair(k)[0], k, c.longest)[1]

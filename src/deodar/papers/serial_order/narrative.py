@@ -147,12 +147,8 @@ def read(run: TaughtRun, trial: Trial, begins: float) -> SearchRun:
         onsets = inside[peak[inside] & ~peak[inside - 1]]
         seen.append(float(times[onsets[-1]]) if len(onsets) else None)
     later = begins - run.taught
-    lesson = [
-        replace(s, begins=s.begins + later, centred=s.centred + later, ends=s.ends + later)
-        for s in run.lesson
-    ]
     return SearchRun(
-        replace(run, lesson=lesson),
+        replace(run, lesson=[showing.later(later) for showing in run.lesson]),
         begins,
         _record(run, trial),
         "".join(_recalled(run, trial, begins, k) for k in range(1, len(run.sequence) + 1)),

@@ -66,7 +66,7 @@ class TaughtRun:
     """What is run: a sequence, its lesson and an arena.
 
     Attributes:
-        sequence: letters of the colours.
+        sequence: letters of the colours that are to be produced.
         lesson: how it is taught, with times of the run.
         taught: duration of the lesson, ms.
         arena: the arena.
@@ -76,6 +76,11 @@ class TaughtRun:
     lesson: Sequence[Showing]
     taught: float
     arena: SearchArena
+
+    @property
+    def positions(self) -> int:
+        """Length of the longest sequence that is taught."""
+        return len(self.sequence)
 
 
 @dataclass(frozen=True)
@@ -89,6 +94,7 @@ class Settings:
         values: parameters of the model that differ from those of the paper's set, by path.
         actions: actions on each run; `looks for K` is the event that item K becomes active in production.
         coarse: whether samples are taken every 20 ms, where no times of instabilities are wanted.
+        cues: number of sequences that the model holds.
     """
 
     limit: float = 600_000.0
@@ -98,13 +104,19 @@ class Settings:
     values: Mapping[str, float] = field(default_factory=dict[str, float])
     actions: Sequence[Action] = ()
     coarse: bool = False
+    cues: int = 1
 
 
 def prepared(length: int, settings: Settings) -> Model:
-    """Create the model of a batch: the architecture with a node more than the sequence has colours, and what
-    reads single numbers of its fields.
+    """Create the model of a batch: the architecture with a node more than the longest sequence has colours,
+    and what reads single numbers of its fields.
     """
-    model = color_search(length + 1, look_around=settings.look_around, habituation=settings.habituation)
+    model = color_search(
+        length + 1,
+        look_around=settings.look_around,
+        habituation=settings.habituation,
+        cues=settings.cues,
+    )
     for path, value in settings.values.items():
         model.set(path, value)
     for name in ("action", "satisfaction"):
@@ -127,7 +139,8 @@ def run_many(
     watch: Sequence[str] = (),
     between: Callable[[int], None] | None = None,
 ) -> list[tuple[Trial, float]]:
-    """Run a batch of runs whose sequences have equal length.
+    """Run a batch of runs that produce sequences of equal length; other sequences that they are taught may
+    be shorter or longer.
 
     Lessons end at one time, the shorter ones begin later. Returns each trial, and the time at which
     production begins, ms.
@@ -139,8 +152,9 @@ def run_many(
         watch: paths of ports that are sampled too.
         between: called after each call of the program, as in `run_batch`.
     """
-    model, length, produced = _staged(runs, settings)
-    nodes = [f"item {k}.node" for k in range(1, length + 2)]
+    [length] = {len(run.sequence) for run in runs}
+    model, positions, produced = _staged(runs, settings)
+    nodes = [f"item {k}.node" for k in range(1, positions + 2)]
     needed = [
         *(f"{node}.activation" for node in nodes),
         *(f"strongest {name}.output" for name in ("action", "satisfaction", "peak")),
@@ -223,26 +237,24 @@ def learned(run: TaughtRun, weights: np.ndarray) -> Row:
     }
 
 
-def _end_of_lessons(runs: Sequence[TaughtRun]) -> float:
+def end_of_lessons(runs: Sequence[TaughtRun]) -> float:
     """Return the time at which the lessons of a batch end, a multiple of the periods of the world."""
     return math.ceil(max(run.taught for run in runs) / 800.0) * 800.0
 
 
 def _staged(runs: Sequence[TaughtRun], settings: Settings) -> tuple[Model, int, float]:
-    """Return the model of a batch, the length of its sequences, and the time at which production begins."""
-    [length] = {len(run.sequence) for run in runs}
-    model, produced = prepared(length, settings), _end_of_lessons(runs)
+    """Return the model of a batch, the length of the longest sequence that is taught, and the time at which
+    production begins.
+    """
+    positions = max(run.positions for run in runs)
+    model, produced = prepared(positions, settings), end_of_lessons(runs)
     model.set("producing.windows", [Window(produced)])
-    return model, length, produced
+    return model, positions, produced
 
 
 def _world(runs: Sequence[TaughtRun], produced: float, settings: Settings) -> Arena:
-    lessons = [_later(run.lesson, produced - run.taught) for run in runs]
+    lessons = [[s.later(produced - run.taught) for s in run.lesson] for run in runs]
     return world([run.arena for run in runs], lessons, produced, settings.clutter)
-
-
-def _later(lesson: Sequence[Showing], by: float) -> list[Showing]:
-    return [replace(s, begins=s.begins + by, centred=s.centred + by, ends=s.ends + by) for s in lesson]
 
 
 def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
@@ -254,7 +266,7 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
     v, times = trial.values, trial.times
     begin = int(np.searchsorted(times, produced))
     t = times[begin:] - produced
-    count = len(run.sequence) + 1
+    count = sum(name.endswith(".node.activation") for name in v)
     nodes = np.stack([v[f"item {k}.node.activation"][begin:] > 0 for k in range(1, count + 1)], axis=1)
     nodes[t < CHANGED] = False
     on = {name: v[f"strongest {name}.output"][begin:] > 0 for name in ("action", "satisfaction")}

@@ -96,6 +96,8 @@ def _reported(found: RowsOfConditions, quick: bool) -> list[Claim]:
         ("wander", "production complete without looking around, as in the paper"),
         ("carried", "production complete although the vehicle is carried elsewhere while it searches"),
         ("ten", "production of ten colours complete"),
+        ("cued", "production complete, two sequences taught and one of them cued"),
+        ("cued-changed", "production complete, the cue changed at the second or third item"),
     ):
         out.append(_share_only(text, [_complete(r) for r in found[name]], "", NONE))
         out.append(_share_only(f"{text}: wrong", [r["outcome"] == "wrong" for r in found[name]], "", NONE))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,6 +51,10 @@ class Showing:
     aside: float
     ahead: float
     lateral: float
+
+    def later(self, by: float) -> Showing:
+        """Return the same block, shown later by a time in ms."""
+        return replace(self, begins=self.begins + by, centred=self.centred + by, ends=self.ends + by)
 
 
 def lesson(sequence: str, seed: int, longest: float = LONGEST) -> tuple[tuple[Showing, ...], float]:

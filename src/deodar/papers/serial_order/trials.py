@@ -14,7 +14,8 @@ from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
 from deodar.papers.serial_order.arenas import BLOCK, SearchArena
 from deodar.papers.serial_order.colours import rgb
-from deodar.papers.serial_order.conditions import BACK, SearchCondition, conditions, taught
+from deodar.papers.serial_order.conditions import BACK, CuedCondition, SearchCondition, conditions, taught
+from deodar.papers.serial_order.cued import cued_row, cues, run_of
 from deodar.papers.serial_order.runs import Settings, TaughtRun, found, learned, read_weights, run_many
 from deodar.papers.serial_order.variations import values
 
@@ -65,8 +66,10 @@ def batches(c: SearchCondition) -> list[tuple[int, ...]]:
 def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
     """Run some runs of a condition as one batch, and return their rows."""
     c = conditions(quick)[name]
-    runs = [TaughtRun(c.sequence(k), *taught(c, k), c.arena(k)) for k in trials]
     seed = zlib.crc32(c.key(trials[0]).encode()) % 2**31
+    if isinstance(c, CuedCondition):
+        return _rows(c, trials, _cued(c, trials, seed))
+    runs = [TaughtRun(c.sequence(k), *taught(c, k), c.arena(k)) for k in trials]
     length = len(runs[0].sequence)
     settings = Settings(
         limit=1000.0 * c.limit,
@@ -83,8 +86,19 @@ def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
         ]
     else:
         done = [found(r, *made) for r, made in zip(runs, run_many(runs, settings, seed), strict=True)]
+    return _rows(c, trials, done)
+
+
+def _cued(c: CuedCondition, trials: Sequence[int], seed: int) -> list[Row]:
+    """Run some runs that are taught two sequences."""
+    runs = [run_of(c, k) for k in trials]
+    settings = Settings(limit=1000.0 * c.limit, actions=cues(runs), coarse=True, cues=2)
+    return [cued_row(r, *made) for r, made in zip(runs, run_many(runs, settings, seed), strict=True)]
+
+
+def _rows(c: SearchCondition, trials: Sequence[int], done: Sequence[Row]) -> list[Row]:
     return [
-        {"key": c.key(k), "condition": name, "trial": k, **row} for k, row in zip(trials, done, strict=True)
+        {"key": c.key(k), "condition": c.name, "trial": k, **row} for k, row in zip(trials, done, strict=True)
     ]
 
 
