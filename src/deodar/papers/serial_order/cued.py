@@ -67,8 +67,8 @@ def cues(runs: Sequence[CuedRun]) -> list[Action]:
 
 
 def cued_row(run: CuedRun, trial: Trial, produced: float) -> Row:
-    """Return what a production leaves, with the position at which the other cue was given: the order continues
-    from there with the other sequence.
+    """Return what a production leaves, with the position at which the other cue was given: from there the
+    order continues with the other sequence.
     """
     out: Row = {"taught": list(run.pair), "cue": run.cue}
     if run.position:
