@@ -41,6 +41,22 @@ def test_an_example_that_the_axes_of_a_planner_cover_is_preferred() -> None:
     assert len(warnings(planner, Arena.example())) == 3
 
 
+def test_a_search_for_colours_gets_a_khepera_that_sees_no_block_at_its_start() -> None:
+    search = dd.architectures.color_search(1)
+    world = Embodiment().world(search.document)
+    assert isinstance(world, Arena)
+    assert (world.source, world.vehicle.name, world.unit) == ("search", "khepera", "mm")
+    assert not problems(search.document, world) and not warnings(search.document, world)
+    world.reset(0)
+    axes = (dd.Axis("column", 0, 79, 80), dd.Axis("row", 0, 59, 60), dd.Axis("channel", 0, 2, 3))
+    picture = Arena("search", unit="mm", vehicle="khepera")
+    picture.reset(0)
+    saturation = np.ptp(picture.sense("camera", axes, 0.0), axis=-1)
+    assert saturation.max() < 0.1
+    picture.place("shown", (122, 0), (50, 50), (0.85, 0.1, 0.1))
+    assert np.ptp(picture.sense("camera", axes, 0.0), axis=-1).max() > 0.6
+
+
 def test_a_world_in_use_is_kept_where_it_fits() -> None:
     found, present = Embodiment(Arena("z")), Arena("blocks")
     assert found.world(driving().document, present) is present

@@ -141,12 +141,14 @@ class Embodiment:
 
 
 def _best(worlds: Iterable[World], doc: Document) -> World:
-    """Return the first world without problems and warnings, or else the one with the fewest."""
-    counts: list[tuple[int, World]] = []
+    """Return the first world without problems and warnings, or else the one with the fewest; problems count
+    first.
+    """
+    counts: list[tuple[tuple[int, int], World]] = []
     for world in worlds:
         if not missing(world, doc):
-            counts.append((len(agreement.judge(doc, world)), world))
-            if counts[-1][0] == 0:
+            counts.append(((len(problems(doc, world)), len(agreement.judge(doc, world))), world))
+            if counts[-1][0] == (0, 0):
                 break
     return min(counts, key=lambda one: one[0])[1]
 

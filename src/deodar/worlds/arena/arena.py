@@ -140,9 +140,9 @@ class Arena(PureWorld):
         \mathrm{place} = \text{true place} + \mathrm{place\_noise}\, \xi
 
     Parameters:
-        layout: name of an arena that comes with deodar (blocks, large, z), a JSON file, FILE#NAME for one
-            arena of a file with several, or a dictionary; or a list of these, one for each trial, with the
-            same border.
+        layout: name of an arena that comes with deodar (blocks, large, search, z), a JSON file, FILE#NAME for
+            one arena of a file with several, or a dictionary; or a list of these, one for each trial, with
+            the same border.
         start: x, y and heading (rad), or a row of these for each trial; None: that of the layout, else the
             free place nearest the middle.
         goal: x and y, or a row for each trial; None: that of the layout.
@@ -668,9 +668,21 @@ class Arena(PureWorld):
 
     @classmethod
     def examples(cls) -> Iterator[Arena]:
-        """Yield the example, and a published maze with the start and the goal of its case 3, for planners."""
+        """Yield the example; a published maze with the start and the goal of its case 3, for planners; and a
+        Khepera among coloured blocks that it sees only after it has turned, for models that read distances.
+        """
         yield cls.example()
         yield cls("z", start=(-0.45, 0.55, 0.0), goal=(-0.65, 0.65), place_noise=0.005, place_every=2)
+        yield cls(
+            "search",
+            unit="mm",
+            vehicle="khepera",
+            period=20.0,
+            camera_every=4,
+            hue_noise=6.0,
+            outliers=0.04,
+            slip=0.05,
+        )
 
     @staticmethod
     def example_axes(sensor: str) -> Axes:
