@@ -90,7 +90,7 @@ test("a colour places a block before the robot, which its camera shows, and remo
   await expect.poll(() => picture.evaluate((canvas: HTMLCanvasElement) => canvas.width)).toBe(40);
   await swatch.click();
   await observer.until(() => object("red block"));
-  expect(object("red block")?.x).toBeCloseTo(0.2 + 0.037 + 4.5 * 1.3 * 0.037, 3);
+  expect(object("red block")?.x).toBeCloseTo(0.2 + 0.037 + 2.2 * 1.65 * 0.037, 3);
   await observer.ask({ type: "step", n: 1 });
   await expect.poll(red).toBeGreaterThan(20);
   await shot(studio.page, "studio-world-camera");

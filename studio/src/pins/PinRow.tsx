@@ -9,6 +9,7 @@ import { driver } from "../inspector/parameters/leaf";
 import { useDocumentParameterLook, useLook } from "../inspector/parameters/controlLook";
 import { NumberControl } from "../inspector/numbers/NumberControl";
 import { Prose } from "../widgets/Prose";
+import { SwitchControl } from "../inspector/numbers/SwitchControl";
 import { chosen } from "../inspector/numbers/sliderRange";
 import { useSetting } from "../inspector/parameters/setting";
 import { Tex } from "../widgets/Tex";
@@ -17,7 +18,7 @@ import { useStudio } from "../store";
 import { valueAt } from "../values";
 import { PinEditing } from "./PinEditing";
 import { PinMenu } from "./PinMenu";
-import { changedPin, keepPins, withoutPin, type Pin } from "./pins";
+import { changedPin, endsOf, keepPins, withoutPin, type Pin } from "./pins";
 
 type PinRowProps = {
   pin: Pin;
@@ -50,6 +51,7 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
     value,
     look?.cost ?? "live",
   );
+  const [off, on] = endsOf(pin);
   const unpin = () => keepPins((pins) => withoutPin(pins, id, parameter));
   const gone =
     look === undefined || (id === "" && shared === undefined) || (value === null && !look.optional);
@@ -122,6 +124,10 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
             onAutomatic={() =>
               keepPins((pins) => changedPin(pins, pin, { lower: undefined, upper: undefined }))
             }
+            switched={pin.switch === true}
+            onSwitch={(next) =>
+              keepPins((pins) => changedPin(pins, pin, { switch: next ? true : undefined }))
+            }
             onMove={onMove}
             onUnpin={unpin}
           />
@@ -129,6 +135,8 @@ export function PinRow({ pin, place, mark, onDrag, onOver, onDrop, onMove }: Pin
       </div>
       {gone || look === undefined ? (
         <p className="pin-gone">This parameter is no longer in the document.</p>
+      ) : pin.switch === true ? (
+        <SwitchControl label={pin.label ?? path} setting={setting} off={off} on={on} />
       ) : (
         <NumberControl
           label={pin.label ?? path}

@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 
-import { changedPin, pinsOf, withoutPin, withPin, type Pin } from "./pins";
+import { changedPin, endsOf, pinsOf, withoutPin, withPin, type Pin } from "./pins";
 
 const tau: Pin = { element: "1", parameter: "tau" };
 const tempo: Pin = { element: "", parameter: "tempo", lower: 0, upper: 5, label: "pace" };
@@ -46,4 +46,20 @@ test("range and label of one pin are changed", () => {
   expect(changedPin([tempo], tempo, { label: "" })).toEqual([
     { element: "", parameter: "tempo", lower: 0, upper: 5 },
   ]);
+});
+
+test("a switch goes between the ends of the chosen range, or between 0 and 1", () => {
+  expect(
+    pinsOf({
+      pins: [
+        { ...tau, switch: true },
+        { ...tempo, switch: 1 },
+      ],
+    }),
+  ).toEqual([{ ...tau, switch: true }, tempo]);
+  expect(endsOf(tau)).toEqual([0, 1]);
+  expect(endsOf({ ...tempo, upper: -1, lower: -2 })).toEqual([-2, -1]);
+  expect(changedPin([tau, tempo], tempo, { switch: true })).toEqual([tau, { ...tempo, switch: true }]);
+  const switched = { ...tau, switch: true };
+  expect(changedPin([switched], switched, { switch: undefined })).toEqual([tau]);
 });

@@ -5,13 +5,14 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 
 // `element` is empty for a document parameter. `lower` and `upper` are a chosen range, `label` a custom
-// name.
+// name; `switch` shows a switch between the ends of the range instead of a slider.
 export type Pin = {
   element: string;
   parameter: string;
   lower?: number;
   upper?: number;
   label?: string;
+  switch?: boolean;
 };
 
 type Layout = DocumentView["layout"];
@@ -39,7 +40,7 @@ function pinOf(kept: unknown): Pin[] {
   if (typeof kept !== "object" || kept === null) {
     return [];
   }
-  const { element, parameter, lower, upper, label } = kept as Record<string, unknown>;
+  const { element, parameter, lower, upper, label, switch: switched } = kept as Record<string, unknown>;
   if (typeof element !== "string" || typeof parameter !== "string") {
     return [];
   }
@@ -52,6 +53,9 @@ function pinOf(kept: unknown): Pin[] {
   }
   if (typeof label === "string" && label !== "") {
     pin.label = label;
+  }
+  if (switched === true) {
+    pin.switch = true;
   }
   return [pin];
 }
@@ -68,11 +72,16 @@ export function withoutPin(pins: Pin[], element: string, parameter: string): Pin
   return pins.filter((pin) => !isAt(pin, element, parameter));
 }
 
-// Sets the range or label of one pin; undefined removes it.
+// The values of a switch: off and on.
+export function endsOf({ lower = 0, upper = 1 }: Pin): [number, number] {
+  return [lower, upper];
+}
+
+// Sets the range, label or form of one pin; undefined removes it.
 export function changedPin(
   pins: Pin[],
   pin: Pin,
-  change: Partial<Pick<Pin, "lower" | "upper" | "label">>,
+  change: Partial<Pick<Pin, "lower" | "upper" | "label" | "switch">>,
 ): Pin[] {
   return pins.map((p) => (isAt(p, pin.element, pin.parameter) ? (pinOf({ ...p, ...change })[0] ?? p) : p));
 }

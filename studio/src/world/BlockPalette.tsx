@@ -1,11 +1,29 @@
-// Colours of blocks: a click places a block in front of the robot, or removes it where it is there.
+// Colours of blocks: a click places a block in front of the robot, or removes it where it is there; a colour
+// that is dragged onto the plan places a block there.
 
-import { type KeyboardEvent, type ReactNode, useState } from "react";
+import { type KeyboardEvent, type PointerEvent, type ReactNode, useRef, useState } from "react";
+import { createPortal } from "react-dom";
 
 import type { SceneView } from "../protocol";
 import { request } from "../socket";
 import { live } from "./live";
-import { blockName, blockSide, colourOf, cssColour, inFront, SWATCHES, type Swatch } from "./blocks";
+import {
+  blockName,
+  blockSide,
+  colourOf,
+  cssColour,
+  freeBlockName,
+  inFront,
+  SWATCHES,
+  type Swatch,
+} from "./blocks";
+import { inside, type PlanFrame, type PlanPoint, toWorld } from "./plan";
+
+// Further than this a pressed pointer drags a colour, in px.
+const DRAGGED = 5;
+
+// The plan on the page, in px; null: it is not drawn.
+export type PlanOnPage = { area: DOMRect; frame: PlanFrame } | null;
 
 type PaletteProps = {
   scene: SceneView;
@@ -14,11 +32,15 @@ type PaletteProps = {
   choose: (color: number[]) => void;
   select: (name: string | null) => void;
   tell: (reason: string) => void;
+  plan: () => PlanOnPage;
   children?: ReactNode;
 };
 
-export function BlockPalette({ scene, chosen, choose, select, tell, children }: PaletteProps) {
+export function BlockPalette({ scene, chosen, choose, select, tell, plan, children }: PaletteProps) {
   const [own, setOwn] = useState("#f08020");
+  const pressed = useRef<PlanPoint | null>(null);
+  const dragging = useRef(false);
+  const [carried, setCarried] = useState<{ swatch: Swatch; at: PlanPoint; side: number } | null>(null);
   const present = new Set(scene.boxes.map(({ name }) => name));
   const remove = (name: string) => {
     select(null);
@@ -35,6 +57,29 @@ export function BlockPalette({ scene, chosen, choose, select, tell, children }: 
       void request({ type: "place_object", name, ...at, width: side, height: side, color: swatch.color });
     }
   };
+  const carry = (swatch: Swatch, { clientX: x, clientY: y }: PointerEvent) => {
+    const from = pressed.current;
+    dragging.current ||= from !== null && Math.hypot(x - from.x, y - from.y) > DRAGGED;
+    const onto = dragging.current ? plan() : null;
+    if (onto !== null) {
+      const side = onto.frame.scale * blockSide(scene, live.now.bodies[0]);
+      setCarried({ swatch, at: { x: x - side / 2, y: y - side / 2 }, side });
+    }
+  };
+  const drop = (swatch: Swatch, { clientX: x, clientY: y }: PointerEvent) => {
+    const onto = dragging.current ? plan() : null;
+    pressed.current = null;
+    setCarried(null);
+    if (onto === null || x < onto.area.left || x > onto.area.right || y < onto.area.top) {
+      return;
+    }
+    const name = freeBlockName(scene, swatch);
+    const side = blockSide(scene, live.now.bodies[0]);
+    const at = inside(onto.frame, toWorld(onto.frame, { x: x - onto.area.left, y: y - onto.area.top }));
+    choose(swatch.color);
+    select(name);
+    void request({ type: "place_object", name, ...at, width: side, height: side, color: swatch.color });
+  };
   const swatches = [...SWATCHES, { name: "own", color: colourOf(own) }];
   return (
     <div className="world-palette" role="group" aria-label="Blocks in front of the robot">
@@ -50,11 +95,28 @@ export function BlockPalette({ scene, chosen, choose, select, tell, children }: 
             title={
               there
                 ? `Remove the ${blockName(swatch)} (Delete)`
-                : `Place a ${blockName(swatch)} in front of the robot`
+                : `Place a ${blockName(swatch)} in front of the robot; drag it to place one elsewhere`
             }
             data-chosen={chosen !== null && String(chosen) === String(swatch.color)}
             style={{ background: cssColour(swatch.color) }}
+            onPointerDown={(event) => {
+              if (event.button === 0) {
+                pressed.current = { x: event.clientX, y: event.clientY };
+                dragging.current = false;
+                event.currentTarget.setPointerCapture(event.pointerId);
+              }
+            }}
+            onPointerMove={(event) => pressed.current !== null && carry(swatch, event)}
+            onPointerUp={(event) => drop(swatch, event)}
+            onPointerCancel={() => {
+              pressed.current = null;
+              setCarried(null);
+            }}
             onClick={() => {
+              if (dragging.current) {
+                dragging.current = false; // the end of a drag is no click
+                return;
+              }
               choose(swatch.color);
               if (there) {
                 remove(blockName(swatch));
@@ -84,6 +146,20 @@ export function BlockPalette({ scene, chosen, choose, select, tell, children }: 
         }}
       />
       {children}
+      {carried !== null &&
+        createPortal(
+          <div
+            className="world-carried"
+            style={{
+              left: carried.at.x,
+              top: carried.at.y,
+              width: carried.side,
+              height: carried.side,
+              background: cssColour(carried.swatch.color),
+            }}
+          />,
+          document.body, // panels are the frame of what is fixed inside them
+        )}
     </div>
   );
 }

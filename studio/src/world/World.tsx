@@ -17,6 +17,7 @@ import { pageLook } from "../plots/look";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { BlockPalette } from "./BlockPalette";
+import { blockSide } from "./blocks";
 import { AddCamera, CameraView, useCamera } from "./CameraView";
 import { Carrier } from "./carrier";
 import { draw } from "./draw";
@@ -34,13 +35,12 @@ import {
 } from "./plan";
 
 const HELP =
-  "Drag an object. A colour places a block in front of the robot, a double click a box of that colour; " +
-  "Delete removes the selected one, arrow keys move it.";
+  "Drag an object, or a colour onto the plan. A click on a colour places a block in front of the robot, a " +
+  "double click a box of that colour; Delete removes the selected one, arrow keys move it.";
 const NOTHING =
   "Nothing to see from above. Start the studio with a world that has a plan, for example: " +
   "deodar studio FILE --world arena:blocks";
-// A box that is placed, and a step of an arrow key, as shares of the shorter and of the longer side.
-const BOX = 0.06;
+// A step of an arrow key, as a share of the longer side.
 const STEP = 0.01;
 const ARROWS: Record<string, PlanPoint> = {
   ArrowLeft: { x: -1, y: 0 },
@@ -172,8 +172,7 @@ export function World() {
   };
   const put = (event: { nativeEvent: MouseEvent }) => {
     if (frame.current !== null && under(scene, frame.current, at(event)) === null) {
-      const [x0, y0, x1, y1] = frame.current.border;
-      const size = BOX * Math.min(x1 - x0, y1 - y0);
+      const size = blockSide(scene, live.now.bodies[0]);
       void request({
         type: "place_object",
         name: freeName(scene),
@@ -244,6 +243,11 @@ export function World() {
           choose={setColour}
           select={setSelected}
           tell={(reason) => hand.current?.refuse(reason)}
+          plan={() =>
+            canvas.current === null || frame.current === null
+              ? null
+              : { area: canvas.current.getBoundingClientRect(), frame: frame.current }
+          }
         >
           {camera === null && hasCamera && <AddCamera />}
         </BlockPalette>

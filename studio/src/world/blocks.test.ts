@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 
 import type { BodyView, SceneView } from "../protocol";
-import { blockSide, colourOf, cssColour, inFront } from "./blocks";
+import { blockSide, colourOf, cssColour, freeBlockName, inFront } from "./blocks";
 
 const robot: BodyView = { name: "e-puck", x: 0.5, y: 0.5, heading: Math.PI / 2, radius: 0.04 };
 const scene: SceneView = { unit: "m", border: [0, 0, 1, 1], boxes: [], marks: [] };
@@ -15,24 +15,24 @@ const box = (x: number, y: number) => ({
   fixed: false,
 });
 
-it("a block is placed straight ahead, four sides in front of the rim", () => {
+it("a block is placed straight ahead, 1.7 sides in front of the rim", () => {
   const side = blockSide(scene, robot);
-  expect(side).toBeCloseTo(0.052);
+  expect(side).toBeCloseTo(0.066);
   const at = inFront(scene, [robot], side);
   expect(at?.x).toBeCloseTo(0.5);
-  expect(at?.y).toBeCloseTo(0.5 + 0.04 + 4.5 * 0.052);
+  expect(at?.y).toBeCloseTo(0.5 + 0.04 + 2.2 * 0.066);
 });
 
 it("it takes the next distance with room, and none outside the border", () => {
   const side = blockSide(scene, robot);
-  const crate = { ...scene, boxes: [box(0.5, 0.79)] };
-  expect(inFront(crate, [robot], side)?.y).toBeCloseTo(0.5 + 0.04 + 3.5 * 0.052);
+  const crate = { ...scene, boxes: [box(0.5, 0.72)] };
+  expect(inFront(crate, [robot], side)?.y).toBeCloseTo(0.5 + 0.04 + 1.7 * 0.066);
   const near = { ...robot, y: 0.85 };
-  expect(inFront(scene, [near], side)?.y).toBeCloseTo(0.85 + 0.04 + 1.5 * 0.052);
+  expect(inFront(scene, [near], side)?.y).toBeCloseTo(0.85 + 0.04 + 0.066);
   expect(inFront(scene, [{ ...robot, y: 0.96 }], side)).toBeNull();
   expect(
-    inFront({ ...scene, marks: [{ name: "goal", x: 0.5, y: 0.78, fixed: false }] }, [robot], side)?.y,
-  ).toBeCloseTo(0.5 + 0.04 + 3.5 * 0.052);
+    inFront({ ...scene, marks: [{ name: "goal", x: 0.5, y: 0.7, fixed: false }] }, [robot], side)?.y,
+  ).toBeCloseTo(0.5 + 0.04 + 1.7 * 0.066);
 });
 
 it("without a robot it is placed in the middle", () => {
@@ -42,4 +42,10 @@ it("without a robot it is placed in the middle", () => {
 it("colours are converted from and to the texts of the page", () => {
   expect(colourOf("#ff0080")).toEqual([1, 0, 128 / 255]);
   expect(cssColour([1, 0, 0.5])).toBe("rgb(255 0 128)");
+});
+
+it("a block elsewhere gets the next number of its colour", () => {
+  const red = { name: "red", color: [1, 0, 0] as [number, number, number] };
+  expect(freeBlockName(scene, red)).toBe("red 1");
+  expect(freeBlockName({ ...scene, boxes: [{ ...box(0, 0), name: "red 1" }] }, red)).toBe("red 2");
 });

@@ -16,9 +16,10 @@ export const SWATCHES: Swatch[] = [
 ];
 
 // The side of a block, in radii of the robot; and its distances from the rim of the robot, in sides: the
-// first one that has room is taken.
-const SIDE = 1.3;
-const GAPS = [4, 3, 5, 2, 6, 1.5, 1, 0.5];
+// first one that has room is taken. At the first distance a block fills the middle of the camera's picture, and
+// lies beyond the reach of most distance sensors.
+const SIDE = 1.65;
+const GAPS = [1.7, 1.2, 2.2, 0.8, 3, 4, 5, 0.5];
 // Without a robot: as a share of the shorter side of the world.
 const SHARE = 0.06;
 
@@ -34,6 +35,16 @@ export function cssColour([r, g, b]: number[]): string {
 export function colourOf(text: string): [number, number, number] {
   const part = (from: number) => Number.parseInt(text.slice(from, from + 2), 16) / 255;
   return [part(1), part(3), part(5)];
+}
+
+// An unused name for a block of a colour that is placed elsewhere.
+export function freeBlockName({ boxes, marks }: SceneView, { name }: Swatch): string {
+  const taken = new Set([...boxes, ...marks].map((object) => object.name));
+  for (let n = 1; ; n++) {
+    if (!taken.has(`${name} ${n}`)) {
+      return `${name} ${n}`;
+    }
+  }
 }
 
 // The side of a block.
