@@ -75,7 +75,7 @@ class Table:
     precisions: tuple[str, ...] = ("float64", "float32")
 
 
-HEAVY = {"saliency": 100, "spa": 100}
+HEAVY = {"saliency": 100, "spa": 100, "color_search": 100}
 """Steps of the examples whose steps are expensive."""
 
 ENDS = {"Recording": 30}
@@ -88,7 +88,11 @@ def _photograph() -> World:
     return next(s for s in photographs() if s.name == "coffee").picture
 
 
-EXAMPLE_WORLDS: Mapping[str, Callable[[], World]] = {"saliency": _photograph, "spa": lambda: Arena("z")}
+EXAMPLE_WORLDS: Mapping[str, Callable[[], World]] = {
+    "saliency": _photograph,
+    "spa": lambda: Arena("z"),
+    "color_search": lambda: Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4),
+}
 
 
 def _example(name: str) -> Scene:

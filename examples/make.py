@@ -12,10 +12,16 @@ import itertools
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import deodar as dd
 
 HERE = Path(__file__).parent
+Layout = dict[str, Any]
+TITLES = {"world": "World", "inspector": "Inspector", "graph": "Architecture", "pins": "Sliders"}
+HEIGHT = 700
+"""Height of the studio's panels on a page of 1280 x 800 pixels."""
+
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
 
 
@@ -412,6 +418,61 @@ def serial_order() -> dd.Model:
     return model
 
 
+def color_search() -> dd.Model:
+    """The architecture of `deodar demo serial-order`, with the panels of the studio for a lesson."""
+    model = dd.architectures.color_search(5)
+    nodes = [model[f"item {k}.node"].id for k in range(1, 6)]
+    traces = [{"element": e, "port": "output", "reduce": "at", "at": []} for e in nodes]
+    traces.append({"element": model["satisfaction"].id, "port": "output", "reduce": "max", "at": []})
+    plots = {
+        "weights": (model["item 1.meaning"].id, "multiples", "weights", {"range": [-0.05, 1.05]}),
+        "nodes": (nodes[0], "course", "output", {"traces": traces, "window": 10_000, "range": [-0.1, 1.1]}),
+        "action": (model["action"].id, "curve", "activation", {}),
+    }
+    top = [(230, "pins"), (590, "inspector", "graph")]
+    bottom = [(480, "nodes"), (340, "action")]
+    columns = [(460, "world"), (820, [(285, top), (170, "weights"), (245, bottom)])]
+    produce = {"element": "", "parameter": "mode", "lower": 0, "upper": 1, "label": "produce", "switch": True}
+    model.describe(
+        name="colour search",
+        layout={"pins": [produce], "panels": _panels(columns, plots)},
+        notes=(
+            "Colour search. A robot is shown coloured blocks, one after another, and then looks for blocks of"
+            " these colours in the same order. Sandamirskaya & Schöner (2010), section 5. Press Play. A click"
+            " on a colour shows a block to the camera: the ordinal node that is on learns its colour and is"
+            " switched off within half a second; its curve of `weights` then has a peak at this hue. Click"
+            " again to take the block away: the next node is switched on. After the last block turn the"
+            " switch produce on: the robot looks for the first colour. It is run with a Khepera in an arena:"
+            ' --world "arena:search, unit=mm, vehicle=khepera, period=20, camera_every=4". Without a block'
+            " the first node is on from 500 ms on. Run it for 1000 ms."
+        ),
+    )
+    return model
+
+
+def _panels(columns: list[Any], plots: dict[str, tuple[str, str, str, Layout]]) -> Layout:
+    """The arrangement of the studio's panels, as Dockview reads it.
+
+    Columns, rows in them, columns in these, and so on: each a size and either the parts inside it, or the
+    names of the panels that share a place, the first of which is shown.
+    """
+    panels: Layout = {}
+
+    def part(size: int, *inside: Any) -> Layout:
+        if isinstance(inside[0], list):
+            return {"type": "branch", "size": size, "data": [part(*one) for one in inside[0]]}
+        for name in inside:
+            plot = dict(zip(("element", "kind", "port", "settings"), plots.get(name, ()), strict=False))
+            kind = {"contentComponent": "plot", "params": plot} if plot else {"contentComponent": name}
+            panels[name] = {"id": name, **kind, "title": TITLES.get(name, name)}
+        group = {"id": f"{inside[0]} group", "views": list(inside), "activeView": inside[0]}
+        return {"type": "leaf", "size": size, "data": group}
+
+    root, width = part(HEIGHT, columns), sum(size for size, *_ in columns)
+    grid = {"root": root, "width": width, "height": HEIGHT, "orientation": "HORIZONTAL"}
+    return {"grid": grid, "panels": panels}
+
+
 def binding() -> dd.Model:
     """Templates: `dd.architectures.feature_space`."""
     model = dd.architectures.binding()
@@ -475,6 +536,7 @@ EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     spa,
     behaviours,
     serial_order,
+    color_search,
     binding,
     remapping,
     change_detection,

@@ -22,6 +22,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import TwoSlopeNorm, to_rgb
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Rectangle
 from matplotlib.patheffects import withStroke
 from PIL import Image
 
@@ -312,6 +313,41 @@ def serial_order() -> Figure:
     return figure
 
 
+def color_search() -> Figure:
+    """The way of the robot to blue, yellow and red, which it was shown in this order, from above."""
+    figure = blank()
+    arena = dd.Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4, hue_noise=6)
+    session = dd.Session(dd.load(HERE / "color_search.json"), world=arena)
+    session.run(1000)
+    blocks = {box.name: box for box in arena.scene().boxes}
+    for name in ("blue", "yellow", "red"):
+        session.place("shown", (122, 0), (50, 50), blocks[name].color)
+        session.run(800)
+        session.remove("shown")
+        session.run(800)
+    session.set("mode", 1.0)
+    session.run(600)  # until the first node is on
+    way: list[np.ndarray] = []
+    while float(session.read("item 4.node")) < 0:
+        way.append(session.read("pose.output"))
+        session.run(100)
+    axes = part(figure)
+    axes.set(xlim=(-336, 336), ylim=(-210, 210), facecolor="#f5f5f0")
+    axes.set_axis_on()
+    axes.set(xticks=[], yticks=[])
+    for box in blocks.values():
+        low = (box.center[0] - box.size[0] / 2, box.center[1] - box.size[1] / 2)
+        axes.add_patch(Rectangle(low, *box.size, color=box.color))
+    x, y, heading = np.array(way).T
+    axes.plot(x, y, color="#202020", linewidth=2.2)
+    axes.add_patch(
+        Circle((x[-1], y[-1]), 27.5, facecolor="white", edgecolor="#202020", linewidth=1.6, zorder=3)
+    )
+    ahead = 27.5 * np.array([np.cos(heading[-1]), np.sin(heading[-1])])
+    axes.plot([x[-1], x[-1] + ahead[0]], [y[-1], y[-1] + ahead[1]], color="#202020", linewidth=2, zorder=4)
+    return figure
+
+
 def binding() -> Figure:
     """The field over both dimensions while a feature is cued, its read-outs at its left and below."""
     figure = blank()
@@ -359,6 +395,7 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
     spa,
     behaviours,
     serial_order,
+    color_search,
     binding,
     remapping,
     change_detection,
@@ -392,7 +429,7 @@ def write(figure: Figure, path: Path, photograph: bool) -> None:
 def main(folder: Path = HERE) -> None:
     """Draw every example."""
     for draw in PICTURES:
-        write(draw(), folder / f"{draw.__name__}.png", photograph=draw is saliency)
+        write(draw(), folder / f"{draw.__name__}.png", photograph=draw in (saliency, color_search))
 
 
 if __name__ == "__main__":

@@ -240,6 +240,36 @@ def test_spa_spreads_its_wave_from_the_goal() -> None:
     assert areas[0] == 0 < areas[1] < areas[2] < areas[3]
 
 
+def test_color_search_learns_what_is_shown_and_looks_for_it_in_this_order() -> None:
+    arena = Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4, hue_noise=6)
+    session = dd.Session(dd.load(EXAMPLES / "color_search.json"), world=arena)
+    blocks = {box.name: box for box in arena.scene().boxes}
+
+    def until(path: str, on: bool) -> None:
+        end = session.time + 60_000
+        while (float(session.read(path)) > 0) != on:
+            session.run(20)
+            assert session.time < end, f"{path} is not {'on' if on else 'off'}"
+
+    session.run(500)
+    assert float(session.read("item 1.node")) > 0
+    for k, (name, hue) in enumerate((("magenta", 152), ("yellow", 28)), 1):
+        session.place("shown", (127.3, 0), (45.4, 45.4), blocks[name].color)
+        shown = session.time
+        until(f"item {k}.node", False)
+        assert session.time - shown < 500
+        weights = session.read(f"item {k}.meaning.weights")
+        assert weights.max() > 0.5 and abs(int(weights.argmax()) - hue) < 6
+        session.remove("shown")
+        until(f"item {k + 1}.node", True)
+    session.set("mode", 1.0)
+    until("item 1.node", True)
+    for k, name in enumerate(("magenta", "yellow"), 1):
+        until(f"item {k + 1}.node", True)
+        x, y, _ = session.read("pose.output")
+        assert np.hypot(x - blocks[name].center[0], y - blocks[name].center[1]) < 165
+
+
 def test_behaviours_obey_their_constraints() -> None:
     names = ("find", "reach", "avoid", "look left", "look right")
     data = run(

@@ -10,6 +10,7 @@ import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
 import { frameOf, toPixels } from "../../src/world/plan";
+import { openExample } from "../hands";
 import { python } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
 import { writeTwoTargets } from "../twoTargets";
@@ -181,8 +182,38 @@ for (const colours of COLOURS) {
     await world.getByRole("img", { name: /^Picture of the camera/ }).waitFor(PATIENCE);
     await world.getByRole("button", { name: "yellow block" }).click();
     await observer.until(() => observer.world.now.scene?.boxes.some((box) => box.name === "yellow block"));
-    await run(page, 8);
+    await run(page, 2);
     await shot(page, name("blocks"));
+  });
+
+  test(`lesson, ${colours}`, async () => {
+    const studio = await open(colours, {});
+    const { page } = studio;
+    await openExample(page, "Colour search");
+    const observer = await studio.observe();
+    await observer.runs();
+    await page.getByRole("button", { name: /^play/i }).click();
+    const world = page.getByRole("tabpanel", { name: "World", exact: true });
+    const isOn = (item: number) => observer.max(`item ${item}.node`, "activation") > 0;
+    for (const [k, colour] of ["blue", "magenta", "red"].entries()) {
+      await observer.until(() => isOn(k + 1));
+      await world.getByRole("button", { name: `${colour} block` }).click();
+      await observer.until(() => observer.max("satisfaction", "activation") > 0);
+      await page.waitForTimeout(400);
+      await world.getByRole("button", { name: `${colour} block` }).click();
+      await observer.until(() => isOn(k + 2));
+    }
+    const produce = page.getByRole("switch", { name: "produce" });
+    await produce.locator("xpath=..").click();
+    await observer.until(() => isOn(1));
+    await observer.until(() => isOn(2));
+    await observer.until(() => isOn(3));
+    const { time } = observer;
+    await observer.until(() => observer.time > time + 500);
+    await page.getByRole("button", { name: /^pause/i }).click();
+    await page.mouse.move(3, 400);
+    await page.waitForTimeout(500); // until the last frames are drawn
+    await shot(page, name("lesson"));
   });
 
   test(`experiment, ${colours}`, async () => {
