@@ -21,6 +21,7 @@ DRAWN_ELSEWHERE = {
     "README.md": {"saliency-coffee.png", "studio-selection.png"},
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "experiments.md": {"studio-experiment.png"},
+    "serial-order.md": {"studio-lesson.png"},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},
 }
 """The pictures of the README are drawn by the pages that explain them, those of the studio by
