@@ -16,8 +16,8 @@ export const SWATCHES: Swatch[] = [
 ];
 
 // The side of a block, in radii of the robot; and its distances from the rim of the robot, in sides: the
-// first one that has room is taken. At the first distance a block fills the middle of the camera's picture, and
-// lies beyond the reach of most distance sensors.
+// first one that has room is taken. There a block fills the middle of the camera's picture, beyond the reach
+// of most distance sensors.
 const SIDE = 1.65;
 const GAPS = [1.7, 1.2, 2.2, 0.8, 3, 4, 5, 0.5];
 // Without a robot: as a share of the shorter side of the world.
