@@ -18,14 +18,20 @@ from deodar.model import output
 WIDTH, TOP = 420, 40
 """Side of the arena in the picture, and height of the row of taught colours above it, pixels."""
 
+CAMERA, GAP = (240, 180), 12
+"""Width and height of the camera's picture beside the arena, and its distance from the arena, pixels."""
+
+COARSER = 2
+"""Columns and rows of the camera's picture to one that is drawn: its noise makes most of the file."""
+
 FRAMES = 200
 """Largest number of frames."""
 
 SHOWN_MS = 80
 """Duration of a frame, ms."""
 
-TONES = 32
-"""Colours of a frame: fewer make a smaller file."""
+GREYS, SATURATED = 10, 24
+"""Greys and saturated colours of all frames, beside those of the blocks: fewer make a smaller file."""
 
 SIDE = 50.0
 """Side of a block, mm."""
@@ -45,21 +51,41 @@ class DrawnBlock(Protocol):
     def center(self) -> tuple[float, float]: ...
 
 
+class DrawnView(Protocol):
+    """What was around the vehicle: the present blocks, and the picture of its camera (rows, columns, and red,
+    green and blue, 0 to 1).
+    """
+
+    @property
+    def blocks(self) -> Sequence[DrawnBlock]: ...
+    @property
+    def picture(self) -> np.ndarray: ...
+
+
+def animation_samples(result: DrawnSearch) -> range:
+    """Return the samples of the record that the video of a run shows."""
+    count = result.record.sizes["time"]
+    return range(0, count, max(1, math.ceil(count / FRAMES)))
+
+
 def save_sequence_animation(
-    result: DrawnSearch, blocks: Sequence[DrawnBlock], side: float, file: str | Path
+    result: DrawnSearch, views: Sequence[DrawnView], side: float, file: str | Path
 ) -> Path:
-    """Write a GIF of the arena with the vehicle, its path and its view; above it the taught colours, those
-    that were found with a bar below them. Blocks of the arena appear when production begins.
+    """Write a GIF of the arena with the vehicle, its path and its view, and of the picture of its camera;
+    above them the taught colours, those that were found with a bar below them.
 
     Args:
         result: the run.
-        blocks: the blocks of the arena.
+        views: what was around the vehicle at each of `animation_samples`.
         side: side of the arena, mm.
         file: the video.
     """
     path = output.claim(file)
-    stride = max(1, math.ceil(result.record.sizes["time"] / FRAMES))
-    frames = [_frame(result, blocks, side, k) for k in range(0, result.record.sizes["time"], stride)]
+    shown = zip(animation_samples(result), views, strict=True)
+    colours = _palette(result)
+    frames = [
+        _frame(result, view, side, k).quantize(palette=colours, dither=Image.Dither.NONE) for k, view in shown
+    ]
     output.write(
         path,
         lambda beside: frames[0].save(
@@ -69,8 +95,8 @@ def save_sequence_animation(
     return path
 
 
-def _frame(r: DrawnSearch, blocks: Sequence[DrawnBlock], side: float, k: int) -> Image.Image:
-    image = Image.new("RGB", (WIDTH, WIDTH + TOP), FLOOR)
+def _frame(r: DrawnSearch, seen: DrawnView, side: float, k: int) -> Image.Image:
+    image = Image.new("RGB", (WIDTH + GAP + CAMERA[0], WIDTH + TOP), FLOOR)
     pen, scale = ImageDraw.Draw(image), WIDTH / side
     time, poses = float(r.record["time"].values[k]), r.record["pose.output"].values
     producing = time >= r.begins
@@ -83,7 +109,7 @@ def _frame(r: DrawnSearch, blocks: Sequence[DrawnBlock], side: float, k: int) ->
     px, py = at(x, y)
     reach = REACH * scale
     pen.pieslice([px - reach, py - reach, px + reach, py + reach], view - VIEW, view + VIEW, fill=SEEN)
-    for block in blocks if producing else ():
+    for block in seen.blocks:
         bx, by = block.center
         corners = [*at(bx - SIDE / 2, by + SIDE / 2), *at(bx + SIDE / 2, by - SIDE / 2)]
         pen.rectangle(corners, fill=_rgb(r, block.letter))
@@ -101,10 +127,30 @@ def _frame(r: DrawnSearch, blocks: Sequence[DrawnBlock], side: float, k: int) ->
         if n < len(r.found) and time >= r.found[n]:
             pen.rectangle([left, 30, left + 20, 34], fill=BODY)
     words = "production" if producing else "teaching"
-    pen.text((WIDTH - 124, 12), f"{words}, {time / 1000:.0f} s", fill=BODY, font_size=13)
-    return image.quantize(TONES, dither=Image.Dither.NONE)
+    left = WIDTH + GAP
+    pen.text((left, 12), f"{words}, {time / 1000:.0f} s", fill=BODY, font_size=13)
+    coarse = seen.picture[::COARSER, ::COARSER]
+    pixels = (255 * np.clip(coarse, 0.0, 1.0)).round().astype(np.uint8)
+    image.paste(Image.fromarray(pixels).resize(CAMERA, Image.Resampling.NEAREST), (left, TOP))
+    pen.rectangle([left, TOP, left + CAMERA[0] - 1, TOP + CAMERA[1] - 1], outline=BODY)
+    pen.text((left, TOP + CAMERA[1] + 4), "picture of the camera", fill=BODY, font_size=13)
+    return image
+
+
+def _palette(r: DrawnSearch) -> Image.Image:
+    """Return a picture with the colours of all frames; blocks have exact ones even where they are small."""
+    greys = [(round(v), round(v), round(v)) for v in np.linspace(BODY[0], 255, GREYS)]
+    hues = [_saturated(k / SATURATED) for k in range(SATURATED)]
+    found = [FLOOR, SEEN, BODY, *(_rgb(r, letter) for letter in r.hues), *greys, *hues]
+    out = Image.new("P", (1, 1))
+    out.putpalette([value for colour in found for value in colour])
+    return out
 
 
 def _rgb(r: DrawnSearch, letter: str) -> tuple[int, int, int]:
-    red, green, blue = (round(255 * c) for c in colorsys.hsv_to_rgb(r.hues[letter] / HUES, 1.0, 0.9))
+    return _saturated(r.hues[letter] / HUES)
+
+
+def _saturated(hue: float) -> tuple[int, int, int]:
+    red, green, blue = (round(255 * c) for c in colorsys.hsv_to_rgb(hue, 1.0, 0.9))
     return red, green, blue

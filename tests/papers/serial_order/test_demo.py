@@ -104,7 +104,7 @@ def test_the_command_teaches_and_produces_a_sequence(
     with Image.open(out / "serial-order.png") as picture:
         assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 100
     with Image.open(out / "serial-order.gif") as film:
-        assert film.size == (420, 460) and 100 < film.n_frames <= 200
+        assert film.size == (672, 460) and 100 < film.n_frames <= 200
     record = xarray.open_zarr(out / "serial-order.zarr")
     assert record["action.activation"].dims == ("time", "hue")
     assert record["pose.output"].sizes["x_y_heading"] == 3

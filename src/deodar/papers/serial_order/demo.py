@@ -26,8 +26,9 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     # start-up time: these bring JAX
     from deodar.figures._files import save_figure
     from deodar.figures.sequence import sequence_figure
-    from deodar.figures.sequence_animation import save_sequence_animation
+    from deodar.figures.sequence_animation import animation_samples, save_sequence_animation
     from deodar.papers.serial_order import narrative
+    from deodar.papers.serial_order.views import camera_views
     from deodar.recording import files
 
     def shown(share: float, producing: bool) -> None:
@@ -38,8 +39,10 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
 
     def fill(folder: Path) -> None:
         save_figure(sequence_figure(result), folder / "serial-order.png")
-        arena = result.taught.arena
-        save_sequence_animation(result, arena.blocks, arena.side, folder / "serial-order.gif")
+        shown = list(animation_samples(result))
+        times, poses = result.record["time"].values[shown], result.record[narrative.POSE].values[shown]
+        views = camera_views(result.taught, result.begins, times, poses, args.seed)
+        save_sequence_animation(result, views, result.taught.arena.side, folder / "serial-order.gif")
         files.save_record(result.small, folder / "serial-order.zarr")
 
     return Demonstration(

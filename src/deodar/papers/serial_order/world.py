@@ -24,6 +24,7 @@ NEVER, ALWAYS = (0.0, 0.0), 1e8
 SIDES = ("side", "middle")
 
 Lesson = Sequence[Showing]
+ShownBlock = tuple[tuple[float, float], tuple[float, float, float], tuple[float, float]]
 
 
 def world(
@@ -65,7 +66,10 @@ def world(
     for k in range(longest):
         shown = [lesson[k] if k < len(lesson) else None for lesson in lessons]
         for side in SIDES:
-            rows = [_showing(a, s, side) for a, s in zip(arenas, shown, strict=True)]
+            rows = [
+                (OUTSIDE, (0.0, 0.0, 0.0), NEVER) if s is None else placed(a, s, side)
+                for a, s in zip(arenas, shown, strict=True)
+            ]
             _place(made, _shown(k, side), rows)
     return made
 
@@ -85,10 +89,10 @@ def _place(made: Arena, name: str, rows: Sequence[Any]) -> None:
     made.place(name, centers, (BLOCK, BLOCK), colors, windows)
 
 
-def _showing(arena: SearchArena, shown: Showing | None, side: str) -> Any:
-    """Return place, colour and window of a block that is shown."""
-    if shown is None:
-        return OUTSIDE, (0.0, 0.0, 0.0), NEVER
+def placed(arena: SearchArena, shown: Showing, side: str) -> ShownBlock:
+    """Return middle, colour and window (ms) of a block that is shown, while it is at a side or in the
+    middle.
+    """
     x, y, heading = arena.start
     ahead, left = (ASIDE[0], shown.aside) if side == "side" else (shown.ahead, shown.lateral)
     ahead += BLOCK / 2
