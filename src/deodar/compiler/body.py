@@ -80,30 +80,31 @@ class Body:
         """Return the readings of the sensors."""
         return {ident: value[0] for ident, value in state["sensed"].items()}
 
-    def step(
-        self, shared: Arrays, own: PyTree, state: BodyState, commands: Arrays, tick: Array, period: Array
-    ) -> BodyState:
-        """Return the state at tick + 1: motors receive commands at multiples of the period, whose effects are
-        visible one period later.
-        """
+    def listen(self, state: BodyState, commands: Arrays, tick: Array, period: Array) -> BodyState:
+        """Return the state after the step from `tick`: motors receive commands at multiples of the period."""
         held = dict(state["commands"])
         listens = tick % period == 0
         for ident, command in commands.items():
             name = self.motors[ident].motor
             held[name] = jnp.where(listens, command[None].astype(held[name].dtype), held[name])
+        return {**state, "commands": held}
 
+    def advance(self, shared: Arrays, own: PyTree, state: BodyState, tick: Array, period: Array) -> BodyState:
+        """Return the state at `tick`: at multiples of the period the world advances by a period, with the
+        commands of its start, and is read.
+        """
         # without the axis of one: the compiler gives arrays that have it another layout in the branches, and
         # copies the readings of a batch in each step
         before = _copy(state["now"]), self.sensed(state)
 
-        def advance() -> tuple[PyTree, Arrays]:
+        def advanced() -> tuple[PyTree, Arrays]:
             with errors_of(self.world, "advance"):
-                now = self.world.advance(shared, own, before[0], _copy(held))
+                now = self.world.advance(shared, own, before[0], _copy(state["commands"]))
             now = jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), now, before[0])
             return now, self._sensed(shared, own, now, before[1])
 
-        now, sensed = lax.cond((tick + jnp.uint32(1)) % period == 0, advance, lambda: before)
-        return {"now": _rows(now), "sensed": _rows(sensed), "commands": held}
+        now, sensed = lax.cond(tick % period == 0, advanced, lambda: before)
+        return {"now": _rows(now), "sensed": _rows(sensed), "commands": state["commands"]}
 
     def _sensed(self, shared: Arrays, own: PyTree, now: PyTree, before: Arrays) -> Arrays:
         """Return the readings of the sensors; `before` are the last ones, which may be held."""

@@ -51,6 +51,9 @@ OneCopy = Callable[[ProgramValues, list[Constants], ProgramState, NoiseKeys], Re
 Stepped = tuple[Array, ProgramState, Arrays, Arrays]
 """Tick, state, the noise drawn for two ticks, and what follows from the latest readings of the world."""
 
+Inner = tuple[Array, list[Arrays], dict[str, Arrays], Arrays, Arrays]
+"""Tick, state of the groups, states that are held, commands of motors, and the noise drawn for two ticks."""
+
 Recorded = tuple[Stepped, tuple[Array, ...]]
 """What steps carry, and a buffer of records for each port."""
 
@@ -365,9 +368,36 @@ class Executable:
                 now = full(state)
                 perceived = program.perceive(chunk, now, tick, clock["tick"], perceived)
                 new = program.step(chunk, now, drawn, tick, perceived)
-                return tick + jnp.uint32(1), flat(new), drawn, perceived
+                tick += jnp.uint32(1)
+                return tick, flat(program.advance(chunk, new, tick)), drawn, perceived
 
-            return lax.while_loop(lambda carry: carry[0] != end, one, given)
+            def period(carry: Stepped) -> Stepped:
+                """Advance to the next exchange with the world, or to the end.
+
+                What changes only in an exchange is constant in the inner loop; as the result of a branch it
+                would be copied in each step.
+                """
+                tick, state, drawn, perceived = carry
+                perceived = program.perceive(chunk, full(state), tick, clock["tick"], perceived)
+                stop = tick + jnp.minimum(end - tick, clock["period"] - tick % clock["period"])
+                assert "world" in state
+                world = state["world"]
+
+                def one(carry: Inner) -> Inner:
+                    tick, groups, held, commands, drawn = carry
+                    drawn = program.draw(chunk.keys, tick, clock["tick"], drawn)
+                    now = full({"groups": groups, "held": held, "world": {**world, "commands": commands}})
+                    new = flat(program.step(chunk, now, drawn, tick, perceived))
+                    assert "world" in new
+                    return tick + jnp.uint32(1), new["groups"], new["held"], new["world"]["commands"], drawn
+
+                begun = tick, state["groups"], state["held"], world["commands"], drawn
+                tick, groups, held, commands, drawn = lax.while_loop(lambda c: c[0] != stop, one, begun)
+                now = full({"groups": groups, "held": held, "world": {**world, "commands": commands}})
+                return tick, flat(program.advance(chunk, now, tick)), drawn, perceived
+
+            nested = program.body is not None and program.body.holds
+            return lax.while_loop(lambda carry: carry[0] != end, period if nested else one, given)
 
         begun = clock["tick"], flat(state), program.undrawn(), program.unperceived()
         if not ports:

@@ -274,7 +274,10 @@ class Program:
     def step(
         self, chunk: Chunk, state: ProgramState, drawn: Arrays, tick: Array, perceived: Arrays
     ) -> ProgramState:
-        """The state at tick + 1: every output at t is read, then all new states are committed together."""
+        """The state at tick + 1: every output at t is read, then all new states are committed together.
+
+        A world stays as it is, until `advance`.
+        """
         chunk = self._seeing(chunk, state)
         buffers, old = dict(chunk.still), state["groups"]
         buffers |= self._perceived(perceived)
@@ -300,11 +303,19 @@ class Program:
         commands = {
             ident: buffers[g, "output", 0][r] for ident in self.body.motors for g, r in [self.plan.row[ident]]
         }
-        assert "world" in chunk.values and "world" in chunk.keys and "world" in state
-        world = self.body.step(
-            chunk.values["world"], chunk.keys["world"], state["world"], commands, tick, chunk.clock["period"]
-        )
+        assert "world" in state
+        world = self.body.listen(state["world"], commands, tick, chunk.clock["period"])
         return {"groups": new, "held": held, "world": world}
+
+    def advance(self, chunk: Chunk, state: ProgramState, tick: Array) -> ProgramState:
+        """The state with the world of `tick`, to which the model has advanced."""
+        if self.body is None:
+            return state
+        assert "world" in chunk.values and "world" in chunk.keys and "world" in state
+        world = self.body.advance(
+            chunk.values["world"], chunk.keys["world"], state["world"], tick, chunk.clock["period"]
+        )
+        return {**state, "world": world}
 
     def _seeing(self, chunk: Chunk, state: ProgramState) -> Chunk:
         if self.body is None:
