@@ -1,0 +1,59 @@
+"""How much faster than real time robots look for colours: `python benchmarks/search.py`.
+
+One Khepera in a random arena in one process, and 16 in each of two processes; each process keeps to one core
+(`NPROC=1`). A run has the step of 2 ms, the camera of 160 x 120 pixels and the noise of
+`deodar reproduce serial-order`. The time of a step is (T(4n) - T(n)) / 3n, the median of five; the sum over
+the processes counts. A busy machine prints smaller numbers.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
+os.environ.setdefault("NPROC", "1")
+ROUNDS, SHORT = 5, 1600.0
+
+
+def ratio(copies: int) -> float:
+    """Simulated time of all copies of one process per wall time."""
+    import deodar as dd
+    from deodar.papers.serial_order.arenas import random_arena
+    from deodar.papers.serial_order.runs import Settings, prepared
+    from deodar.papers.serial_order.teaching import lesson
+    from deodar.papers.serial_order.world import world
+
+    arenas = [random_arena("RBGBY", (1, k), 1) for k in range(copies)]
+    lessons = [lesson("RBGBY", k, 5.0) for k in range(copies)]
+    longest = max(duration for _, duration in lessons)
+    model = prepared(5, Settings())
+    around = world(arenas, [shown for shown, _ in lessons], longest)
+
+    def seconds(duration: float) -> float:
+        began = time.perf_counter()
+        record = {"record": "pose.output", "every": duration}
+        dd.simulate(model, duration, trials=copies, world=around, progress=False, **record)
+        return time.perf_counter() - began
+
+    seconds(SHORT), seconds(4 * SHORT)  # compiled
+    each = [seconds(4 * SHORT) - seconds(SHORT) for _ in range(ROUNDS)]
+    return copies * 3 * SHORT / 1000 / statistics.median(each)
+
+
+def main() -> None:
+    """Measure and print."""
+    if hasattr(os, "getloadavg"):
+        sys.stdout.write(f"load {os.getloadavg()[0]:.2f}\n")
+    sys.stdout.write(f"one robot, one core: {ratio(1):.0f} times real time\n")
+    sys.stdout.flush()
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        both = list(pool.map(ratio, [16, 16]))
+    sys.stdout.write(f"16 robots on each of two cores: {sum(both):.0f} times real time in all\n")
+
+
+if __name__ == "__main__":
+    main()
