@@ -24,11 +24,11 @@ SEARCH = 2000.0
 """Duration of each search of the made trials, ms."""
 
 
-def made(taught: str, recalled: str, found: str) -> narrative.SearchRun:
+def made(taught: str, recalled: str, found: str, blocks: str = "RGBYV") -> narrative.SearchRun:
     """Return the events of a trial without noise: one node after another is active for `SEARCH`, has the
     recalled colours in the action field, and is switched off by a block of the colours in `found`.
     """
-    arena = SearchArena(600.0, tuple(Block(c, (100.0, 0.0)) for c in "RGBYV"), (0.0, 0.0, 0.0))
+    arena = SearchArena(600.0, tuple(Block(c, (100.0, 0.0)) for c in blocks), (0.0, 0.0, 0.0))
     lesson, end = brief_lesson(taught)
     times = np.arange(0.0, BEGINS + SEARCH * len(taught) + 1000.0, COARSE)
     count = len(times)
@@ -47,7 +47,10 @@ def made(taught: str, recalled: str, found: str) -> narrative.SearchRun:
         satisfied = (times >= off - COARSE) & (times < off + 60.0)
         v["strongest satisfaction.output"][satisfied] = 1.0
         v["hue of satisfaction.output"][satisfied] = hue_of(got)
-    v[f"item {len(found) + 1}.node.activation"][times >= BEGINS + SEARCH * len(found) + 100.0] = 5.0
+    rest = times >= BEGINS + SEARCH * len(found) + 100.0
+    v[f"item {len(found) + 1}.node.activation"][rest] = 5.0
+    for remembered in recalled[len(found) :][:1]:
+        v["hue of action.output"][rest] = hue_of(remembered)
     return narrative.read(TaughtRun(taught, lesson, end, arena), Trial(times, v, {}, "over"), BEGINS)
 
 
@@ -72,6 +75,18 @@ def test_another_order_or_an_unfinished_sequence_fails_a_required_claim(
     assert claim.kind == "required" and claim.holds is False
     if len(found) < 3:
         assert f"{3 - len(found)} not found in" in narrative.sentence(run)
+
+
+@pytest.mark.parametrize(
+    ("recalled", "found", "blocks", "why"),
+    [
+        ("RGB", "RG", "RGB", "1 not found in 7.0 s: still looking for B (item 3 of 3)."),
+        ("R", "R", "RGB", "2 not found in 7.0 s: item 2 of 3 has learned no colour."),
+        ("RGB", "RG", "RG", "still looking for B (item 3 of 3), of which the arena has no block."),
+    ],
+)
+def test_a_run_that_ends_early_says_why(recalled: str, found: str, blocks: str, why: str) -> None:
+    assert narrative.sentence(made("RGB", recalled, found, blocks)).endswith(why)
 
 
 @pytest.mark.parametrize(

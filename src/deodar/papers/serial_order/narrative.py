@@ -15,6 +15,7 @@ from deodar.errors import ParameterError
 from deodar.experiments.trial import Trial
 from deodar.papers.serial_order.arenas import random_arena
 from deodar.papers.serial_order.colours import FIVE, letter_at
+from deodar.papers.serial_order.reasons import reason
 from deodar.papers.serial_order.runs import ABSENT, COARSE, FAR, Settings, TaughtRun, found, run_many
 from deodar.papers.serial_order.teaching import brief_lesson
 
@@ -58,6 +59,7 @@ class SearchRun:
         found: time at which each block was found, ms.
         seen: time at which a block of each wanted colour came into view, ms; None for a block that did not.
         distances: distance of each block when it was found, mm; infinite if no such block was in view.
+        reason: why the run ended before all blocks were found; empty if they were.
     """
 
     taught: TaughtRun
@@ -68,6 +70,7 @@ class SearchRun:
     found: tuple[float, ...]
     seen: tuple[float | None, ...]
     distances: tuple[float, ...]
+    reason: str = ""
 
     @property
     def sequence(self) -> str:
@@ -129,7 +132,7 @@ def run(
         done(min(1.0, calls * CALL / (taught + LIMIT)), calls * CALL > taught)
 
     watch = [*(f"{name}.activation" for name in FIELDS), PROJECTION]
-    settings = Settings(limit=LIMIT, coarse=True)
+    settings = Settings(limit=LIMIT, coarse=True, ends_unlearned=True)
     [(trial, begins)] = run_many([run], settings, seed, watch, between)
     return read(run, trial, begins)
 
@@ -156,6 +159,7 @@ def read(run: TaughtRun, trial: Trial, begins: float) -> SearchRun:
         ends,
         tuple(seen[: len(ends)]),
         tuple(np.asarray(row["distances"], float).tolist()),
+        reason(run, trial, begins) if row["outcome"] == "unfinished" else "",
     )
 
 
@@ -232,4 +236,6 @@ def sentence(result: SearchRun) -> str:
     ]
     text = f"Taught {r.sequence}; found {', '.join(said) or 'nothing'}"
     missing = len(r.sequence) - len(r.produced)
-    return text + (f"; {missing} not found in {LIMIT / 1000:g} s." if missing > 0 else ".")
+    took = (float(r.record["time"][-1]) - r.begins) / 1000
+    why = f": {r.reason}" if r.reason else ""
+    return text + (f"; {missing} not found in {took:.1f} s{why}." if missing > 0 else ".")

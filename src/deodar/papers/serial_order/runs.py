@@ -16,13 +16,14 @@ from deodar.couplings.project import Project
 from deodar.elements.boost import Boost
 from deodar.experiments.actions import Action
 from deodar.experiments.batch import run_batch
-from deodar.experiments.events import Crosses
+from deodar.experiments.events import All, AnyOf, Crosses, Event
 from deodar.experiments.rows import Row
 from deodar.experiments.trial import Trial
 from deodar.model.model import Model
 from deodar.numerics.windows import Window
 from deodar.papers.serial_order.arenas import BLOCK, SearchArena
 from deodar.papers.serial_order.colours import FIVE, TEN, hue_of, letter_at, offset
+from deodar.papers.serial_order.reasons import require_possible
 from deodar.papers.serial_order.teaching import Showing
 from deodar.papers.serial_order.world import world
 from deodar.worlds.arena.arena import Arena
@@ -95,6 +96,8 @@ class Settings:
         actions: actions on each run; `looks for K` is the event that item K becomes active in production.
         coarse: whether samples are taken every 20 ms, where no times of instabilities are wanted.
         cues: number of sequences that the model holds.
+        ends_unlearned: whether a run ends when a node of the sequence is active without a colour in the
+            action field: it has learned none, so that nothing is looked for.
     """
 
     limit: float = 600_000.0
@@ -105,6 +108,7 @@ class Settings:
     actions: Sequence[Action] = ()
     coarse: bool = False
     cues: int = 1
+    ends_unlearned: bool = False
 
 
 def prepared(length: int, settings: Settings) -> Model:
@@ -151,7 +155,12 @@ def run_many(
         seed: seed of all noise.
         watch: paths of ports that are sampled too.
         between: called after each call of the program, as in `run_batch`.
+
+    Raises:
+        ParameterError: a lesson has another number of colours than its sequence, or an arena lacks a wanted
+            colour.
     """
+    require_possible(runs, settings.cues == 1)
     [length] = {len(run.sequence) for run in runs}
     model, positions, produced = _staged(runs, settings)
     nodes = [f"item {k}.node" for k in range(1, positions + 2)]
@@ -162,7 +171,9 @@ def run_many(
         "pose.output",
         "touching.output",
     ]
-    events = [Crosses("over", f"produced {length + 1}.output", 0.5, times=OVER)]
+    events: list[Event] = [Crosses("over", f"produced {length + 1}.output", 0.5, times=OVER)]
+    if settings.ends_unlearned:
+        events += _unlearned(length)
     if settings.actions:
         looks = (
             Crosses(f"looks for {k}", f"produced {k}.output", 0.5, ends=False) for k in range(1, length + 1)
@@ -182,6 +193,20 @@ def run_many(
         tolerant=True,
     )
     return [(trial, produced) for trial in trials]
+
+
+def _unlearned(length: int) -> list[Event]:
+    """Return the event that a node of the sequence is active in production without a colour, and its parts.
+
+    A node that has learned one is without its colour for a few milliseconds at most.
+    """
+    wanted = [f"wants {k}" for k in range(1, length + 1)]
+    return [
+        *(Crosses(name, f"produced {k}.output", 0.5, ends=False) for k, name in enumerate(wanted, 1)),
+        AnyOf("wants a colour", wanted, ends=False),
+        Crosses("no colour", "strongest action.output", 0.0, "below", ends=False),
+        All("nothing learned", ["wants a colour", "no colour"], times=OVER),
+    ]
 
 
 def read_weights(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -> list[np.ndarray]:
