@@ -70,7 +70,11 @@ def judge(doc: Document, world: World | None) -> list[Problem]:
     """Return the problems and the warnings of a document in a world that has all of its signals."""
     if not isinstance(world, World):
         return []
-    found = [p for e in doc.entries if isinstance(e.element, Sensor) for p in _axes(e.path, e.element, world)]
+    with errors_of(world, "validate"):
+        found = list(world.validate())
+    found += [
+        p for e in doc.entries if isinstance(e.element, Sensor) for p in _axes(e.path, e.element, world)
+    ]
     if _exchanges_positions(doc, world):
         nodes, problems = resolve(doc)
         found += [] if problems else _Tracer(nodes, world).judge()

@@ -209,6 +209,13 @@ class World:
         """
         return iter(())
 
+    def validate(self) -> Iterator[Problem]:
+        """Yield what is wrong with the world itself, such as objects at one place.
+
+        Problems prevent a run, warnings do not.
+        """
+        return iter(())
+
     @classmethod
     def examples(cls) -> Iterator[World]:
         """Yield the worlds from which the studio takes one if the user chose none: the first in which a model

@@ -34,6 +34,7 @@ from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.infrared import distances, readings
 from deodar.worlds.arena.layout import UNITS, ArenaObject, LayoutSource, builtin, load_each
 from deodar.worlds.arena.objects import ArenaObjects, made
+from deodar.worlds.arena.overlaps import BlockCheck
 from deodar.worlds.arena.picture_noise import PictureNoise, picture
 from deodar.worlds.arena.places import Places, of, rows_of
 from deodar.worlds.arena.room import Room
@@ -534,6 +535,10 @@ class Arena(PureWorld):
         except WorldError as error:
             yield from error.problems
 
+    def validate(self) -> Iterator[Problem]:
+        check = BlockCheck(self.objects, self.places)
+        yield from check.warnings(self.starts, self.vehicle.name, self.vehicle.radius)
+
     def _picture(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
         """Return the last picture: with a period of its own the camera is where the vehicle was then."""
         camera, pose, tick = self.vehicle.camera, (state["position"], state["heading"]), state["tick"]
@@ -649,6 +654,7 @@ class Arena(PureWorld):
             raise WorldError("was run with a custom vehicle, which a record does not contain", where="arena")
         found = cls(described["layout"], described["start"], described["goal"], **settings)
         found.objects.restore(described["things"])
+        found.objects.fixed = frozenset(t.name for layout in found.layouts for t in layout.objects)
         found.source = str(described.get("file", ""))
         return found
 

@@ -17,7 +17,7 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 
@@ -71,6 +71,8 @@ class ArenaLayout:
         start: x, y in m and heading in rad, or None.
         goal: x, y in m, or None.
         height: height of the walls of the border, m.
+        fixed: names of the objects that a file lists as walls or boxes; a description of an arena does not
+            keep them apart from blocks.
     """
 
     border: tuple[float, float, float, float]
@@ -78,6 +80,7 @@ class ArenaLayout:
     start: tuple[float, float, float] | None = None
     goal: tuple[float, float] | None = None
     height: float = WALL_HEIGHT
+    fixed: frozenset[str] = field(default=frozenset(), compare=False)
 
     def to_data(self) -> JsonObject:
         """Return the layout in the format of a file."""
@@ -243,7 +246,10 @@ def _layout(data: Json, where: str) -> ArenaLayout:
     if faults or border is None:
         raise WorldError(faults)
     begin = None if start is None else (*start, float(heading or 0))
-    return ArenaLayout(border, objects, begin, goal, WALL_HEIGHT if height is None else height)
+    blocks = data.get("blocks")
+    count = len(blocks) if isinstance(blocks, Sequence) else 0
+    fixed = frozenset(t.name for t in objects[: len(objects) - count])  # blocks are listed last
+    return ArenaLayout(border, objects, begin, goal, WALL_HEIGHT if height is None else height, fixed)
 
 
 def _border(

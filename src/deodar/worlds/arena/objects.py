@@ -84,10 +84,12 @@ class ArenaObjects:
 
     Attributes:
         slots: what is in each slot; None: the slot is free.
+        fixed: names of walls and boxes of the layouts, which may overlap.
     """
 
     def __init__(self, layouts: Sequence[ArenaLayout], period: float) -> None:
         self.border = layouts[0].border
+        self.fixed = frozenset[str]().union(*(layout.fixed for layout in layouts))
         self.wall_heights = np.asarray([layout.height for layout in layouts])
         self.period = period
         by = [{t.name: t for t in layout.objects} for layout in layouts]
