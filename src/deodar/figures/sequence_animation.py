@@ -14,6 +14,7 @@ from PIL import Image, ImageDraw
 from deodar.architectures.color_search import HUES
 from deodar.figures.sequence import DrawnSearch
 from deodar.model import output
+from deodar.worlds.arena.khepera import KHEPERA
 
 WIDTH, TOP = 420, 40
 """Side of the arena in the picture, and height of the row of taught colours above it, pixels."""
@@ -36,8 +37,8 @@ GREYS, SATURATED = 10, 24
 SIDE = 50.0
 """Side of a block, mm."""
 
-RADIUS, VIEW, REACH = 27.5, 30.0, 180.0
-"""Radius of the vehicle, mm; half of the angle of its camera, degrees; drawn length of the view, mm."""
+REACH = 180.0
+"""Drawn length of the view, mm."""
 
 FLOOR, SEEN, BODY = (250, 250, 248), (228, 228, 224), (20, 20, 20)
 
@@ -105,10 +106,12 @@ def _frame(r: DrawnSearch, seen: DrawnView, side: float, k: int) -> Image.Image:
     def at(px: float, py: float) -> tuple[float, float]:
         return (px + side / 2) * scale, TOP + (side / 2 - py) * scale
 
-    view = math.degrees(-heading)
+    camera = KHEPERA.camera
+    assert camera is not None
+    view, half = math.degrees(-heading), math.degrees(camera.horizontal / 2)
     px, py = at(x, y)
     reach = REACH * scale
-    pen.pieslice([px - reach, py - reach, px + reach, py + reach], view - VIEW, view + VIEW, fill=SEEN)
+    pen.pieslice([px - reach, py - reach, px + reach, py + reach], view - half, view + half, fill=SEEN)
     for block in seen.blocks:
         bx, by = block.center
         corners = [*at(bx - SIDE / 2, by + SIDE / 2), *at(bx + SIDE / 2, by - SIDE / 2)]
@@ -116,9 +119,10 @@ def _frame(r: DrawnSearch, seen: DrawnView, side: float, k: int) -> Image.Image:
     begin = int(np.searchsorted(r.record["time"].values, r.begins))
     if k > begin:
         pen.line([at(*p) for p in poses[begin : k + 1, :2]], fill=BODY, width=2)
-    radius = RADIUS * scale
+    rim = 1000 * KHEPERA.radius
+    radius = rim * scale
     pen.ellipse([px - radius, py - radius, px + radius, py + radius], (255, 255, 255), BODY, 2)
-    ahead = at(x + RADIUS * math.cos(heading), y + RADIUS * math.sin(heading))
+    ahead = at(x + rim * math.cos(heading), y + rim * math.sin(heading))
     pen.line([(px, py), ahead], fill=BODY, width=3)
     pen.rectangle([0, TOP, WIDTH - 1, WIDTH + TOP - 1], outline=BODY)
     for n, letter in enumerate(r.sequence):
