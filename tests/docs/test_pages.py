@@ -19,9 +19,13 @@ LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 DRAWN_ELSEWHERE = {
     "saliency.md": {"saliency-untuned.png"},  # by `deodar demo saliency --untuned`, made smaller
     "README.md": {"saliency-coffee.png", "studio-selection.png"},
+    # by `deodar demo serial-order --figures`, made smaller
+    "serial-order.md": {
+        *(f"serial-order-{name}.png" for name in ("transition", "perception", "demonstrations")),
+        "studio-lesson.png",
+    },
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "experiments.md": {"studio-experiment.png"},
-    "serial-order.md": {"studio-lesson.png"},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},
 }
 """The pictures of the README are drawn by the pages that explain them, those of the studio by

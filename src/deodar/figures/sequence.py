@@ -68,12 +68,12 @@ def sequence_figure(result: DrawnSearch) -> Figure:
     with style():
         out = sheet(DOUBLE, 6.2)
         rows: Any = out.subplots(4, 1, sharex=True)
-        _nodes(rows[0], r)
+        draw_nodes(rows[0], r)
         for axes, name, title in (
             (rows[1], "action", "action field"),
             (rows[2], "satisfaction", "field of the condition of satisfaction; triangles: a block is found"),
         ):
-            image = _hues(axes, r, name)
+            image = draw_hues(axes, r, name)
             axes.set_title(title, loc="left")
             out.colorbar(image, ax=axes, label="activation", pad=0.01, aspect=12)
         _columns(rows[3], r, out)
@@ -87,7 +87,8 @@ def sequence_figure(result: DrawnSearch) -> Figure:
     return out
 
 
-def _nodes(axes: Axes, r: DrawnSearch) -> None:
+def draw_nodes(axes: Axes, r: DrawnSearch) -> None:
+    """Draw the activation of the ordinal nodes, each in the colour that it was taught."""
     times = r.record["time"].values / 1000
     begin = int(np.searchsorted(times, r.begins / 1000))
     for k, letter in enumerate(r.sequence, 1):
@@ -135,7 +136,8 @@ def _longest(active: np.ndarray) -> int:
     return int(piece[len(piece) // 2])
 
 
-def _hues(axes: Axes, r: DrawnSearch, name: str) -> Any:
+def draw_hues(axes: Axes, r: DrawnSearch, name: str) -> Any:
+    """Draw the activation of a field over hue, and return the image."""
     u = r.record[f"{name}.activation"].values
     times = r.record["time"].values / 1000
     # the circle of hue is cut between violet and red, so that red is whole

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 from pathlib import Path
 
@@ -38,11 +40,13 @@ def made(taught: str, recalled: str, found: str, blocks: str = "RGBYV") -> narra
     v |= {f"item {k}.node.activation": np.full(count, -3.0) for k in range(1, len(taught) + 2)}
     v["strongest peak.output"], v["touching.output"] = np.zeros(count), np.zeros(count)
     v[narrative.PROJECTION], v[narrative.POSE] = np.zeros((count, 80)), np.zeros((count, 3))
+    v[narrative.MEANINGS] = np.zeros((count, 180))
     for k, (remembered, got) in enumerate(zip(recalled, found, strict=False), 1):
         on, off = BEGINS + SEARCH * (k - 1) + 500.0, BEGINS + SEARCH * k
         active = (times >= on) & (times < off)
         v[f"item {k}.node.activation"][active] = 5.0
         v["hue of action.output"][active] = hue_of(remembered)
+        v[narrative.MEANINGS][active, round(hue_of(remembered))] = 1.0
         v["strongest peak.output"][(times >= off - 600.0) & (times < off)] = 1.0
         satisfied = (times >= off - COARSE) & (times < off + 60.0)
         v["strongest satisfaction.output"][satisfied] = 1.0
@@ -107,12 +111,18 @@ def test_a_wrong_sequence_is_refused_before_the_run(
     assert not out.exists()
 
 
-def test_the_command_teaches_and_produces_a_sequence(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out = tmp_path / "order"
-    assert main(["demo", "serial-order", "--sequence", "gr", "--out", str(out), "--no-progress"]) == 0
-    assert "Taught GR; found G after" in capsys.readouterr().out.splitlines()[-1]
+@pytest.fixture(scope="module")
+def shown(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Return the folder of a demonstration with two colours, and what the command printed."""
+    out, said = tmp_path_factory.mktemp("demo") / "order", io.StringIO()
+    with contextlib.redirect_stdout(said):
+        assert main(["demo", "serial-order", "--sequence", "gr", "--out", str(out), "--no-progress"]) == 0
+    return out, said.getvalue()
+
+
+def test_the_command_teaches_and_produces_a_sequence(shown: tuple[Path, str]) -> None:
+    out, said = shown
+    assert "Taught GR; found G after" in said.splitlines()[-1]
     found = json.loads((out / "results.json").read_text())
     assert found["settings"]["sequence"] == "GR"
     assert [c["value"] for c in found["claims"][:2]] == ["GR", "GR"]
@@ -125,3 +135,18 @@ def test_the_command_teaches_and_produces_a_sequence(
     assert record["pose.output"].sizes["x_y_heading"] == 3
     learning = record["item_1.node.activation"].values[record["time"].values < 1500.0]
     assert learning.max() > 0
+
+
+def test_the_record_of_the_command_can_be_plotted(shown: tuple[Path, str], tmp_path: Path) -> None:
+    for path in ("item 1.node.activation", "action.activation", "pose.output"):
+        picture = tmp_path / f"{path}.png"
+        assert main(["plot", str(shown[0] / "serial-order.zarr"), path, "--out", str(picture)]) == 0
+        with Image.open(picture) as drawn:
+            assert min(drawn.size) > 300 and len(set(drawn.convert("L").tobytes())) > 20
+
+
+def test_the_learned_weights_are_those_in_production() -> None:
+    run = made("RGB", "RGB", "RG")
+    assert run.weights.shape == (4, 180)
+    assert [int(row.argmax()) for row in run.weights[:2]] == [0, 60]
+    assert not run.weights[3].any()

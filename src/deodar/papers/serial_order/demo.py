@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
 from deodar.papers import Demonstration, Show
@@ -13,7 +14,14 @@ HELP = "a robot is taught a sequence of colours and looks for them in an arena, 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options of the demonstration."""
     group = parser.add_argument_group("serial-order", HELP)
-    group.add_argument(
+    which = group.add_mutually_exclusive_group()
+    which.add_argument(
+        "--figures",
+        action="store_true",
+        default=None,
+        help="serial-order: draw figures 3, 8 and 12 of the paper instead, each from runs of its own",
+    )
+    which.add_argument(
         "--sequence",
         metavar="COLOURS",
         help="serial-order: 1 to 10 letters of R, Y, G, B, V: red, yellow, green, blue, violet"
@@ -34,6 +42,8 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     def shown(share: float, producing: bool) -> None:
         show("looking for the colours" if producing else "being taught", share)
 
+    if args.figures:
+        return _figures(args.seed, shown)
     sequence = narrative.SEQUENCE if args.sequence is None else args.sequence
     result = narrative.run(sequence, args.seed, shown)
 
@@ -50,5 +60,27 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
         settings={"sequence": result.sequence},
         written="serial-order.png, serial-order.gif, the record (serial-order.zarr)",
         sentence=narrative.sentence(result),
+        fill=fill,
+    )
+
+
+def _figures(seed: int, shown: Callable[[float, bool], None]) -> Demonstration:
+    """Make the runs of the paper's other figures."""
+    # start-up time: these bring JAX
+    from deodar.figures._files import save_figure
+    from deodar.papers.serial_order import figures
+
+    result = figures.run(seed, shown)
+    drawn = result.draw()
+
+    def fill(folder: Path) -> None:
+        for name, figure in drawn.items():
+            save_figure(figure, folder / f"{name}.png")
+
+    return Demonstration(
+        claims=figures.claims(result),
+        settings={"figures": True},
+        written=", ".join(f"{name}.png" for name in drawn),
+        sentence=f"Drew {len(drawn)} figures of the paper from runs of deodar.",
         fill=fill,
     )

@@ -16,7 +16,7 @@ from deodar.experiments.trial import Trial
 from deodar.papers.serial_order.arenas import random_arena
 from deodar.papers.serial_order.colours import FIVE, letter_at
 from deodar.papers.serial_order.reasons import reason
-from deodar.papers.serial_order.runs import ABSENT, COARSE, FAR, Settings, TaughtRun, found, run_many
+from deodar.papers.serial_order.runs import ABSENT, CHANGED, COARSE, FAR, Settings, TaughtRun, found, run_many
 from deodar.papers.serial_order.teaching import brief_lesson
 
 SOURCE = "Sandamirskaya & Schöner (2010), Neural Networks 23(10), figure 11"
@@ -41,6 +41,7 @@ PEAK = 0.5
 
 FIELDS = ("action", "satisfaction")
 PROJECTION = "columns of the peak.output"
+MEANINGS = "all meanings.output"
 POSE = "pose.output"
 
 
@@ -55,6 +56,9 @@ class SearchRun:
             over image columns, and pose of the vehicle, over time.
         recalled: letter of the colour that each ordinal node activates in the action field; `-` for a node
             that did not become active.
+        weights: weights of the ordinal nodes to the action field, (nodes, hues), with those of the node
+            behind the sequence, as each node activates them in production; 0 of one that did not become
+            active.
         produced: letters of the blocks that were found.
         found: time at which each block was found, ms.
         seen: time at which a block of each wanted colour came into view, ms; None for a block that did not.
@@ -66,6 +70,7 @@ class SearchRun:
     begins: float
     record: xarray.Dataset
     recalled: str
+    weights: np.ndarray
     produced: str
     found: tuple[float, ...]
     seen: tuple[float | None, ...]
@@ -112,7 +117,10 @@ def checked(sequence: str) -> str:
 
 
 def run(
-    sequence: str = SEQUENCE, seed: int = 0, done: Callable[[float, bool], None] = lambda *_: None
+    sequence: str = SEQUENCE,
+    seed: int = 0,
+    done: Callable[[float, bool], None] = lambda *_: None,
+    clutter: float = 0.0,
 ) -> SearchRun:
     """Teach a sequence and produce it.
 
@@ -120,6 +128,7 @@ def run(
         sequence: letters of its colours.
         seed: seed of the arena and of all noise.
         done: called with the completed share of the longest run, and whether production has begun.
+        clutter: share of the background of the picture that random colours cover while it is taught.
     """
     letters = checked(sequence)
     lesson, taught = brief_lesson(letters)
@@ -131,8 +140,8 @@ def run(
         calls += 1
         done(min(1.0, calls * CALL / (taught + LIMIT)), calls * CALL > taught)
 
-    watch = [*(f"{name}.activation" for name in FIELDS), PROJECTION]
-    settings = Settings(limit=LIMIT, coarse=True, ends_unlearned=True)
+    watch = [*(f"{name}.activation" for name in FIELDS), PROJECTION, MEANINGS]
+    settings = Settings(limit=LIMIT, clutter=clutter, coarse=True, ends_unlearned=True)
     [(trial, begins)] = run_many([run], settings, seed, watch, between)
     return read(run, trial, begins)
 
@@ -155,6 +164,7 @@ def read(run: TaughtRun, trial: Trial, begins: float) -> SearchRun:
         begins,
         _record(run, trial),
         "".join(_recalled(run, trial, begins, k) for k in range(1, len(run.sequence) + 1)),
+        np.stack([_weights(trial, begins, k) for k in range(1, len(run.sequence) + 2)]),
         str(row["produced"]),
         ends,
         tuple(seen[: len(ends)]),
@@ -169,6 +179,14 @@ def _recalled(run: TaughtRun, trial: Trial, begins: float, item: int) -> str:
     hues = trial.values["hue of action.output"]
     at = np.flatnonzero(active & (hues != ABSENT) & (trial.times >= begins))
     return letter_at(float(hues[at[-1]]), tuple(FIVE)) if len(at) else "-"
+
+
+def _weights(trial: Trial, begins: float, item: int) -> np.ndarray:
+    """Return the weights of a node: what all nodes activate while it alone is active."""
+    active = trial.values[f"item {item}.node.activation"] > 0
+    at = np.flatnonzero(active & (trial.times >= begins + CHANGED))
+    meanings = trial.values[MEANINGS]
+    return meanings[at[len(at) // 2]] if len(at) else np.zeros(meanings.shape[1])
 
 
 def _record(run: TaughtRun, trial: Trial) -> xarray.Dataset:

@@ -1,0 +1,83 @@
+"""A picture of the camera, the hues of its columns, and the colour-space field that they drive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from deodar.figures._style import COLOR, DIVERGING, MEDIUM, SEQUENTIAL, SINGLE, THIN, style
+from deodar.figures._style import figure as sheet
+
+RANGE = 4.0
+"""Activation at both ends of the colour scale."""
+
+
+@dataclass(frozen=True)
+class ColourPerception:
+    """What the camera sees at a moment, and what the colour-space field makes of it.
+
+    Attributes:
+        picture: red, green and blue from 0 to 1, (columns, rows, 3), the first column at the left and the
+            first row at the top.
+        shares: amount of each hue in each column, (columns, hues), of a coarser grid.
+        activation: activation of the colour-space field on that grid.
+        columns, hues: ends of both axes, in pixels from the middle and in samples of hue.
+        wanted: hue of the peak of the action field, in samples.
+    """
+
+    picture: np.ndarray
+    shares: np.ndarray
+    activation: np.ndarray
+    columns: tuple[float, float]
+    hues: tuple[float, float]
+    wanted: float
+
+
+def perception_figure(result: ColourPerception) -> Figure:
+    """Draw the colour-space field above the amounts of hues above the picture, with one axis of columns.
+
+    A line surrounds what is above threshold; a dashed line marks the hue that the action field activates.
+    """
+    r = result
+    with style():
+        out = sheet(SINGLE * 1.35, 6.4)
+        a, b, c = out.subplots(3, 1, sharex=True)
+        image = _over_hue(a, r, r.activation, DIVERGING, (-RANGE, RANGE))
+        out.colorbar(image, ax=a, label="activation", pad=0.02, aspect=14)
+        if (r.activation > 0).any():
+            x = np.linspace(*r.columns, r.activation.shape[0])
+            y = np.linspace(*r.hues, r.activation.shape[1])
+            a.contour(x, y, r.activation.T, [0.0], colors=COLOR.excitation, linewidths=MEDIUM)
+        a.set_title("A  colour-space field", loc="left")
+        image = _over_hue(b, r, r.shares, SEQUENTIAL, (0.0, 1.0))
+        out.colorbar(image, ax=b, label="amount", pad=0.02, aspect=14)
+        b.set_title("B  hues of each column of the picture", loc="left")
+        c.imshow(
+            np.clip(np.swapaxes(r.picture, 0, 1), 0.0, 1.0),
+            extent=(*r.columns, r.picture.shape[1], 0),
+            aspect="auto",
+            origin="upper",
+        )
+        c.set_ylim(r.picture.shape[1], 0)
+        c.set_ylabel("row (px)")
+        c.set_xlabel("column (px)")
+        c.set_title("C  picture of the camera", loc="left")
+    return out
+
+
+def _over_hue(axes: Axes, r: ColourPerception, values: np.ndarray, colours: str, limits: tuple[float, float]):
+    image = axes.imshow(
+        values.T,
+        extent=(*r.columns, *r.hues),
+        origin="lower",
+        cmap=colours,
+        vmin=limits[0],
+        vmax=limits[1],
+        aspect="auto",
+    )
+    axes.axhline(r.wanted, color=COLOR.threshold, linewidth=THIN, linestyle="--")
+    axes.set_ylabel("hue (2 degrees)")
+    return image
