@@ -1,4 +1,4 @@
-"""Tables of the runs: conditions, times between instabilities, and varied parameters."""
+"""Tables of the runs: conditions, times between instabilities, sentences of the paper, varied parameters."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from deodar.experiments.rows import Row
 from deodar.papers._report import NOT_RUN
+from deodar.papers.serial_order import sentences
 from deodar.papers.serial_order.targets import RowsOfConditions, ordered
 from deodar.papers.serial_order.variations import PARAMETERS
 
@@ -27,16 +28,13 @@ def write(found: RowsOfConditions) -> dict[str, str]:
         "conditions": conditions(found),
         "transitions": transitions(found),
         "parameters": parameters(found),
+        "sentences": sentences.table(sentences.claims(found)),
     }
 
 
 def numbers(found: RowsOfConditions) -> dict[str, str]:
     """Return the results that the manual states, by name."""
-    out = {
-        "conditions": conditions(found),
-        "transitions": transitions(found),
-        "parameters": parameters(found),
-    }
+    out = write(found)
     for name in ("learning", "clutter"):
         rows = found[name]
         out[f"learned:{name}"] = f"{sum(r['right'] for r in rows)} of {len(rows)}" if rows else NOT_RUN

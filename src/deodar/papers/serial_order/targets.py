@@ -11,6 +11,7 @@ from deodar.analysis import statistics
 from deodar.analysis.claims import Claim, ClaimKind
 from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
+from deodar.papers.serial_order import sentences
 from deodar.papers.serial_order.conditions import conditions
 
 SOURCE = "Sandamirskaya & Schöner (2010)"
@@ -33,7 +34,7 @@ def by_condition(rows: Mapping[str, Row], quick: bool) -> dict[str, list[Row]]:
 
 def claims(found: RowsOfConditions, quick: bool) -> list[Claim]:
     """Return all claims."""
-    return [*_required(found, quick), *_reported(found, quick)]
+    return [*_required(found, quick), *_reported(found, quick), *sentences.claims(found)]
 
 
 def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
