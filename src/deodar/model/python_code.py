@@ -154,7 +154,9 @@ def _laid(code: Code, indent: int, before: int, after: int) -> str:
             if not items:
                 return line
             row = ", ".join(map(_flat, items))
-            if inner + len(row) <= WIDTH:
+            # formatters give each item of a list or a dictionary a line of its own, and those of a call one
+            literal_of_several = opening in ("[", "{", "(") and len(items) > 1
+            if inner + len(row) <= WIDTH and not literal_of_several:
                 return f"{opening}{start}{row}{end}{closing}"
             if len(items) == 1:
                 return opening + start + _laid(items[0], inner, inner, 0) + end + closing

@@ -44,7 +44,7 @@ SOURCE = "Sandamirskaya & Schöner (2010)"
 
 CASCADE = ("satisfaction on", "node off", "action off", "satisfaction off", "next node on", "next action on")
 
-Value = float | list[float] | str | None
+SentenceValue = float | list[float] | str | None
 
 PRINTED: Mapping[str, tuple[float, float]] = {
     "tau, ms": (10.0, TAU),
@@ -109,7 +109,7 @@ def _shown(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _number(section: str, text: str, value: Value, n: int = 0) -> Claim:
+def _number(section: str, text: str, value: SentenceValue, n: int = 0) -> Claim:
     """Return a number without a target; n is 0 for a number of the model."""
     where = "table B.1" if section == "B" else f"section {section}"
     shown = round(value, 4) if isinstance(value, float) else value
