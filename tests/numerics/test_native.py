@@ -81,7 +81,7 @@ def test_a_convolution_over_one_axis_is_a_kernel_from_a_number_of_lags_on(
     installed.__dict__["line"] = _line
     weights, y = jnp.linspace(1, 0, 31), jnp.linspace(0, 1, samples)
     assert (30 * samples >= native.LEAST_LINE) == (factor > 1)
-    found = convolution.tapped(weights, y, "zero", native.kernels("cpu", "float32"))
+    found = convolution.tapped(weights, y, "zero", kernels=native.kernels("cpu", "float32"))
     np.testing.assert_allclose(found, factor * convolution.tapped(weights, y, "zero"), rtol=1e-6)
 
 

@@ -19,7 +19,7 @@ from deodar.compiler.executable import executable
 from deodar.errors import ParameterError
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axis
-from deodar.numerics.choice import Choice, bounds, bucket, choose
+from deodar.numerics.choice import Choice, bounds, bucket, candidates, choose
 from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.numerics.waves import Waves
 
@@ -104,6 +104,26 @@ def test_taps_agree_with_matrices(boundary: str) -> None:
     assert np.abs(applied(kernels, axes, y, True) - applied(kernels, axes, y, False)).max() < 1e-5 * total
 
 
+@pytest.mark.parametrize(("first", "second"), list(itertools.product(BOUNDARIES, repeat=2)))
+def test_taps_over_a_plane_agree_with_matrices(
+    first: str, second: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def taps(*given: Any) -> Choice:
+        return next(c for c in candidates(*given) if c.method == "taps")
+
+    monkeypatch.setattr(interaction, "choose", taps)
+    axes = (Axis("x", 0, 39, 40), Axis("y", 0, 58, 30))
+    kernels = [
+        dd.Gaussian(7, (1.0, 2.0), boundary=[first, second]),
+        dd.Gaussian(-4, 1.1, boundary=[first, second], normalized=True),
+    ]
+    [choice] = interaction.choices(kernels, axes).values()
+    assert choice.reaches == (6, 6), "five widths of the upper bound of the widest bucket, in samples"
+    y = np.random.default_rng(1).random((40, 30))
+    total = np.abs(applied(kernels, axes, np.ones((40, 30)), False)).max()
+    assert np.abs(applied(kernels, axes, y, True) - applied(kernels, axes, y, False)).max() < 1e-5 * total
+
+
 def test_a_bucket_contains_its_width() -> None:
     for width in (1e-3, 0.7, 1.0, 3.0, 1000.0):
         low, high = bounds(bucket(width))
@@ -126,9 +146,11 @@ def test_the_strategy_with_the_lowest_cost_is_chosen() -> None:
     assert choose(large, ("periodic",) * 2, ((1.0, 2.0),) * 2, 3).method == "fourier", (
         "narrow kernels need many waves"
     )
-    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).method == "matrices", (
-        "one narrow kernel gains nothing"
+    assert choose(square, ("periodic",) * 2, ((0.2, 0.3),) * 2, 1).method == "taps", (
+        "one narrow kernel has few taps"
     )
+    volume = tuple(Axis(a, 0, 39, 40, periodic=True) for a in "xyz")
+    assert choose(volume, ("periodic",) * 3, ((0.2, 0.3),) * 3, 1).method == "matrices"
 
 
 SQUARE = [dd.Axis("x", 0, 60, samples=61), dd.Axis("y", 0, 50, samples=51)]

@@ -65,6 +65,7 @@ CASES = (
     Case((50, 50), "zero", (3.0, 6.0)),
     Case((100, 100), sigmas=(3.0, 6.0)),
     Case((100, 100), sigmas=(1.2,)),
+    Case((80, 90), "zero", (1.5,), copies=16),
     Case((200, 200), sigmas=(3.0, 6.0)),
     Case((400, 400), sigmas=(2.0, 3.0)),
     Case((50, 50, 30), sigmas=(3.0, 6.0)),

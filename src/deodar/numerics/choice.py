@@ -33,7 +33,9 @@ PRODUCT_NS = 0.0128
 LINE_NS = {False: 0.035, True: 0.01}
 """The same time in a product with the samples of one axis: for one copy (memory-bound), for many copies."""
 
-TAP_NS = 0.04
+TAP_NS, TAP_PLANE_NS = 0.04, 0.06
+"""Time of one lag at one sample, ns: over one axis, and over two, whose rows are padded."""
+
 CALL_NS = 450.0
 FOLD_NS = 120.0
 """Time of folding or unfolding an array along an axis that is not its last, ns for each class of modes."""
@@ -62,13 +64,13 @@ including their preparation.
 
 @dataclass(frozen=True)
 class Choice:
-    """The strategy for a sum of kernels, and its cost: `matrices`, `taps` (with their reach), `waves` or
-    `fourier` (with the spectral modes of each axis).
+    """The strategy for a sum of kernels, and its cost: `matrices`, `taps` (with their reach along each axis),
+    `waves` or `fourier` (with the spectral modes of each axis).
     """
 
     method: str
     waves: tuple[Waves, ...] = ()
-    reach: int = 0
+    reaches: tuple[int, ...] = ()
     nanoseconds: float = 0.0
 
 
@@ -107,11 +109,11 @@ def candidates(
     few = _few(axes, boundaries, widths)
     if len(axes) == 1:
         return _on_a_line(axes[0], few[0], widths[0][1], copies)
-    found = [by_matrices(axes, terms)]
+    found = [by_matrices(axes, terms), *_by_taps(axes, widths, terms)]
     if _fit(few):
         found += by_waves(few, copies)
     if _fit(few) and "reflect" not in boundaries:
-        found.append(Choice("fourier", few, 0, _fourier(few)))
+        found.append(Choice("fourier", few, (), _fourier(few)))
     return found
 
 
@@ -122,7 +124,7 @@ def together(
     transforms per copy.
     """
     few = _few(axes, boundaries, widths)
-    return by_waves(few, copies)[-1] if _fit(few) else Choice("waves", few, 0, math.inf)
+    return by_waves(few, copies)[-1] if _fit(few) else Choice("waves", few, (), math.inf)
 
 
 def by_waves(waves: tuple[Waves, ...], copies: int = 1) -> list[Choice]:
@@ -132,14 +134,14 @@ def by_waves(waves: tuple[Waves, ...], copies: int = 1) -> list[Choice]:
     plane: folding the last axis too would save 2 % of the transforms, and double what folding adds to the
     time of compiling.
     """
-    found = [Choice("waves", waves, 0, _transforms(waves, copies))]
+    found = [Choice("waves", waves, (), _transforms(waves, copies))]
     if len(waves) > 1 or copies >= MANY:
         folds = [_folds(w) for w in waves]
         if len(waves) == 2 and copies >= MANY:
             folds = [folds[0], [waves[1]]]
         elif len(waves) > 2:
             folds = [[w for w in folds[0] if w.classes <= 2], *([w] for w in waves[1:])]
-        choices = [Choice("waves", each, 0, _transforms(each, copies)) for each in itertools.product(*folds)]
+        choices = [Choice("waves", each, (), _transforms(each, copies)) for each in itertools.product(*folds)]
         best = min(choices, key=lambda c: c.nanoseconds)
         found += [best] if best.nanoseconds < FOLD_WORTH * found[0].nanoseconds else []
     return found
@@ -158,8 +160,8 @@ def _folds(w: Waves) -> list[Waves]:
 def by_matrices(axes: Axes, terms: int, copies: int = 1) -> Choice:
     """Return the exact strategy: one matrix for each axis and kernel."""
     if len(axes) == 1:
-        return Choice("matrices", (), 0, LINE_NS[copies >= MANY] * axes[0].samples ** 2)
-    return Choice("matrices", (), 0, _matrices(axes, terms))
+        return Choice("matrices", (), (), LINE_NS[copies >= MANY] * axes[0].samples ** 2)
+    return Choice("matrices", (), (), _matrices(axes, terms))
 
 
 def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Choice]:
@@ -168,10 +170,29 @@ def _on_a_line(axis: Axis, waves: Waves, widest: float, copies: int) -> list[Cho
     found = [by_matrices((axis,), 1, copies)]
     if n >= SMALLEST and _fit([waves]):
         found += by_waves((waves,), copies)
-    reach = math.ceil(REACH * widest / axis.step)
+    reach = _reach(axis, widest)
     if n >= SMALLEST and 2 * reach < n:
-        found.append(Choice("taps", (), reach, TAP_NS * n * reach))
+        found.append(Choice("taps", (), (reach,), TAP_NS * n * reach))
     return found
+
+
+def _by_taps(axes: Axes, widths: Sequence[tuple[float, float]], terms: int) -> list[Choice]:
+    """Return the sum of shifted copies along both axes of a plane in turn, if no kernel reaches across half
+    an axis. Over more axes waves are faster, even for narrow kernels.
+    """
+    if len(axes) != 2:
+        return []
+    reaches = tuple(_reach(axis, widest) for axis, (_, widest) in zip(axes, widths, strict=True))
+    if any(2 * reach >= axis.samples for axis, reach in zip(axes, reaches, strict=True)):
+        return []
+    cells = math.prod(a.samples for a in axes)
+    padded = [cells * (1 + 2 * r / a.samples) * r for a, r in zip(axes, reaches, strict=True)]
+    return [Choice("taps", (), reaches, terms * sum(CALL_NS + TAP_PLANE_NS * n for n in padded))]
+
+
+def _reach(axis: Axis, widest: float) -> int:
+    """Return the number of samples to which a kernel extends on either side."""
+    return math.ceil(REACH * widest / axis.step)
 
 
 def _few(axes: Axes, boundaries: Sequence[str], widths: Sequence[tuple[float, float]]) -> tuple[Waves, ...]:

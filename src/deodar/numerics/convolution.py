@@ -10,11 +10,12 @@ field at the outer edge of its last cell.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jax import Array, lax
 from jax.typing import DTypeLike
 
 from deodar.numerics import native
@@ -60,19 +61,34 @@ def taps(axis: Axis, boundary: str, profile: Profile, reach: int, dtype: DTypeLi
     return weights * jnp.asarray(axis.step, dtype)
 
 
-def tapped(weights: Array, y: Array, boundary: str, kernels: Kernels | None = None) -> Array:
-    """Convolve over one axis by a sum of shifted copies; both copies of equal distance share a product."""
-    reach, n = weights.shape[0] - 1, y.shape[0]
-    if kernels is not None and reach * n >= native.LEAST_LINE:
+def tapped(weights: Array, y: Array, boundary: str, axis: int = 0, kernels: Kernels | None = None) -> Array:
+    """Convolve along one axis by a sum of shifted copies; both copies of equal distance share a product."""
+    reach, n = weights.shape[0] - 1, y.shape[axis]
+    if kernels is not None and y.ndim == 1 and reach * n >= native.LEAST_LINE:
         return kernels.line(weights, y, boundary)
-    sides = {"periodic": (y[n - reach :], y[:reach]), "reflect": (y[:reach][::-1], y[n - reach :][::-1])}
-    nothing = jnp.zeros((reach,), y.dtype)
+    first, last = lax.slice_in_dim(y, 0, reach, axis=axis), lax.slice_in_dim(y, n - reach, n, axis=axis)
+    nothing = jnp.zeros_like(first)
+    sides = {"periodic": (last, first), "reflect": (lax.rev(first, (axis,)), lax.rev(last, (axis,)))}
     before, after = sides.get(boundary, (nothing, nothing))
-    wide = jnp.concatenate([before, y, after])
-    total = weights[0] * y
+    wide = lax.concatenate([before, y, after], axis)
+    # XLA uses vectors where all copies are parts of one long line, in which rows keep their padding until the
+    # sum is complete. Zeros at the end of the line cost less than a longer sum, which has a branch per sample
+    step = math.prod(y.shape[axis + 1 :])
+    line, count = wide.reshape(-1), y.size if axis == 0 else wide.size
+    if axis:
+        line = lax.pad(line, jnp.zeros((), y.dtype), [(0, 2 * reach * step, 0)])
+    elif y.ndim > 1:  # otherwise every copy would be computed again from what it is a copy of
+        line = lax.optimization_barrier(line)
+
+    def lagged(k: int) -> Array:
+        return lax.slice_in_dim(line, (reach + k) * step, (reach + k) * step + count)
+
+    total = weights[0] * lagged(0)
     for k in range(1, reach + 1):
-        total = total + weights[k] * (wide[reach - k : reach - k + n] + wide[reach + k : reach + k + n])
-    return total
+        total = total + weights[k] * (lagged(-k) + lagged(k))
+    if axis == 0:
+        return total.reshape(y.shape)
+    return lax.slice_in_dim(total.reshape(wide.shape), 0, n, axis=axis)
 
 
 def along(m: Array, y: Array, d: int) -> Array:

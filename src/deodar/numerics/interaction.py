@@ -33,7 +33,7 @@ class KernelWeights(TypedDict, total=False):
         spectrum: of a sampled kernel.
         matrices: for each term one matrix per axis.
         waves, spectra: for each term one vector per axis.
-        taps: for each term the weights of its lags.
+        taps: for each term the weights of its lags, one vector per axis.
     """
 
     spectrum: Array
@@ -55,14 +55,15 @@ class FieldMixture(TypedDict):
     Attributes:
         terms: for each term one matrix per axis.
         amplitudes: for each term its amplitude, where the matrices are not multiplied by it; else empty.
-        spectra, waves, taps: the sum for each kind of boundaries.
+        spectra, waves: the sum for each kind of boundaries.
+        taps: for each kind of boundaries and each term one vector per axis; over one axis the sum.
     """
 
     terms: list[list[Array]]
     amplitudes: list[Scalar]
     spectra: dict[str, Array]
     waves: dict[str, Array]
-    taps: dict[str, Array]
+    taps: dict[str, list[list[Array]]]
 
 
 class SharedModes(NamedTuple):
@@ -161,12 +162,21 @@ def mix(
                 out["amplitudes"].append(term.amplitude)
             else:
                 out["terms"].append([term.amplitude * matrices[0], *matrices[1:]])
-        for way in ("waves", "spectra", "taps"):
+        for way in ("waves", "spectra"):
             for term, gains in zip(kernel.terms(), w.get(way, ()), strict=False):
                 out[way][key] = out[way].get(key, 0.0) + term.amplitude * _product(gains)
-    if len(axes) == 1 and out["terms"] and not apart:
-        out["terms"] = [[sum((t[0] for t in out["terms"][1:]), out["terms"][0][0])]]
+        for term, taps in zip(kernel.terms(), w.get("taps", ()), strict=False):
+            out["taps"].setdefault(key, []).append([term.amplitude * taps[0], *taps[1:]])
+    if len(axes) == 1:
+        if out["terms"] and not apart:
+            out["terms"] = _summed(out["terms"])
+        out["taps"] = {key: _summed(terms) for key, terms in out["taps"].items()}
     return out
+
+
+def _summed(terms: Sequence[Sequence[Array]]) -> list[list[Array]]:
+    """Return the sum of terms over one axis, as a single term."""
+    return [[sum((t[0] for t in terms[1:]), terms[0][0])]]
 
 
 def apply(
@@ -195,7 +205,9 @@ def apply(
             else convolution.extended(axes, ends.split())
         )
         parts.append(convolution.spectral(spectrum, y, axes, ends.split(), sizes))
-    parts += [convolution.tapped(taps, y, ends, kernels) for ends, taps in mixture["taps"].items()]
+    parts += [
+        _tapped(taps, y, ends.split(), kernels) for ends, terms in mixture["taps"].items() for taps in terms
+    ]
     for ends, gains in mixture["waves"].items():
         assert chosen is not None
         waves = gains * (own if own is not None and ends == key else to_waves(chosen[ends].waves, y, kernels))
@@ -211,6 +223,15 @@ def apply(
 def boundaries(kernel: Kernel, axes: Axes) -> str:
     """Return the kind of boundaries of a kernel, one word per axis."""
     return " ".join(convolution.boundaries(kernel.boundary, axes))
+
+
+def _tapped(taps: Sequence[Array], y: Array, ends: Sequence[str], kernels: Kernels | None) -> Array:
+    """Convolve along each axis in turn, the first one last: its rows have no padding, so that XLA fuses the
+    sum with what reads it.
+    """
+    for d in reversed(range(len(taps))):
+        y = convolution.tapped(taps[d], y, ends[d], d, kernels)
+    return y
 
 
 def _product(gains: Sequence[Array]) -> Array:
@@ -236,7 +257,10 @@ def _weights(kernel: Kernel, axes: Axes, dtype: DTypeLike, choice: Choice | None
     if choice.method == "taps":
         return {
             "taps": [
-                [convolution.taps(axes[0], ends[0], _profile(t, 0, axes[0]), choice.reach, dtype)]
+                [
+                    convolution.taps(a, end, _profile(t, d, a), reach, dtype)
+                    for d, (a, end, reach) in enumerate(zip(axes, ends, choice.reaches, strict=True))
+                ]
                 for t in kernel.terms()
             ]
         }
