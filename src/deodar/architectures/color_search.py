@@ -25,6 +25,7 @@ import numpy as np
 
 from deodar.architectures.serial_order import CLEAR, QUADRATURE, START, STEEP, TAU, serial_order
 from deodar.couplings.color_histogram import ColorHistogram
+from deodar.couplings.convolve import Convolve
 from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.gain import Gain
 from deodar.couplings.obstacle_repulsion import ObstacleRepulsion
@@ -117,12 +118,17 @@ NEAR = 80.0
 HABITUATION = {
     "delay": 100.0,
     "tau_build": 10.0,
-    "tau_decay": 10_000.0,
+    "tau_decay": 5_000.0,
     "satisfaction": -3.0,
     "colour space": -3.0,
 }
 """Delay and time constants of the trace of the colours that were found, ms, and its strengths (ours): such a
-colour attracts again after about 7 s. Without the delay the trace would break the transition off.
+colour attracts again after about 10 s. Without the delay the trace would break the transition off.
+"""
+
+HABITUATED = 0.2, 6.0
+"""Kernel between the condition of satisfaction and the trace: it is above threshold to 8 samples beside the
+peak. A narrower trace leaves the hues beside it, at which the block satisfies the condition at once.
 """
 
 BEFORE = 100.0, 200.0
@@ -262,14 +268,15 @@ def _changes(model: Model, items: int, source: Handle) -> None:
         clear >> model[target]
     clear >> model["action"]
     clear >> model["satisfaction"]
+    # the pulse ends when the memory node is on: a block that is in view at once may satisfy the first node
+    # before, and the pulse would activate it again
+    start = model.add(Product(name="start"), group=group)
+    model["item 1.memory"] >> model.add(Gain(-1.0, name="has begun"), group=group) >> start["factor"]
+    model.add(Boost("may begin", [], amplitude=1.0), group=group) >> start["factor"]
     for name, threshold, strength in (("long before", 0.1, START), ("before", 0.05, -START)):
         pulse = model.add(Sigmoid(Step(threshold**2), name=f"not long after {name}"), group=group)
-        (
-            changed[name]
-            >> pulse
-            >> model.add(Gain(strength, name=f"start {name}"), group=group)
-            >> model["item 1.node"]
-        )
+        changed[name] >> pulse >> model.add(Gain(strength, name=f"start {name}"), group=group) >> start
+    start >> model["item 1.node"]
 
 
 def _colour_space(model: Model, hue: Axis, noise: float) -> Handle:
@@ -340,7 +347,8 @@ def _habituate(model: Model, hue: Axis) -> None:
     trace = model.add(
         MemoryTrace("found colours", [hue], tau_build=times[0], tau_decay=times[1], fades=True), group=group
     )
-    gate >> model.add(DelayLine("later", [hue], HABITUATION["delay"]), group=group) >> trace
+    wider = model.add(Convolve([Gaussian(*HABITUATED)], name="around"), group=group)
+    gate >> model.add(DelayLine("later", [hue], HABITUATION["delay"]), group=group) >> wider >> trace
     for target in ("satisfaction", "colour space"):
         trace >> model.add(Gain(HABITUATION[target], name=f"less {target}"), group=group) >> model[target]
 

@@ -38,6 +38,12 @@ RING_LIMIT = 45.0
 BACK = 60.0
 """Time for which a block is taken away, s."""
 
+CARRIED = 500.0
+"""Time after the second node became active at which the vehicle is carried elsewhere, ms."""
+
+WITHHELD = 0.2
+"""Time within which a block is found in a picture that was taken before the block was, s."""
+
 STEPS = {"-20": 0.8, "+20": 1.2}
 
 
@@ -54,8 +60,8 @@ class SearchCondition:
         duplicates: blocks whose colour another wanted block has, too; None: 0 or 1.
         clutter: share of the background rows that random colours cover.
         look_around, habituation: as in `color_search`.
-        event: `removed`: the second block is taken away while the vehicle looks for it; `carried`: the
-            vehicle is carried elsewhere while it does; empty: neither.
+        event: `removed`: the second block is taken away when the vehicle begins to look for it; `carried`:
+            the vehicle is carried elsewhere while it does; empty: neither.
         limit: longest production, s.
         varied, factor: a parameter of table B.1, and its factor.
     """
@@ -154,11 +160,11 @@ def conditions(quick: bool) -> dict[str, SearchCondition]:
         SearchCondition("clutter", (CLUTTERED,), 4 if quick else 13, "none", LONGEST, clutter=CLUTTER),
         SearchCondition("arena", every, 16 if quick else 5 * 24),
         SearchCondition("duplicates", every, 4 if quick else 52, duplicates=3),
-        SearchCondition("removed", every, 4 if quick else 50, duplicates=0, event="removed"),
+        SearchCondition("removed", changing(every), 4 if quick else 60, duplicates=0, event="removed"),
         SearchCondition("habituation", ("RGGY",), 4 if quick else 24, habituation=True),
         SearchCondition("repetition", ("RGGY",), 4 if quick else 24),
         SearchCondition("wander", PAPER, 4 if quick else 52, look_around=False),
-        SearchCondition("carried", every, 4 if quick else 50, duplicates=0, event="carried"),
+        SearchCondition("carried", changing(every), 4 if quick else 60, duplicates=0, event="carried"),
         SearchCondition("ten", ten_sequences(), 2 if quick else 50),
         CuedCondition("cued", (), 4 if quick else 50, pairs=random_pairs(True)),
         CuedCondition("cued-changed", (), 4 if quick else 50, pairs=random_pairs(False), changed=True),
@@ -170,6 +176,11 @@ def conditions(quick: bool) -> dict[str, SearchCondition]:
                 name = f"vary/{parameter}/{sign}"
                 found.append(replace(like, name=name, varied=parameter, factor=factor))
     return {c.name: c for c in found}
+
+
+def changing(sequences: Sequence[str]) -> tuple[str, ...]:
+    """Return the sequences whose second colour is not the first one, which would still be in view."""
+    return tuple(s for s in sequences if s[0] != s[1])
 
 
 def ten_sequences(count: int = 10, seed: int = 10) -> tuple[str, ...]:

@@ -27,6 +27,9 @@ class SearchTask(Protocol):
     def lesson(self) -> Sequence[Showing]: ...
 
     @property
+    def taught(self) -> float: ...
+
+    @property
     def arena(self) -> SearchArena: ...
 
 
@@ -38,8 +41,8 @@ def require_possible(runs: Sequence[SearchTask], single: bool = True) -> None:
         single: whether their lessons teach the sequence alone.
 
     Raises:
-        ParameterError: a lesson shows another number of colours than the sequence has, or an arena has no
-            block of a wanted colour.
+        ParameterError: a lesson shows another number of colours than the sequence has, or lasts longer than
+            it is taught, or an arena has no block of a wanted colour.
     """
     problems: list[Problem] = []
     for number, run in enumerate(runs):
@@ -51,6 +54,13 @@ def require_possible(runs: Sequence[SearchTask], single: bool = True) -> None:
             )
             fix = "Show each colour of the sequence once: the node of a missing one learns the next colour,"
             problems.append(Problem(where, what, f"{fix} and no node learns one too many"))
+        late = [shown.letter for shown in run.lesson if shown.ends > run.taught]
+        if late:
+            what = (
+                f"the lesson still shows {', '.join(late)} when production begins, after {run.taught:g} ms;"
+                " nothing is learned while a sequence is produced"
+            )
+            problems.append(Problem(where, what, "End the lesson later, or show these colours before"))
         missing = [letter for letter in dict.fromkeys(run.sequence) if letter not in _letters(run)]
         if missing:
             what = (

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,18 +23,18 @@ from deodar.experiments.trial import Trial
 from deodar.model.model import Model
 from deodar.numerics.windows import Window
 from deodar.papers.serial_order.arenas import BLOCK, SearchArena
-from deodar.papers.serial_order.colours import FIVE, TEN, hue_of, letter_at, offset
-from deodar.papers.serial_order.reasons import require_possible
+from deodar.papers.serial_order.colours import FIVE, TEN, away, hue_of, letter_at, offset
+from deodar.papers.serial_order.reasons import reason, require_possible
 from deodar.papers.serial_order.teaching import Showing
 from deodar.papers.serial_order.world import world
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.khepera import KHEPERA
 
-EVERY, COARSE = 4.0, 20.0
-"""Sampling intervals, ms; the step of the model is 2 ms."""
+EVERY, COARSE = 2.0, 20.0
+"""Sampling intervals, ms: each step of the model, and where no times of instabilities are wanted."""
 
-OVER = 100
-"""Samples for which the node behind the sequence is active at the end of a run: more than its activity after
+OVER = 400.0
+"""Time for which the node behind the sequence is active at the end of a run, ms: more than its activity after
 the lesson lasts.
 """
 
@@ -56,6 +57,21 @@ begun, ms.
 
 SOON = 40.0
 """Time within which a peak of the condition of satisfaction has formed, ms."""
+
+NEXT = 1000.0
+"""Time within which the next node is active after a transition, ms; a run may end before."""
+
+TOLERANCE = 9.0
+"""Largest distance of the hue of a peak from that of its colour, samples: half that between ten hues."""
+
+PEAKS = "columns of the peak.output"
+"""Output of the colour-space field over the columns of the picture, its largest over hue."""
+
+APART = 10
+"""Samples of the columns (20 pixels) between two peaks."""
+
+SPARSE = 10
+"""Samples between two poses that are judged."""
 
 ABSENT = -1.0
 STRONG = 0.3
@@ -171,9 +187,11 @@ def run_many(
         "pose.output",
         "touching.output",
     ]
-    events: list[Event] = [Crosses("over", f"produced {length + 1}.output", 0.5, times=OVER)]
+    every = COARSE if settings.coarse else EVERY
+    times = round(OVER / every)
+    events: list[Event] = [Crosses("over", f"produced {length + 1}.output", 0.5, times=times)]
     if settings.ends_unlearned:
-        events += _unlearned(length)
+        events += _unlearned(length, times)
     if settings.actions:
         looks = (
             Crosses(f"looks for {k}", f"produced {k}.output", 0.5, ends=False) for k in range(1, length + 1)
@@ -187,7 +205,7 @@ def run_many(
         events,
         seed=seed,
         world=_world(runs, produced, settings),
-        every=COARSE if settings.coarse else EVERY,
+        every=every,
         between=between,
         actions=settings.actions,
         tolerant=True,
@@ -195,8 +213,9 @@ def run_many(
     return [(trial, produced) for trial in trials]
 
 
-def _unlearned(length: int) -> list[Event]:
-    """Return the event that a node of the sequence is active in production without a colour, and its parts.
+def _unlearned(length: int, times: int) -> list[Event]:
+    """Return the event that a node of the sequence is active in production without a colour for a number of
+    samples, and its parts.
 
     A node that has learned one is without its colour for a few milliseconds at most.
     """
@@ -205,7 +224,7 @@ def _unlearned(length: int) -> list[Event]:
         *(Crosses(name, f"produced {k}.output", 0.5, ends=False) for k, name in enumerate(wanted, 1)),
         AnyOf("wants a colour", wanted, ends=False),
         Crosses("no colour", "strongest action.output", 0.0, "below", ends=False),
-        All("nothing learned", ["wants a colour", "no colour"], times=OVER),
+        All("nothing learned", ["wants a colour", "no colour"], times=times),
     ]
 
 
@@ -285,8 +304,10 @@ def _world(runs: Sequence[TaughtRun], produced: float, settings: Settings) -> Ar
 def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
     """Return what a production leaves: the blocks found, the times of all instabilities, and the outcome.
 
-    A block is found where an ordinal node is switched off and another one is active next; its colour is that
-    of the peak of the condition of satisfaction, `?` without one.
+    A block is found where the condition of satisfaction switches an ordinal node off, or where another node
+    follows a node; its colour is that of the peak of the condition of satisfaction, `?` without one. The
+    outcome is `wrong` where the nodes, from the first one on, do not follow each other, where a colour is not
+    that of its node, or where no block of this colour was near.
     """
     v, times = trial.values, trial.times
     begin = int(np.searchsorted(times, produced))
@@ -298,15 +319,14 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
     on["peak"] = v["strongest peak.output"][begin:] > 0.5
     pose = v["pose.output"][begin:]
     letters = tuple(sorted({b.letter for b in run.arena.blocks} | set(run.sequence)))
-    begun = _rises(on["satisfaction"])
+    completed = _completed(t, nodes, on["satisfaction"])
     ends, got = list[int](), list[str]()
-    for off in _completed(nodes):
-        # the peak that switched the node off
-        before = begun[(begun <= off) & (t[begun] >= t[off] - SOON)]
-        k = int(before[-1]) if len(before) else off
-        hue = _peak(v["hue of satisfaction.output"][begin + k :], times[begin + k :])
-        ends.append(k)
-        got.append("?" if hue is None else letter_at(hue, letters))
+    for step in completed:
+        hue = _peak(
+            v["hue of satisfaction.output"][begin + step.satisfied :], times[begin + step.satisfied :]
+        )
+        ends.append(step.satisfied)
+        got.append(_letter(hue, letters))
     # the picture is that of a moment ago, before the vehicle was carried
     moments = [pose[(t <= t[k]) & (t >= t[k] - PICTURE)] for k in ends]
     far = [
@@ -314,44 +334,73 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
         for letter, rows in zip(got, moments, strict=True)
     ]
     produced_ = "".join(got)
-    right = run.sequence.startswith(produced_) and all(d <= FAR for d in far)
+    order = [step.node for step in completed]
+    in_order = order == list(range(1, len(order) + 1))
+    right = in_order and run.sequence.startswith(produced_) and all(d <= FAR for d in far)
     starts = [0.0, *(float(t[k]) for k in ends)]
+    columns = v[PEAKS][begin:] if PEAKS in v else None
+    outcome = "wrong" if not right else "complete" if produced_ == run.sequence else "unfinished"
     return {
         "sequence": run.sequence,
         "produced": produced_,
-        "outcome": "wrong" if not right else "complete" if produced_ == run.sequence else "unfinished",
+        "outcome": outcome,
+        **({"reason": reason(run, trial, produced)} if outcome == "unfinished" else {}),
+        "nodes": order,
         "found": [round(float(t[k]) / 1000, 3) for k in ends],
         "actions": [round((b - a) / 1000, 3) for a, b in itertools.pairwise(starts)],
         "distances": [round(d, 1) for d in far],
+        "left": _left(run, got, ends, pose),
         "transitions": transitions(t, nodes, on),
+        **({} if columns is None else {"regions": [regions(columns[k]) for k in ends]}),
         "touching": round(float(v["touching.output"][begin:].mean()), 4),
         "length": round(float(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum()), 1),
     }
 
 
 def transitions(t: np.ndarray, nodes: np.ndarray, on: Mapping[str, np.ndarray]) -> list[list[float | None]]:
-    """Return for each node that is switched off, and followed by the next one, the times of the instabilities
-    in ms from then on: satisfaction on, action off, peak off, satisfaction off, next node on, next action on.
+    """Return for each completed node the times of the instabilities in ms, from the moment at which it is
+    switched off: satisfaction on, action off, peak off, satisfaction off, next node on, next action on.
+
+    The next node is None where the node that is active next is not the next one. A transition is left out
+    where the run ends before any node is active again.
     """
     out: list[list[float | None]] = []
-    rises = _rises(on["satisfaction"])
-    for k in range(nodes.shape[1] - 1):
-        for i in _falls(nodes[:, k]).tolist():
-            later = np.flatnonzero(nodes[i:, k + 1])
-            if not len(later):
-                continue
-            j = i + int(later[0])
-            begun = rises[rises <= i]
-            row = [
-                t[begun[-1]] if len(begun) else None,
-                _first(t, ~on["action"], i),
-                _first(t, ~on["peak"], i),
-                _last_off(t, on["satisfaction"], i, j),
-                t[j],
-                _first(t, on["action"], j),
-            ]
-            out.append([None if value is None else round(float(value - t[i]), 3) for value in row])
+    for step in _completed(t, nodes, on["satisfaction"]):
+        i = step.off
+        later = np.flatnonzero(nodes[i:].any(axis=1))
+        if not len(later) and t[-1] - t[i] < NEXT:
+            continue
+        j = i + int(later[0]) if len(later) else len(t) - 1
+        follows = len(later) > 0 and step.node < nodes.shape[1] and bool(nodes[j, step.node])
+        row = [
+            t[step.satisfied] if on["satisfaction"][step.satisfied] else None,
+            _first(t, ~on["action"], i),
+            _first(t, ~on["peak"], i),
+            _last_off(t, on["satisfaction"], i, j),
+            t[j] if follows else None,
+            _first(t, on["action"], j) if follows else None,
+        ]
+        out.append([None if value is None else round(float(value - t[i]), 3) for value in row])
     return out
+
+
+def _left(run: TaughtRun, letters: Sequence[str], ends: Sequence[int], pose: np.ndarray) -> list[bool]:
+    """Return for each block that was found whether its colour had left the middle of the picture, or the
+    vehicle was far from it, at some time since the block before was found.
+    """
+    begins = [0, *ends[:-1]]
+    return [
+        any(distance(run.arena, letter, row) > FAR for row in pose[begin : end + 1 : SPARSE])
+        for letter, begin, end in zip(letters, begins, ends, strict=True)
+    ]
+
+
+def regions(columns: np.ndarray) -> int:
+    """Return the number of separate peaks over the columns of the picture; what is less than `APART` apart is
+    one peak, which noise divides.
+    """
+    above = np.flatnonzero(columns > 0.5)
+    return int((np.diff(above) > APART).sum()) + 1 if len(above) else 0
 
 
 def _rises(on: np.ndarray) -> np.ndarray:
@@ -364,15 +413,37 @@ def _falls(on: np.ndarray) -> np.ndarray:
     return np.flatnonzero(np.diff(on.astype(int)) == -1) + 1
 
 
-def _completed(nodes: np.ndarray) -> list[int]:
-    """Return the samples at which a node is switched off and another one, or none, is active next."""
-    out: list[int] = []
+class _Step(NamedTuple):
+    """The number of a node, and the samples at which it is switched off and at which the peak began that
+    switched it off; the same sample without such a peak.
+    """
+
+    node: int
+    off: int
+    satisfied: int
+
+
+def _completed(t: np.ndarray, nodes: np.ndarray, satisfied: np.ndarray) -> list[_Step]:
+    """Return each node that the condition of satisfaction switches off, or that another one or none follows,
+    in the order of time. Noise alone may switch a node off and on again while its activation rises.
+    """
+    begun = _rises(satisfied)
+    out: list[_Step] = []
     for k in range(nodes.shape[1]):
         for off in _falls(nodes[:, k]).tolist():
+            peaks = begun[(begun <= off) & (t[begun] >= t[off] - SOON)]
             later = np.flatnonzero(nodes[off:].any(axis=1))
-            if not len(later) or not nodes[off + later[0], k]:
-                out.append(off)
-    return sorted(out)
+            if len(peaks) or not len(later) or not nodes[off + later[0], k]:
+                out.append(_Step(k + 1, off, int(peaks[-1]) if len(peaks) else off))
+    return sorted(out, key=lambda step: step.off)
+
+
+def _letter(hue: float | None, letters: Sequence[str]) -> str:
+    """Return the colour of a hue; `?` where it is that of none."""
+    if hue is None:
+        return "?"
+    letter = letter_at(hue, letters)
+    return letter if away(hue, hue_of(letter)) <= TOLERANCE else "?"
 
 
 def _peak(hues: np.ndarray, times: np.ndarray) -> float | None:

@@ -12,7 +12,7 @@ from deodar.analysis.claims import Claim, ClaimKind
 from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
 from deodar.papers.serial_order import sentences
-from deodar.papers.serial_order.conditions import conditions
+from deodar.papers.serial_order.conditions import BACK, CARRIED, WITHHELD, conditions
 
 SOURCE = "Sandamirskaya & Schöner (2010)"
 NONE = "no sentence of the paper"
@@ -39,8 +39,9 @@ def claims(found: RowsOfConditions, quick: bool) -> list[Claim]:
 
 def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
     taught = [*found["learning"], *found["clutter"]]
-    searched = [*found["arena"], *found["duplicates"], *found["removed"]]
-    steps = [all(ordered(t) for t in row["transitions"]) for row in found["arena"]]
+    withheld = [r for r in found["removed"] if len(r["actions"]) < 2 or r["actions"][1] > WITHHELD]
+    searched = [r for name, rows in found.items() if not _apart(name) for r in rows]
+    steps = [right for row in found["arena"] for right in in_order(row)]
 
     def share(
         name: str, rows: Sequence[Row], true: Callable[[Row], bool], least: float, source: str
@@ -59,9 +60,10 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
         _share("all transitions in the order of section 4.4", steps, 1.0, f"{SOURCE}, section 4.4", quick),
         share("production on the ring, without search", found["ring"], _complete, 1.0, NONE),
         share(
-            "a block is taken away for 60 s: the sequence is completed when it is back",
-            [r for r in found["removed"] if len(r["sequence"]) > 1],
-            _complete,
+            f"a block is taken away for {BACK:g} s: the vehicle looks for it until it is back, and completes"
+            " the sequence",
+            withheld,
+            _waits,
             1.0,
             f"{SOURCE}, section 6.3",
         ),
@@ -69,6 +71,12 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
             "three duplicates of wanted blocks: no error of order",
             [r["outcome"] == "wrong" for r in found["duplicates"]],
             f"{SOURCE}, section 6.2",
+        ),
+        _none(
+            "three duplicates of wanted blocks: one is chosen, and no block is found with several peaks in"
+            " the colour-space field",
+            [n != 1 for r in found["duplicates"] for n in r["regions"]],
+            f"{SOURCE}, section 5.2",
         ),
         _none("no error of order in any arena", [r["outcome"] == "wrong" for r in searched], SOURCE),
     ]
@@ -84,11 +92,11 @@ def _reported(found: RowsOfConditions, quick: bool) -> list[Claim]:
     out.append(
         _share_only("a repeated colour is found within 1 s", [d <= AT_ONCE for d in again], "section 6.4")
     )
-    later = [d for r in found["habituation"] for d in repeated(r)]
     out.append(
         _share_only(
-            "with habituation a repeated colour is found by a second visit (after more than 1 s)",
-            [d > AT_ONCE for d in later],
+            "with habituation a repeated colour is found by a second visit (its block left the middle of the"
+            " picture before)",
+            [left for r in found["habituation"] for left in visits(r)],
             "section 6.4",
         )
     )
@@ -100,20 +108,32 @@ def _reported(found: RowsOfConditions, quick: bool) -> list[Claim]:
         ("cued", "production complete, two sequences taught and one of them cued"),
         ("cued-changed", "production complete, the cue changed at the second or third item"),
     ):
-        out.append(_share_only(text, [_complete(r) for r in found[name]], "", NONE))
-        out.append(_share_only(f"{text}: wrong", [r["outcome"] == "wrong" for r in found[name]], "", NONE))
+        rows = [r for r in found[name] if name != "carried" or _was_carried(r)]
+        out.append(_share_only(text, [_complete(r) for r in rows], "", NONE))
+        out.append(_share_only(f"{text}: wrong", [r["outcome"] == "wrong" for r in rows], "", NONE))
     return out
 
 
-def ordered(transition: Sequence[float | None]) -> bool:
+def in_order(row: Row) -> list[bool]:
+    """Return for each transition of a run whether its instabilities have the order of section 4.4."""
+    last = len(row["sequence"])
+    return [
+        ordered(transition, node == last)
+        for node, transition in zip(row["nodes"], row["transitions"], strict=False)
+    ]
+
+
+def ordered(transition: Sequence[float | None], last: bool = False) -> bool:
     """Return whether the instabilities of a transition have the order of section 4.4: satisfaction on, node
     off, action off, satisfaction off, next node on, next action on.
 
-    A transition to the node behind the sequence has no next action. Equal times are of one sampling interval.
+    Args:
+        transition: their times; equal times are those of one step.
+        last: whether it is the transition to the node behind the sequence, which has no action.
     """
     satisfied, action, _, gone, node, again = transition
     times = [satisfied, 0.0, action, gone, node, again]
-    if satisfied is None or action is None or gone is None or node is None:
+    if satisfied is None or action is None or gone is None or node is None or (again is None and not last):
         return False
     known = [t for t in times if t is not None]
     return all(a <= b for a, b in itertools.pairwise(known))
@@ -129,8 +149,33 @@ def repeated(row: Row) -> list[float]:
     ]
 
 
+def visits(row: Row) -> list[bool]:
+    """Return whether the block left the middle of the picture before each action whose colour is that of the
+    action before.
+    """
+    letters = row["sequence"]
+    return [
+        left for k, left in enumerate(row["left"]) if 0 < k < len(letters) and letters[k] == letters[k - 1]
+    ]
+
+
 def _complete(row: Row) -> bool:
     return bool(row["outcome"] == "complete")
+
+
+def _waits(row: Row) -> bool:
+    """Return whether the second block was found after it was back, and the others too."""
+    return _complete(row) and row["actions"][1] >= BACK
+
+
+def _was_carried(row: Row) -> bool:
+    """Return whether the vehicle still looked for the second block when it was carried elsewhere."""
+    return len(row["actions"]) < 2 or bool(row["actions"][1] > CARRIED / 1000)
+
+
+def _apart(name: str) -> bool:
+    """Return whether the rows of a condition have no order that is judged in an arena."""
+    return name in ("learning", "clutter", "ring") or name.startswith("vary/")
 
 
 def _share(name: str, true: Sequence[bool], least: float, source: str, quick: bool) -> Claim:

@@ -14,9 +14,24 @@ from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
 from deodar.papers.serial_order.arenas import BLOCK, SearchArena
 from deodar.papers.serial_order.colours import rgb
-from deodar.papers.serial_order.conditions import BACK, CuedCondition, SearchCondition, conditions, taught
+from deodar.papers.serial_order.conditions import (
+    BACK,
+    CARRIED,
+    CuedCondition,
+    SearchCondition,
+    conditions,
+    taught,
+)
 from deodar.papers.serial_order.cued import cued_row, cues, run_of
-from deodar.papers.serial_order.runs import Settings, TaughtRun, found, learned, read_weights, run_many
+from deodar.papers.serial_order.runs import (
+    PEAKS,
+    Settings,
+    TaughtRun,
+    found,
+    learned,
+    read_weights,
+    run_many,
+)
 from deodar.papers.serial_order.variations import values
 
 BATCH = 16
@@ -24,9 +39,6 @@ BATCH = 16
 
 SECONDS = {"none": 2.0, "arena": 4.0, "ring": 3.0}
 """Approximate duration of a run by its body, s."""
-
-AWAY = 1000.0
-"""Time after the second node became active at which its block is taken away, or the vehicle carried, ms."""
 
 ASIDE = math.radians(15)
 """Largest angle between the heading and the next block of the ring, rad."""
@@ -78,14 +90,15 @@ def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
         habituation=c.habituation,
         values=values(c.varied, c.factor, length + 1) if c.varied else {},
         actions=actions(c, runs[0]),
-        coarse=c.body == "ring",
+        coarse=c.body == "ring" or bool(c.duplicates),
     )
     if c.body == "none":
         done = [
             learned(r, weights) for r, weights in zip(runs, read_weights(runs, settings, seed), strict=True)
         ]
     else:
-        done = [found(r, *made) for r, made in zip(runs, run_many(runs, settings, seed), strict=True)]
+        watch = [PEAKS] if c.duplicates else []
+        done = [found(r, *made) for r, made in zip(runs, run_many(runs, settings, seed, watch), strict=True)]
     return _rows(c, trials, done)
 
 
@@ -109,13 +122,12 @@ def actions(c: SearchCondition, first: TaughtRun) -> tuple[Action, ...]:
     if c.event == "removed" and len(first.sequence) > 1:
         k = next(n for n, b in enumerate(first.arena.blocks) if b.letter == first.sequence[1])
         name, center, color = f"block {k}", first.arena.blocks[k].center, rgb(first.sequence[1])
-        back = AWAY + 1000.0 * BACK
         return (
-            Remove(AWAY, name, when="looks for 2"),
-            Place(back, name, center, (BLOCK, BLOCK), color, when="looks for 2"),
+            Remove(0.0, name, when="looks for 2"),
+            Place(1000.0 * BACK, name, center, (BLOCK, BLOCK), color, when="looks for 2"),
         )
     if c.event == "carried":
-        return (Move(AWAY, "khepera", _free(first), when="looks for 2"),)
+        return (Move(CARRIED, "khepera", _free(first), when="looks for 2"),)
     return ()
 
 
