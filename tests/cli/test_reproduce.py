@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import re
 import os
 import types
 
@@ -57,10 +58,8 @@ def call(*args):
 def test_reproduce_runs_a_paper_and_prints_its_claims(toy, capsys, tmp_path):
     assert call() == 0
     out = capsys.readouterr().out
-    assert (
-        "yes trials -> 6 (wanted >= 6, ours; n 6)" in out
-        and "6 of 6 runs. Of 1 required claims 1 hold" in out
-    )
+    assert "yes trials -> 6 (wanted >= 6, ours; n 6)" in out
+    assert re.search(r"6 of 6 runs, 6 of them in \d+ s by this call. Of 1 required claims 1 hold", out)
     assert "?   heard -> nothing yet (wanted ?, printed; n 1; no evidence, it assumes the start)" in out
     assert {p.name for p in (tmp_path / "toy-001").iterdir()} == {
         "runs.jsonl",

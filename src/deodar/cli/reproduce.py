@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import shutil
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec, papers
 from deodar.cli import _options, _rescue
-from deodar.cli._bar import Bar
+from deodar.cli._bar import Bar, lasting
 from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, did_you_mean
 from deodar.experiments.jobs import run_jobs
@@ -79,6 +80,7 @@ def run(args: argparse.Namespace) -> int:
     jobs = _chosen(args, paper.jobs(args.quick))
     out: Path = args.out or places.free(Path.cwd(), args.paper)
     rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())}, paper.BY_CONDITION)
+    began, before = time.perf_counter(), len(rows.found)
     try:
         with Bar(args.no_progress or args.json, "runs") as bar:
             run_jobs(jobs, rows, bar.show, args.workers or None)
@@ -98,7 +100,8 @@ def run(args: argparse.Namespace) -> int:
         "runs": len(rows.found),
         "of": sum(len(j.keys) for j in paper.jobs(args.quick)),
     }
-    return _write(args, out, paper.report(rows.found, args.quick), settings)
+    took = f"{len(rows.found) - before} of them in {lasting(time.perf_counter() - began)} by this call"
+    return _write(args, out, paper.report(rows.found, args.quick), settings, took)
 
 
 def _again(args: argparse.Namespace, out: Path) -> str:
@@ -124,7 +127,12 @@ def _open(out: Path, about: Mapping[str, Json], by_condition: Sequence[str]) -> 
     return Rows(out / ROWS, about, by_condition)
 
 
-def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Json]) -> int:
+def _write(
+    args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Json], took: str
+) -> int:
+    """Write report and figures, and print the claims; `took` says how many runs this call computed, and in
+    what time.
+    """
     # start-up time: these bring JAX
     from deodar.analysis.claims import failed, results
     from deodar.figures import _files
@@ -167,8 +175,8 @@ def _write(args: argparse.Namespace, asked: Path, report: Report, settings: Mapp
         required = [c for c in report.claims if c.kind == "required"]
         held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
         print(
-            f"{settings['runs']} of {settings['of']} runs. Of {len(required)} required claims {held} hold,"
-            f" {open_} are undecided."
+            f"{settings['runs']} of {settings['of']} runs, {took}. Of {len(required)} required claims {held}"
+            f" hold, {open_} are undecided."
         )
     if why:
         sentences = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]

@@ -26,7 +26,7 @@ def test_every_run_belongs_to_one_job_whose_sequences_have_one_length(quick: boo
 def test_the_runs_are_as_many_as_the_claims_need() -> None:
     known = conditions.conditions(False)
     assert known["learning"].count + known["clutter"].count >= 300
-    assert known["arena"].count >= 100 and known["removed"].count == 50
+    assert known["arena"].count >= 100 and known["removed"].count >= 50
     assert known["duplicates"].count >= 50 and known["duplicates"].duplicates == 3
     assert {known["arena"].sequence(k) for k in range(120)} >= {*colours.PAPER, *colours.random_sequences()}
 
