@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import colorsys
+import dataclasses as dc
 import math
 from typing import Any
 
@@ -16,7 +17,9 @@ from deodar.worlds.arena import arena as arena_file
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.camera import AT_ONCE
 from deodar.worlds.arena.epuck import EPUCK
+from deodar.worlds.arena.khepera import KHEPERA
 from deodar.worlds.arena.picture_noise import BACKGROUND, picture
+from deodar.worlds.arena.vehicle import Vehicle, VehicleCamera
 from deodar.worlds.arena.view import FLOOR, OUTSIDE
 
 CAMERA = EPUCK.camera
@@ -42,22 +45,28 @@ def shot(world: Arena, axes: Any = AXES) -> np.ndarray:
     return world.sense("camera" if len(axes) == 3 else "line", axes, 0.0)[0]
 
 
-def outline(world: Arena, pose: Any, name: str) -> tuple[float, float, float, float]:
+def outline(
+    world: Arena,
+    pose: Any,
+    name: str,
+    camera: VehicleCamera | None = CAMERA,
+    size: tuple[int, int] = (80, 60),
+) -> tuple[float, float, float, float]:
     """Project the eight corners of an object: least and largest column and row, in pixels."""
     item = next(t for t in world.layout.objects if t.name == name)
     x0, y0, x1, y1 = item.box
-    assert CAMERA is not None and item.height is not None
+    assert camera is not None and item.height is not None
     c, s = math.cos(pose[2]), math.sin(pose[2])
     found = []
     for x in (x0, x1):
         for y in (y0, y1):
             for z in (0.0, item.height):
                 dx, dy = x - pose[0], y - pose[1]
-                depth, left = c * dx + s * dy - CAMERA.forward, c * dy - s * dx
-                found.append((left / depth / math.tan(CAMERA.horizontal / 2), (z - CAMERA.height) / depth))
+                depth, left = c * dx + s * dy - camera.forward, c * dy - s * dx
+                found.append((left / depth / math.tan(camera.horizontal / 2), (z - camera.height) / depth))
     across, up = np.asarray(found).T
-    columns = (1 - across) * COLUMNS.samples / 2
-    rows = (1 - up / math.tan(CAMERA.vertical / 2)) * ROWS.samples / 2
+    columns = (1 - across) * size[0] / 2
+    rows = (1 - up / math.tan(camera.vertical / 2)) * size[1] / 2
     return columns.min(), columns.max(), rows.min(), rows.max()
 
 
@@ -76,6 +85,26 @@ def test_a_block_has_its_projected_size_and_place(pose: tuple[float, float, floa
     wanted = outline(world, pose, "red")
     assert 0 < wanted[0] < wanted[1] < 80 and 0 < wanted[2] < wanted[3] < 60, "the block is in view"
     np.testing.assert_allclose(extent(shot(world), RED), wanted, atol=1.0)
+
+
+OTHER = dc.replace(
+    EPUCK, name="other", camera=VehicleCamera(math.radians(90), math.radians(50), height=0.12, forward=0.03)
+)
+"""A vehicle with another field of view and height of its camera."""
+
+
+@pytest.mark.parametrize("vehicle", [EPUCK, KHEPERA, OTHER], ids=lambda vehicle: vehicle.name)
+@pytest.mark.parametrize("size", [(80, 60), (160, 120)])
+@pytest.mark.parametrize("pose", [(0.0, 0.0, 0.0), (-1.0, 0.3, -0.2), (0.2, -0.9, 1.0)])
+def test_every_vehicle_sees_a_block_within_a_pixel(
+    vehicle: Vehicle, size: tuple[int, int], pose: tuple[float, float, float]
+) -> None:
+    x, y = pose[0] + 0.4 * math.cos(pose[2] + 0.1), pose[1] + 0.4 * math.sin(pose[2] + 0.1)
+    world = room(block("red", x, y, [0.06, 0.04], 0.05, RED), start=pose, vehicle=vehicle)
+    columns, rows = (dd.Axis(n, 0, k - 1, k) for n, k in zip(("column", "row"), size, strict=True))
+    wanted = outline(world, pose, "red", vehicle.camera, size)
+    assert 0 < wanted[0] < wanted[1] < size[0] and 0 < wanted[2] < wanted[3] < size[1], "it is in view"
+    np.testing.assert_allclose(extent(shot(world, (columns, rows, CHANNEL)), RED), wanted, atol=1.0)
 
 
 def test_a_block_grows_as_it_comes_near() -> None:
