@@ -22,6 +22,7 @@ DRAWN_ELSEWHERE = {
     # by `deodar demo serial-order --figures`, made smaller
     "serial-order.md": {
         *(f"serial-order-{name}.png" for name in ("transition", "perception", "demonstrations")),
+        "serial-order-parameters.png",  # by `python docs/evidence.py FOLDER`
         "studio-lesson.png",
     },
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},

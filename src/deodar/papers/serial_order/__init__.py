@@ -28,7 +28,7 @@ HELP = "Sandamirskaya & Schöner (2010): a robot learns a sequence of colours an
 BY_CONDITION = ("runs",)
 """Entries of `about` that map names of conditions to their settings."""
 
-PICTURES: dict[str, str] = {}
+PICTURES = {"serial-order-parameters": "table-B1-varied"}
 """Pictures of the manual, each with its figure."""
 
 __getattr__ = papers.files(__name__)
@@ -56,10 +56,11 @@ def kept(row: Row) -> Row:
 
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
-    """Return claims, tables and numbers of the stored runs."""
+    """Return claims, figures, tables and numbers of the stored runs."""
     # start-up time: these bring JAX
     from deodar.papers._report import Report
-    from deodar.papers.serial_order import tables, targets
+    from deodar.papers.serial_order import robustness, tables, targets
 
     found = targets.by_condition(rows, quick)
-    return Report(targets.claims(found, quick), {}, tables.write(found), tables.numbers(found))
+    said = targets.claims(found, quick)
+    return Report(said, robustness.draw(found), tables.write(found), tables.numbers(found))

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from deodar.experiments.rows import Row
 from deodar.papers._report import NOT_RUN
-from deodar.papers.serial_order import sentences
+from deodar.papers.serial_order import robustness, sentences
 from deodar.papers.serial_order.targets import RowsOfConditions, in_order
-from deodar.papers.serial_order.variations import PARAMETERS
 
 INSTABILITIES = (
     "satisfaction on",
@@ -27,7 +23,7 @@ def write(found: RowsOfConditions) -> dict[str, str]:
     return {
         "conditions": conditions(found),
         "transitions": transitions(found),
-        "parameters": parameters(found),
+        "parameters": robustness.table(found),
         "sentences": sentences.table(sentences.claims(found)),
     }
 
@@ -47,6 +43,8 @@ def numbers(found: RowsOfConditions) -> dict[str, str]:
     durations = [d for r in found["arena"] for d in r["actions"]]
     for what, function in (("shortest", min), ("median", np.median), ("longest", max)):
         out[what] = f"{float(function(durations)):.2f}" if durations else NOT_RUN
+    out["parameters-picture"] = robustness.picture(found)
+    out["parameters-first"] = robustness.first(found)
     return out
 
 
@@ -86,27 +84,3 @@ def transitions(found: RowsOfConditions) -> str:
     right = [step for r in found["arena"] for step in in_order(r)]
     lines.append(f"| in the order of section 4.4 | {sum(right)} of {len(right)} | | | |")
     return "\n".join(lines) + "\n"
-
-
-def parameters(found: RowsOfConditions) -> str:
-    """Return what a change of each parameter by 20 % does on the ring, those first that break most."""
-    lines = [
-        "| parameter | -20 %: complete, wrong | action, s | +20 %: complete, wrong | action, s |",
-        "|---|---|---|---|---|",
-    ]
-    rated: list[tuple[int, str]] = []
-    for name in PARAMETERS:
-        both = [found.get(f"vary/{name}/{sign}", []) for sign in ("-20", "+20")]
-        if any(both):
-            cells = [cell for rows in both for cell in _varied(rows)]
-            complete = sum(r["outcome"] == "complete" for rows in both for r in rows)
-            rated.append((complete, f"| {name} | {' | '.join(cells)} |"))
-    return "\n".join([*lines, *(line for _, line in sorted(rated, key=lambda item: item[0]))]) + "\n"
-
-
-def _varied(rows: Sequence[Row]) -> tuple[str, str]:
-    if not rows:
-        return NOT_RUN, NOT_RUN
-    complete, wrong = (sum(r["outcome"] == o for r in rows) for o in ("complete", "wrong"))
-    durations = [d for r in rows for d in r["actions"]]
-    return f"{complete} of {len(rows)}, {wrong}", f"{np.median(durations):.1f}" if durations else "none"
