@@ -7,9 +7,9 @@ import math
 import pytest
 
 from deodar import papers
-from deodar.architectures.color_search import color_search
+from deodar.architectures.color_search import color_search, hue_axis
 from deodar.errors import ParameterError, UnknownName
-from deodar.papers.serial_order import arenas, colours, conditions, teaching, trials, variations
+from deodar.papers.serial_order import arenas, colours, conditions, parameters, teaching, trials, variations
 from deodar.papers.serial_order.arenas import random_arena
 
 
@@ -60,6 +60,20 @@ def test_a_factor_of_one_leaves_every_parameter_as_it_is() -> None:
         assert any(model.get(path) != pytest.approx(value) for path, value in changed.items()), name
     with pytest.raises(UnknownName, match="no parameter"):
         variations.values("h_x", 1.2, 3)
+
+
+def test_one_table_states_printed_values_and_those_of_the_model() -> None:
+    table = {parameter.name: parameter for parameter in parameters.TABLE}
+    assert len(table) == len(parameters.TABLE) == 41
+    assert set(variations.PARAMETERS) == set(table) - {"N"}
+    assert (table["h_d"].printed, table["h_d"].ours) == (-5.0, -0.5)
+    assert (table["c_5"].printed, table["c_5"].ours) == (2.0, 2.0)
+    model = color_search(1)
+    for name, path in (("c_inh", "action.global_inhibition"), ("R", "repulsion.size"), ("N", "")):
+        ours = model.get(path) if path else hue_axis().samples
+        assert table[name].ours == ours, name
+    differ = {name for name, p in table.items() if p.printed != pytest.approx(p.ours)}
+    assert differ == {"h_d", "c_inh", "c_CoS", "boost", "c_A", "h_p", "c_exc^P", "c_inh^P", "v_tar", "v_obs"}
 
 
 def test_hues_are_nearest_on_their_circle() -> None:

@@ -90,7 +90,9 @@ def test_the_figure_has_a_line_for_each_parameter_and_its_picture_is_on_the_page
     complete, action = drawn[robustness.FIGURE].axes
     assert [t.get_text() for t in complete.get_yticklabels()][:2] == ["h_C", "c_4"]
     assert [t.get_text() for t in complete.texts] == ["9 wrong"]
-    points = [line.get_xdata() for line in action.lines if line.get_marker() == "o" and len(line.get_xdata())]
+    points = [
+        line.get_xdata() for line in action.lines if line.get_marker() == "o" and np.size(line.get_xdata())
+    ]
     # without a completed action there is no duration
     assert len(points) == 2 * len(PARAMETERS) - 1
     assert np.isclose(max(float(np.ravel(x)[0]) for x in points), 6.0)

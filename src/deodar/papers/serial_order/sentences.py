@@ -15,77 +15,25 @@ from deodar.analysis.claims import Claim
 from deodar.analysis.statistics import rounded
 from deodar.architectures.color_search import (
     ANGLES,
-    ATTRACTION,
     CAUTION,
     CRUISE,
-    EXCITATION,
-    HUES,
-    INERTIA,
-    INHIBITION,
     LARGE,
     PATCH,
-    REPULSION,
     RESTING,
     RIDGE,
     SEEN,
-    SHOWN,
     TAUGHT,
-    TURNING,
-    WIDTH,
 )
-from deodar.architectures.serial_order import BOOST, LEARN, OFF, PREDICT, READ, STEEP, STRENGTHS, TAU
-from deodar.architectures.serial_order import EXCITATION as CHAIN_EXCITATION
-from deodar.architectures.serial_order import INHIBITION as CHAIN_INHIBITION
+from deodar.architectures.serial_order import OFF, PREDICT, STRENGTHS
 from deodar.architectures.serial_order import RESTING as CHAIN_RESTING
-from deodar.architectures.serial_order import WIDTH as CHAIN_WIDTH
 from deodar.experiments.rows import Row
+from deodar.papers.serial_order.parameters import TABLE
 
 SOURCE = "Sandamirskaya & Schöner (2010)"
 
 CASCADE = ("satisfaction on", "node off", "action off", "satisfaction off", "next node on", "next action on")
 
 SentenceValue = float | list[float] | str | None
-
-PRINTED: Mapping[str, tuple[float, float]] = {
-    "tau, ms": (10.0, TAU),
-    "tau_l, ms": (20.0, 1 / LEARN),
-    "beta": (100.0, STEEP),
-    "h_d": (-5.0, CHAIN_RESTING["node"]),
-    "h_m": (-2.0, CHAIN_RESTING["memory"]),
-    "h_A": (-1.8, CHAIN_RESTING["action"]),
-    "h_C": (-2.0, CHAIN_RESTING["satisfaction"]),
-    "c_0": (7.2, STRENGTHS["c0 self-excitation"]),
-    "c_1": (3.6, -STRENGTHS["c1 other nodes"]),
-    "c_2": (0.9, STRENGTHS["c2 next"]),
-    "c_3": (0.8, -STRENGTHS["c3 own memory"]),
-    "c_4": (3.5, STRENGTHS["c4 self-excitation of memory"]),
-    "c_5": (2.0, -STRENGTHS["c5 other nodes to memory"]),
-    "c_6": (2.6, STRENGTHS["c6 to memory"]),
-    "c_exc of action and satisfaction": (0.9, CHAIN_EXCITATION),
-    "sigma of action and satisfaction": (3.0, CHAIN_WIDTH),
-    "c_inh of action and satisfaction": (5.0, CHAIN_INHIBITION),
-    "c_CoS": (15.0, -OFF),
-    "c_ord": (10.0, READ),
-    "c_ord as boost": (10.0, BOOST),
-    "c_A": (1.5, PREDICT),
-    "c_vis": (2.0, SHOWN),
-    "c_vis of satisfaction": (1.0, LARGE),
-    "h_p": (-2.0, RESTING),
-    "h_p while learning": (-1.0, RESTING + TAUGHT),
-    "c_A^P": (2.5, RIDGE),
-    "c_vis^P": (2.0, SEEN),
-    "c_exc^P": (0.6, EXCITATION),
-    "c_inh^P": (0.5, INHIBITION),
-    "sigma^P": (3.0, WIDTH),
-    "tau_nav, ms": (80.0, TURNING),
-    "tau_vel, ms": (30.0, INERTIA),
-    "lambda_tar": (0.2, ATTRACTION),
-    "lambda_obs": (1.0, REPULSION),
-    "v_tar, pulses/s": (60.0, CRUISE),
-    "v_obs, pulses/s": (30.0, CAUTION),
-    "N": (180.0, float(HUES)),
-}
-"""Values of table B.1, and deodar's."""
 
 
 def claims(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
@@ -291,13 +239,10 @@ def _section_5(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
 
 
 def _table() -> list[Claim]:
-    same = [name for name, (printed, ours) in PRINTED.items() if np.isclose(printed, ours)]
-    out = [_number("B", f"parameters with the printed value, of {len(PRINTED)}", float(len(same)))]
-    return out + [
-        _number("B", f"{name}, printed {printed:g}", float(ours))
-        for name, (printed, ours) in PRINTED.items()
-        if name not in same
-    ]
+    differ = [parameter for parameter in TABLE if not np.isclose(parameter.printed, parameter.ours)]
+    same = float(len(TABLE) - len(differ))
+    out = [_number("B", f"parameters with the printed value, of {len(TABLE)}", same)]
+    return out + [_number("B", f"{p.label}, printed {p.printed:g}", float(p.ours)) for p in differ]
 
 
 def _median(values: Sequence[float]) -> float | None:
