@@ -45,7 +45,8 @@ class TableParameter:
         printed, ours: the value of the table, and ours, both with the sign and the unit of the table.
         values: the values of the model's parameters when ours is multiplied by a factor; None if the body or
             the grid fixes it.
-        words: the name in the table of sentences; empty: `name`.
+        words: the name in tables of the manual; empty: `name`.
+        reason: why ours differs from the printed value.
     """
 
     name: str
@@ -53,10 +54,11 @@ class TableParameter:
     ours: float
     values: Callable[[float], ParameterValues] | None
     words: str = ""
+    reason: str = ""
 
     @property
     def label(self) -> str:
-        """The name in the table of sentences."""
+        """The name in tables of the manual."""
         return self.words or self.name
 
 
@@ -78,6 +80,21 @@ def _of_pairs(number: int, printed: float) -> TableParameter:
     return TableParameter(f"c_{number}", printed, abs(ours), _scaled(strength, of=ours))
 
 
+REASONS = {
+    "h_d": "the next node gets at most h_d + c_2, -4.1 as printed, and none would become active",
+    "c_inh": "0.9 less 5 is below 0: no peak could sustain itself",
+    "c_CoS": "a single noisy sample above threshold would switch a node off in 6 ms, before a peak exists",
+    "boost": "h_A + 10 is above 0 at every hue: the whole action field would be above threshold",
+    "c_A": "the condition would be satisfied when a block fills half of the middle of the picture; with 1.2"
+    " it has to fill 0.8 of it",
+    "h_p": "the ridge alone, h_p + c_A^P, would be above threshold: 0.5 as printed",
+    "c_exc^P": "a blob of 75 x 12 samples would be far above threshold, and then shut the field",
+    "c_inh^P": "a blob of 75 x 12 samples inhibits the whole field by 450 as printed, and by 4.5 here",
+    "v_tar": "five times as fast, which shortens all searches",
+    "v_obs": "as for v_tar",
+}
+"""Why ours differs from the printed value."""
+
 _BOTH = "of action and satisfaction"
 
 TABLE = (
@@ -85,7 +102,9 @@ TABLE = (
     TableParameter("tau_l", 20.0, 1 / LEARN, lambda factor: {"*.meaning.rate": LEARN / factor}, "tau_l, ms"),
     TableParameter("beta", 100.0, STEEP, _scaled(*(f"{f}.sigmoid.beta" for f in FIELDS), of=STEEP)),
     *(
-        TableParameter(letter, printed, ours, _scaled(f"{path}.resting_level", of=ours))
+        TableParameter(
+            letter, printed, ours, _scaled(f"{path}.resting_level", of=ours), reason=REASONS.get(letter, "")
+        )
         for letter, printed, path, ours in (
             ("h_d", -5.0, "*.node", CHAIN_RESTING["node"]),
             ("h_m", -2.0, "*.memory", CHAIN_RESTING["memory"]),
@@ -101,6 +120,7 @@ TABLE = (
             ours,
             _scaled(f"action.{path}", f"satisfaction.{path}", of=ours),
             f"{letter} {_BOTH}",
+            REASONS.get(letter, ""),
         )
         for letter, printed, path, ours in (
             ("c_exc", 0.9, "kernel.0.amplitude", CHAIN_EXCITATION),
@@ -108,10 +128,12 @@ TABLE = (
             ("c_inh", 5.0, "global_inhibition", CHAIN_INHIBITION),
         )
     ),
-    TableParameter("c_CoS", 15.0, -OFF, _scaled("off.factor", of=OFF)),
+    TableParameter("c_CoS", 15.0, -OFF, _scaled("off.factor", of=OFF), reason=REASONS["c_CoS"]),
     TableParameter("c_ord", 10.0, READ, _scaled("c_ord.factor", of=READ)),
-    TableParameter("boost", 10.0, BOOST, _scaled("boost.factor", of=BOOST), "c_ord as boost"),
-    TableParameter("c_A", 1.5, PREDICT, _scaled("predict.factor", of=PREDICT)),
+    TableParameter(
+        "boost", 10.0, BOOST, _scaled("boost.factor", of=BOOST), "c_ord as boost", REASONS["boost"]
+    ),
+    TableParameter("c_A", 1.5, PREDICT, _scaled("predict.factor", of=PREDICT), reason=REASONS["c_A"]),
     TableParameter("c_vis", 2.0, SHOWN, _scaled("strength shown.factor", of=SHOWN)),
     TableParameter(
         "c_vis,C",
@@ -128,6 +150,7 @@ TABLE = (
             "colour space.resting_level": RESTING * factor,
             "taught.factor": TAUGHT + RESTING * (1 - factor),
         },
+        reason=REASONS["h_p"],
     ),
     TableParameter(
         "h_p (learning)",
@@ -138,8 +161,20 @@ TABLE = (
     ),
     TableParameter("c_A^P", 2.5, RIDGE, _scaled("wanted.factor", of=RIDGE)),
     TableParameter("c_vis^P", 2.0, SEEN, _scaled("seen.factor", of=SEEN * WHOLE)),
-    TableParameter("c_exc^P", 0.6, EXCITATION, _scaled("colour space.kernel.0.amplitude", of=EXCITATION)),
-    TableParameter("c_inh^P", 0.5, INHIBITION, _scaled("colour space.global_inhibition", of=INHIBITION)),
+    TableParameter(
+        "c_exc^P",
+        0.6,
+        EXCITATION,
+        _scaled("colour space.kernel.0.amplitude", of=EXCITATION),
+        reason=REASONS["c_exc^P"],
+    ),
+    TableParameter(
+        "c_inh^P",
+        0.5,
+        INHIBITION,
+        _scaled("colour space.global_inhibition", of=INHIBITION),
+        reason=REASONS["c_inh^P"],
+    ),
     TableParameter("sigma^P", 3.0, WIDTH, _scaled("colour space.kernel.0.sigma", of=WIDTH)),
     TableParameter(
         "tau_nav",
@@ -164,6 +199,7 @@ TABLE = (
             "caution.factor": CAUTION - CRUISE * factor,
         },
         "v_tar, pulses/s",
+        REASONS["v_tar"],
     ),
     TableParameter(
         "v_obs",
@@ -171,6 +207,7 @@ TABLE = (
         CAUTION,
         lambda factor: {"caution.factor": CAUTION * factor - CRUISE},
         "v_obs, pulses/s",
+        REASONS["v_obs"],
     ),
     TableParameter("N", 180.0, float(HUES), None),
 )

@@ -6,7 +6,8 @@ import numpy as np
 
 from deodar.papers._report import NOT_RUN
 from deodar.papers.serial_order import robustness, sentences
-from deodar.papers.serial_order.targets import RowsOfConditions, in_order
+from deodar.papers.serial_order.parameters import TABLE
+from deodar.papers.serial_order.targets import AT_ONCE, RowsOfConditions, in_order, repeated, visits
 
 INSTABILITIES = (
     "satisfaction on",
@@ -16,6 +17,19 @@ INSTABILITIES = (
     "next node on",
     "next action on",
 )
+
+OUTCOMES = {
+    "duplicates": "three duplicates of wanted blocks",
+    "removed": "a wanted block that is taken away for a minute while the robot looks for it",
+    "carried": "a robot that is carried elsewhere while it looks for its second colour",
+    "wander": "the paper's search, which drives straight until an obstacle turns the robot",
+    "ten": "sequences of all ten hues",
+    "cued": "two sequences of three to five colours, which differ at every position, taught one after"
+    " another, and the cue of either",
+    "cued-changed": "a cue that changes while the robot looks for its second or third colour, so that it"
+    " continues with the colours of the other sequence from this position on",
+}
+"""What differs in the conditions of which the manual states how many runs are complete and wrong."""
 
 
 def write(found: RowsOfConditions) -> dict[str, str]:
@@ -43,6 +57,9 @@ def numbers(found: RowsOfConditions) -> dict[str, str]:
     durations = [d for r in found["arena"] for d in r["actions"]]
     for what, function in (("shortest", min), ("median", np.median), ("longest", max)):
         out[what] = f"{float(function(durations)):.2f}" if durations else NOT_RUN
+    out["outcomes"] = outcomes(found)
+    out["without-runs"] = without_runs(found)
+    out["table-b1"] = changed()
     out["parameters-picture"] = robustness.picture(found)
     out["parameters-first"] = robustness.first(found)
     return out
@@ -63,6 +80,42 @@ def conditions(found: RowsOfConditions) -> str:
         touching = f"{np.mean([r['touching'] for r in rows]):.3f}"
         cells = [name, str(len(rows)), *map(str, counts), *times_shown, touching]
         lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def outcomes(found: RowsOfConditions) -> str:
+    """Return a list: each condition of `OUTCOMES` that has runs, and repeated colours."""
+    lines: list[str] = []
+    for name, words in OUTCOMES.items():
+        rows = found[name]
+        complete, wrong = (sum(r["outcome"] == o for r in rows) for o in ("complete", "wrong"))
+        if rows:
+            lines.append(f"* With {words}: complete {complete} of {len(rows)}, wrong {wrong} of {len(rows)}.")
+    for name, words, soon in (
+        ("repetition", "A repeated colour is found within 1 s", True),
+        ("habituation", "With `habituation=True` it is found after more than 1 s, by a second visit", False),
+    ):
+        took = [duration <= AT_ONCE for row in found[name] for duration in repeated(row)]
+        if took:
+            lines.append(f"* {words}: {sum(quick is soon for quick in took)} of {len(took)}.")
+    return "\n".join(lines) + "\n" if lines else NOT_RUN
+
+
+def without_runs(found: RowsOfConditions) -> str:
+    """Return the names of the conditions without runs; varied parameters are counted."""
+    missing = [name for name, rows in found.items() if not rows]
+    varied = sum(name.startswith("vary/") for name in missing)
+    names = [f"`{name}`" for name in missing if not name.startswith("vary/")]
+    parts = [*names, f"{varied} conditions with a varied parameter"] if varied else names
+    return ", ".join(parts) or "none"
+
+
+def changed() -> str:
+    """Return the parameters of table B.1 whose value differs from the printed one, each with the reason."""
+    lines = ["| parameter | printed | deodar | reason |", "|---|---|---|---|"]
+    for p in TABLE:
+        if not np.isclose(p.printed, p.ours):
+            lines.append(f"| {p.label} | {p.printed:g} | {p.ours:g} | {p.reason} |")
     return "\n".join(lines) + "\n"
 
 
