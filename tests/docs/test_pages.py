@@ -19,9 +19,12 @@ LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 DRAWN_ELSEWHERE = {
     "saliency.md": {"saliency-untuned.png"},  # by `deodar demo saliency --untuned`, made smaller
     "README.md": {"saliency-coffee.png", "studio-selection.png"},
-    # by `deodar demo serial-order --figures`, made smaller
+    # by `python docs/demonstrations.py`
     "serial-order.md": {
-        *(f"serial-order-{name}.png" for name in ("transition", "perception", "demonstrations")),
+        *(
+            f"serial-order-{name}.png"
+            for name in ("transition", "perception", "demonstrations", "sequence", "frame")
+        ),
         "serial-order-parameters.png",  # by `python docs/evidence.py FOLDER`
         "studio-lesson.png",
     },

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from deodar.architectures.color_search import HUES
 from deodar.figures._style import COLOR, DOUBLE, MEDIUM, SEQUENTIAL, style
 from deodar.figures._style import figure as sheet
-from deodar.figures.sequence import DrawnSearch, draw_hues, draw_nodes, line_colour
+from deodar.figures.sequence import TICKS, DrawnSearch, draw_hues, draw_nodes, line_colour
 
 HEIGHT = 3.0
 """Height of one demonstration, inches."""
@@ -31,7 +31,7 @@ def demonstrations_figure(results: Sequence[DrawnDemonstration], titles: Sequenc
     """
     with style():
         out = sheet(DOUBLE, HEIGHT * len(results))
-        grid = out.add_gridspec(3 * len(results), 2, width_ratios=[5.5, 1.0])
+        grid = out.add_gridspec(3 * len(results), 2, width_ratios=[6.0, 1.0])
         for n, (result, title) in enumerate(zip(results, titles, strict=True)):
             first = out.add_subplot(grid[3 * n, 0])
             draw_nodes(first, result)
@@ -39,7 +39,8 @@ def demonstrations_figure(results: Sequence[DrawnDemonstration], titles: Sequenc
             rows = [first]
             for k, (name, words) in enumerate((("action", "action"), ("satisfaction", "CoS")), 1):
                 axes = out.add_subplot(grid[3 * n + k, 0], sharex=first)
-                draw_hues(axes, result, name)
+                image = draw_hues(axes, result, name)
+                out.colorbar(image, ax=axes, label="activation", pad=0.01, aspect=8, ticks=TICKS)
                 axes.set_ylabel(f"{words}, hue")
                 rows.append(axes)
             for time, letter in zip(result.found, result.produced, strict=True):

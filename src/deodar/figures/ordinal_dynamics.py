@@ -16,6 +16,9 @@ from deodar.figures._style import figure as sheet
 STATES = -8.0, 10.0
 """Activation at both ends of an axis, unless a stable state lies lower."""
 
+LETTERS = 0.2
+"""Space above the curves for the letters of the moments, as a share of the range of the curves."""
+
 
 @dataclass(frozen=True)
 class OrdinalMoment:
@@ -119,11 +122,20 @@ def _course(axes: Axes, result: OrdinalTransition) -> None:
         axes.plot(times, result.nodes[:, k], label=name or None, **line)
     axes.axhline(0, **THRESHOLD_LINE)
     axes.set_xlim(times[0], times[-1])
-    top = float(result.nodes.max()) + 1.5
-    axes.set_ylim(float(result.nodes.min()) - 1.0, top + 1.5)
+    low, high = float(result.nodes.min()), float(result.nodes.max())
+    # the letters of the moments are above the curves, inside the panel
+    axes.set_ylim(low - 1.0, high + LETTERS * (high - low))
     for letter, moment in zip("abc", result.moments, strict=False):
         axes.axvline(moment.time - begin, color=COLOR.moment, linewidth=MEDIUM, linestyle=":")
-        axes.annotate(letter, (moment.time - begin, top), ha="center", fontsize=SMALL)
+        axes.annotate(
+            letter,
+            (moment.time - begin, 1.0),
+            xycoords=axes.get_xaxis_transform(),
+            xytext=(3, -3),
+            textcoords="offset points",
+            va="top",
+            fontsize=SMALL,
+        )
     for at, words, side in ((0.0, "CoS on", "right"), (result.off - begin, "CoS off", "left")):
         axes.annotate(
             words,

@@ -8,11 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from deodar.figures._style import COLOR, DIVERGING, MEDIUM, SEQUENTIAL, SINGLE, THIN, style
+from deodar.figures._style import BLACK, DIVERGING, SEQUENTIAL, SINGLE, THICK, style
 from deodar.figures._style import figure as sheet
 
-RANGE = 4.0
-"""Activation at both ends of the colour scale."""
+RANGE = 3.0
+"""Activation at both ends of the colour scale: the ridge then differs from the peak and from the rest."""
+
+DEGREES = 360.0
+"""Whole circle of hue."""
 
 
 @dataclass(frozen=True)
@@ -39,18 +42,18 @@ class ColourPerception:
 def perception_figure(result: ColourPerception) -> Figure:
     """Draw the colour-space field above the amounts of hues above the picture, with one axis of columns.
 
-    A line surrounds what is above threshold; a dashed line marks the hue that the action field activates.
+    A line surrounds what is above threshold; triangles mark the hue that the action field activates.
     """
     r = result
     with style():
         out = sheet(SINGLE * 1.35, 6.4)
         a, b, c = out.subplots(3, 1, sharex=True)
         image = _over_hue(a, r, r.activation, DIVERGING, (-RANGE, RANGE))
-        out.colorbar(image, ax=a, label="activation", pad=0.02, aspect=14)
+        out.colorbar(image, ax=a, label="activation", pad=0.02, aspect=14, extend="min")
         if (r.activation > 0).any():
             x = np.linspace(*r.columns, r.activation.shape[0])
-            y = np.linspace(*r.hues, r.activation.shape[1])
-            a.contour(x, y, r.activation.T, [0.0], colors=COLOR.excitation, linewidths=MEDIUM)
+            y = _degrees(r, np.linspace(*r.hues, r.activation.shape[1]))
+            a.contour(x, y, r.activation.T, [0.0], colors=BLACK, linewidths=THICK)
         a.set_title("A  colour-space field", loc="left")
         image = _over_hue(b, r, r.shares, SEQUENTIAL, (0.0, 1.0))
         out.colorbar(image, ax=b, label="amount", pad=0.02, aspect=14)
@@ -71,13 +74,29 @@ def perception_figure(result: ColourPerception) -> Figure:
 def _over_hue(axes: Axes, r: ColourPerception, values: np.ndarray, colours: str, limits: tuple[float, float]):
     image = axes.imshow(
         values.T,
-        extent=(*r.columns, *r.hues),
+        extent=(*r.columns, 0.0, DEGREES),
         origin="lower",
         cmap=colours,
         vmin=limits[0],
         vmax=limits[1],
         aspect="auto",
     )
-    axes.axhline(r.wanted, color=COLOR.threshold, linewidth=THIN, linestyle="--")
-    axes.set_ylabel("hue (2 degrees)")
+    for side, mark in ((0.0, ">"), (1.0, "<")):
+        axes.plot(
+            side,
+            float(_degrees(r, np.asarray(r.wanted))),
+            mark,
+            color=BLACK,
+            transform=axes.get_yaxis_transform(),
+            clip_on=False,
+            markersize=4,
+        )
+    axes.set_yticks(np.arange(0.0, DEGREES + 1.0, 60.0))
+    axes.set_ylabel("hue (degrees)")
     return image
+
+
+def _degrees(r: ColourPerception, hue: np.ndarray) -> np.ndarray:
+    """Return degrees of hue for samples of hue."""
+    low, high = r.hues
+    return (hue - low) / (high - low) * DEGREES

@@ -28,6 +28,15 @@ from deodar.figures._style import figure as sheet
 RANGE = 6.0
 """Activation at both ends of the colour scale."""
 
+HEADROOM = 2.0
+"""Upper end of the axis of the nodes, as a multiple of their largest activation: phases are named there."""
+
+BRIEF = 0.05
+"""Share of a phase below which the number of a node is as wide as the time for which the node is active."""
+
+TICKS = (-5, 0, 5)
+"""Ticks of that scale."""
+
 LOWEST = -10.0
 """Lower end of the axis of the nodes; inhibition at a change of the mode exceeds it."""
 
@@ -75,7 +84,7 @@ def sequence_figure(result: DrawnSearch) -> Figure:
         ):
             image = draw_hues(axes, r, name)
             axes.set_title(title, loc="left")
-            out.colorbar(image, ax=axes, label="activation", pad=0.01, aspect=12)
+            out.colorbar(image, ax=axes, label="activation", pad=0.01, aspect=12, ticks=TICKS)
         _columns(rows[3], r, out)
         _marks(rows[2], r, r.found, r.produced)
         came = [(t, letter) for t, letter in zip(r.seen, r.produced, strict=True) if t is not None]
@@ -88,44 +97,62 @@ def sequence_figure(result: DrawnSearch) -> Figure:
 
 
 def draw_nodes(axes: Axes, r: DrawnSearch) -> None:
-    """Draw the activation of the ordinal nodes, each in the colour that it was taught."""
+    """Draw the activation of the ordinal nodes, each in the colour that it was taught.
+
+    A node is dashed if an earlier one has its colour; the node behind the sequence is grey.
+    """
     times = r.record["time"].values / 1000
     begin = int(np.searchsorted(times, r.begins / 1000))
     for k, letter in enumerate(r.sequence, 1):
         u = r.record[f"item {k}.node.activation"].values
-        axes.plot(times, u, color=line_colour(r.hues[letter]), linewidth=MEDIUM)
+        again = letter in r.sequence[: k - 1]
+        axes.plot(
+            times,
+            u,
+            color=line_colour(r.hues[letter]),
+            linewidth=MEDIUM,
+            linestyle=(0, (2, 1)) if again else "-",
+        )
         for phase in (slice(None, begin), slice(begin, None)):
-            active = np.flatnonzero(u[phase] > 0)
-            if len(active):
-                middle = _longest(active) + (phase.start or 0)
-                axes.annotate(
-                    f"{k}",
-                    (times[middle], u[middle]),
-                    xytext=(0, 2),
-                    textcoords="offset points",
-                    ha="center",
-                    fontsize=SMALL,
-                    color=line_colour(r.hues[letter]),
-                )
-    last = r.record[f"item {len(r.sequence) + 1}.node.activation"].values
+            _number(axes, times[phase], u[phase], k, line_colour(r.hues[letter]))
+    count = len(r.sequence) + 1
+    last = r.record[f"item {count}.node.activation"].values
     axes.plot(times, last, color=COLOR.moment, linewidth=THIN)
+    _number(axes, times[begin:], last[begin:], count, COLOR.moment)
     axes.axhline(0, **THRESHOLD_LINE)
     top = max(
         float(np.max(r.record[f"item {k}.node.activation"].values)) for k in range(1, len(r.sequence) + 1)
     )
-    axes.set_ylim(LOWEST, 1.35 * top)
+    axes.set_ylim(LOWEST, HEADROOM * top)
     axes.set_ylabel("activation")
     axes.set_title("ordinal nodes, in the colours that they were taught", loc="left")
-    for x, words, side in ((-4, "teaching", "right"), (4, "production", "left")):
+    for at, words in ((times[0], "teaching"), (times[begin], "production")):
         axes.annotate(
             words,
-            (r.begins / 1000, 1),
+            (at, 1),
             xycoords=axes.get_xaxis_transform(),
-            xytext=(x, -8),
+            xytext=(4, -8),
             textcoords="offset points",
-            ha=side,
             fontsize=SMALL,
             color=COLOR.threshold,
+        )
+
+
+def _number(axes: Axes, times: np.ndarray, u: np.ndarray, number: int, colour: Any) -> None:
+    """Write the number of a node above the longest time for which it is active."""
+    active = np.flatnonzero(u > 0)
+    if len(active):
+        middle = _longest(active)
+        brief = len(active) < BRIEF * len(u)
+        axes.annotate(
+            f"{number}",
+            # above the pulse that starts the first node, if both are at one place
+            (times[middle], float(u[active].max() if brief else np.median(u[active]))),
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="center",
+            fontsize=SMALL,
+            color=colour,
         )
 
 

@@ -85,7 +85,8 @@ def save_sequence_animation(
     shown = zip(animation_samples(result), views, strict=True)
     colours = _palette(result)
     frames = [
-        _frame(result, view, side, k).quantize(palette=colours, dither=Image.Dither.NONE) for k, view in shown
+        draw_frame(result, view, side, k).quantize(palette=colours, dither=Image.Dither.NONE)
+        for k, view in shown
     ]
     output.write(
         path,
@@ -96,7 +97,15 @@ def save_sequence_animation(
     return path
 
 
-def _frame(r: DrawnSearch, seen: DrawnView, side: float, k: int) -> Image.Image:
+def draw_frame(r: DrawnSearch, seen: DrawnView, side: float, k: int) -> Image.Image:
+    """Draw a frame of the video.
+
+    Args:
+        r: the run.
+        seen: what is around the vehicle.
+        side: side of the arena, mm.
+        k: the sample of the record that is shown.
+    """
     image = Image.new("RGB", (WIDTH + GAP + CAMERA[0], WIDTH + TOP), FLOOR)
     pen, scale = ImageDraw.Draw(image), WIDTH / side
     time, poses = float(r.record["time"].values[k]), r.record["pose.output"].values

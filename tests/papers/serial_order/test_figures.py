@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -68,6 +69,26 @@ def test_the_command_draws_the_figures(
     for name in ("figure-3", "figure-8", "figure-12"):
         with Image.open(out / f"{name}.png") as picture:
             assert min(picture.size) > 1000 and len(set(picture.convert("L").tobytes())) > 50
+
+
+def test_a_repeated_colour_is_dashed_and_every_node_has_its_number() -> None:
+    [nodes, *_] = figures.demonstrations_figure([made("RGGY", "RGGY", "RGGY")], ["RGGY"]).axes
+    assert [line.get_linestyle() for line in nodes.lines[:5]] == ["-", "-", "--", "-", "-"]
+    assert {"1", "2", "3", "4", "5", "teaching", "production"} == {text.get_text() for text in nodes.texts}
+
+
+def test_hues_are_in_degrees_and_a_line_surrounds_the_peak(seen: ColourPerception) -> None:
+    field = figures.perception_figure(seen).axes[0]
+    assert field.get_ylabel() == "hue (degrees)" and field.get_ylim() == (0.0, 360.0)
+    lines: list[Any] = [c for c in field.collections if hasattr(c, "levels")]
+    heights = np.concatenate([path.vertices[:, 1] for path in lines[0].get_paths() if len(path.vertices)])
+    assert np.abs(heights - 120.0).max() <= 18.0
+
+
+def test_letters_of_moments_are_inside_their_panel() -> None:
+    course = figures.transition_figure(transition()).axes[3]
+    letters: list[Any] = [text for text in course.texts if text.get_text() in ("a", "b", "c")]
+    assert len(letters) == 3 and all(text.get_va() == "top" and text.xyann[1] < 0 for text in letters)
 
 
 def test_figures_and_a_sequence_are_not_asked_for_together(capsys: pytest.CaptureFixture[str]) -> None:

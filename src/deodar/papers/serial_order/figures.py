@@ -160,6 +160,15 @@ def demonstrations(
     return [narrative.run(sequence, seed, done, clutter) for sequence, clutter in DEMONSTRATIONS.items()]
 
 
+def titled(runs: Sequence[narrative.SearchRun]) -> tuple[Sequence[narrative.SearchRun], list[str]]:
+    """Return demonstrations with their titles."""
+    return runs, [
+        f"{r.sequence}, {'taught in clutter' if DEMONSTRATIONS[r.sequence] else 'taught'} and produced in an"
+        " arena"
+        for r in runs
+    ]
+
+
 @dataclass(frozen=True)
 class PaperFigures:
     """What figures 3, 8 and 12 show, from runs of deodar."""
@@ -170,15 +179,10 @@ class PaperFigures:
 
     def draw(self) -> dict[str, Figure]:
         """Draw each figure, by the name of the paper's."""
-        titles = [
-            f"{r.sequence}, {'taught in clutter' if DEMONSTRATIONS[r.sequence] else 'taught'} and produced"
-            " in an arena"
-            for r in self.demonstrations
-        ]
         return {
             "figure-3": transition_figure(self.transition),
             "figure-8": perception_figure(self.perception),
-            "figure-12": demonstrations_figure(self.demonstrations, titles),
+            "figure-12": demonstrations_figure(*titled(self.demonstrations)),
         }
 
 
