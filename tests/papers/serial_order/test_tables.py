@@ -8,14 +8,24 @@ from tests.papers.serial_order.test_robustness import found, rows
 
 
 def test_the_list_has_the_conditions_with_runs_alone() -> None:
-    repeated = [row | {"sequence": "GG", "actions": [2.0, 0.5]} for row in rows("repetition")]
+    repeated = [
+        row | {"sequence": "GG", "actions": [2.0, 0.5], "left": [True, False]} for row in rows("repetition")
+    ]
     listed = tables.outcomes(found(cued=rows("cued", complete=15, wrong=2), repetition=repeated)).splitlines()
     assert len(listed) == 2
     assert listed[0].startswith("* With two sequences") and listed[0].endswith("15 of 20, wrong 2 of 20.")
-    assert listed[1] == "* A repeated colour is found within 1 s: 20 of 20."
-    later = [row | {"actions": [2.0, 9.0]} for row in repeated]
+    assert listed[1] == "* A repeated colour is found at once, within 1 s: 20 of 20."
+    later = [row | {"actions": [2.0, 9.0], "left": [True, k > 2]} for k, row in enumerate(repeated)]
     listed = tables.outcomes(found(repetition=later, habituation=later)).splitlines()
-    assert [line.rpartition(": ")[2] for line in listed] == ["0 of 20.", "20 of 20."]
+    assert [line.rpartition(": ")[2] for line in listed] == ["0 of 20.", "17 of 20."]
+
+
+def test_reasons_of_unfinished_runs_are_counted_by_condition() -> None:
+    unfinished = rows("arena")
+    for row, letter in zip(unfinished, "RG", strict=False):
+        row |= {"reason": f"still looking for {letter} (item 2 of 2)"}
+    assert "| arena | still looking | 2 |" in tables.reasons(found(arena=unfinished))
+    assert tables.reasons(found(arena=rows("arena"))) == NOT_RUN
 
 
 def test_conditions_without_runs_are_named_and_varied_parameters_counted() -> None:

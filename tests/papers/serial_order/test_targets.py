@@ -120,13 +120,3 @@ def test_the_tables_count_outcomes_and_transitions() -> None:
     [line] = [line for line in tables.conditions(found).splitlines() if line.startswith("| arena |")]
     assert line.startswith("| arena | 20 | 19 | 1 | 0 | 70.0 | 70.0 |")
     assert "| in the order of section 4.4 | 40 of 40 |" in tables.transitions(found)
-
-
-def test_parameters_that_break_first_come_first() -> None:
-    found = rows()
-    for name, broken in (("vary/h_C/+20", 20), ("vary/c_4/+20", 5)):
-        for row in found[name][:broken]:
-            row |= {"outcome": "unfinished"}
-    lines = tables.parameters(found).splitlines()[2:]
-    assert [line.split(" | ")[0] for line in lines[:2]] == ["| h_C", "| c_4"]
-    assert "15 of 20, 0" in lines[1]

@@ -59,6 +59,7 @@ def numbers(found: RowsOfConditions) -> dict[str, str]:
         out[what] = f"{float(function(durations)):.2f}" if durations else NOT_RUN
     out["outcomes"] = outcomes(found)
     out["without-runs"] = without_runs(found)
+    out["reasons"] = reasons(found)
     out["table-b1"] = changed()
     out["parameters-picture"] = robustness.picture(found)
     out["parameters-first"] = robustness.first(found)
@@ -91,14 +92,32 @@ def outcomes(found: RowsOfConditions) -> str:
         complete, wrong = (sum(r["outcome"] == o for r in rows) for o in ("complete", "wrong"))
         if rows:
             lines.append(f"* With {words}: complete {complete} of {len(rows)}, wrong {wrong} of {len(rows)}.")
-    for name, words, soon in (
-        ("repetition", "A repeated colour is found within 1 s", True),
-        ("habituation", "With `habituation=True` it is found after more than 1 s, by a second visit", False),
-    ):
-        took = [duration <= AT_ONCE for row in found[name] for duration in repeated(row)]
-        if took:
-            lines.append(f"* {words}: {sum(quick is soon for quick in took)} of {len(took)}.")
+    again = {
+        "A repeated colour is found at once, within 1 s": [
+            duration <= AT_ONCE for row in found["repetition"] for duration in repeated(row)
+        ],
+        "With `habituation=True` it is found by a second visit, after it left the middle of the picture": [
+            left for row in found["habituation"] for left in visits(row)
+        ],
+    }
+    lines += [f"* {words}: {sum(true)} of {len(true)}." for words, true in again.items() if true]
     return "\n".join(lines) + "\n" if lines else NOT_RUN
+
+
+def reasons(found: RowsOfConditions) -> str:
+    """Return why productions were not completed, with their numbers."""
+    counted: dict[tuple[str, str], int] = {}
+    for name, rows in found.items():
+        for row in rows if not name.startswith("vary/") else ():
+            if "reason" in row:
+                # the colour and the item are those of the run
+                why = row["reason"].partition(" for ")[0].partition(" (item")[0]
+                counted[name, why] = counted.get((name, why), 0) + 1
+    if not counted:
+        return NOT_RUN
+    lines = ["| condition | reason | runs |", "|---|---|---|"]
+    lines += [f"| {name} | {why} | {number} |" for (name, why), number in counted.items()]
+    return "\n".join(lines) + "\n"
 
 
 def without_runs(found: RowsOfConditions) -> str:
