@@ -84,3 +84,30 @@ def test_the_model_has_no_problem_and_a_chain_has_at_least_one_item() -> None:
     assert color_search(3, look_around=False).check() == []
     with pytest.raises(ParameterError, match="1 to 50 items"):
         color_search(0)
+
+
+def test_a_block_that_is_in_view_at_once_does_not_start_the_chain_again() -> None:
+    model, hues = color_search(2), np.arange(180)
+    model.set("start.amplitude", 0.0)  # there is no lesson
+    for item, hue in ((1, 0), (2, 60)):
+        weights = np.exp(-(((hues - hue + 90) % 180 - 90) ** 2) / 8)
+        model.set(f"item {item}.meaning.start", weights)
+    made = dd.Arena(
+        {"unit": "mm", "arena": {"x": [-300, 300], "y": [-300, 300]}},
+        (0, 0, 0),
+        unit="mm",
+        vehicle="khepera",
+        period=20,
+        camera_every=4,
+    )
+    made.place("red", (100, 0), (50, 50), RED, height=70)
+    nodes = [f"item {k}.node.activation" for k in (1, 2)]
+    [begins, ends] = 100.0, 1200.0
+    trial = dd.run_trial(model, ends, made, watch=nodes, actions=[dd.Set(begins, "mode", 1.0)], every=2.0)
+    first, second = (trial.values[path] > 0 for path in nodes)
+    produced = trial.times > begins + 250
+    rises = np.flatnonzero(np.diff((first & produced).astype(int)) == 1)
+    assert len(rises) == 1 and second[-1] and not first[-1]
+    # the pulse alone would last from 300 to 460 ms after the change of the mode
+    fallen = trial.times[np.flatnonzero(first)[-1]]
+    assert begins + 300 < fallen < begins + 460
