@@ -63,3 +63,21 @@ def test_a_mode_set_back_to_teaching_forgets_the_colour_of_the_first_node() -> N
     assert strongest[(at > 2300.0) & (at < 3200.0)].min() > 0.9
     on = first(trial, trial.values[NODE] > 0, 3300.0)
     assert first(trial, strongest < 0.05, on) < on + 200.0
+
+
+def test_one_of_two_colours_in_view_is_selected_and_learned() -> None:
+    arena = dd.Arena(
+        {"unit": "mm", "arena": {"x": [-300, 300], "y": [-300, 300]}},
+        start=(0, 0, 0),
+        unit="mm",
+        vehicle="khepera",
+        period=20,
+        camera_every=4,
+        hue_noise=6,
+    )
+    for name, y, color in (("red", 60.0, RED), ("blue", -60.0, (0.0, 0.0, 0.9))):
+        arena.place(name, (150.0, y), (50, 50), color, windows=(1000.0, 9000.0), height=70)
+    trial = dd.run_trial(dd.architectures.color_search(2), 1600.0, arena, watch=[WEIGHTS], every=20.0)
+    learned = trial.values[WEIGHTS][-1]
+    red, blue = learned[np.r_[0:10, 170:180]].max(), learned[110:130].max()
+    assert max(red, blue) > 0.9 and min(red, blue) < 0.05

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pytest
+
 from deodar.papers.serial_order import conditions, sentences
 from deodar.papers.serial_order.targets import RowsOfConditions
 
@@ -38,9 +42,32 @@ def test_numbers_of_the_model_follow_from_its_parameters() -> None:
     assert found["4.1: a node has an off state below 0 and an on state above 0: both states"] == [-0.5, 6.7]
 
 
-def test_the_table_has_a_line_for_each_sentence_and_marks_those_without_rows() -> None:
+def test_sentences_of_the_fields_follow_from_the_parameters() -> None:
+    found: dict[str, Any] = {
+        c.name.partition(": ")[2].partition(":")[0]: c.value for c in sentences.from_parameters()
+    }
+    assert (
+        found["the action field alone leaves the field of the condition of satisfaction below threshold"]
+        == -0.8
+    )
+    assert found["both together lift it above threshold"] == 0.2
+    # 0.9 exp(-k^2 / 18) - 0.5 sums to 0.4, 0.75, 0.97, 1.02, 0.89 over widths of 1 to 5
+    assert found["its peak is self-stabilized"] == pytest.approx(0.2170, abs=1e-3)
+    alone, largest = found["learning, one of several objects is selected"]
+    assert alone == 200 and largest > alone
+    assert found["attraction scales with the size of the peak"] == 2.0
+
+
+def test_numbers_of_runs_and_of_parameters_are_in_tables_of_their_own() -> None:
     none = {name: [] for name in conditions.conditions(False)}
-    said = sentences.claims(none)
-    lines = sentences.table(said).splitlines()
-    assert len(lines) == len(said) + 2
-    assert any(line.startswith("| 4.4 |") and "| open |" in line for line in lines)
+    lines = sentences.runs_table(none).splitlines()
+    assert len(lines) == len(sentences.from_runs(none)) + 2
+    assert all("| open |" in line for line in lines[2:])
+    runs, given = sentences.runs_table(rows()), sentences.parameters_table()
+    assert "| 4 | 2 |" in runs and "4.3" in given and "4.3" not in runs and "printed -5" not in given
+
+
+def test_numbers_have_three_digits() -> None:
+    many = {**rows(), "arena": [{**rows()["arena"][0], "actions": [0.12, 187.9235]}]}
+    [line] = [line for line in sentences.runs_table(many).splitlines() if "longest over shortest" in line]
+    assert line.endswith("| 1570 | 2 |")

@@ -17,15 +17,23 @@ from deodar.architectures.color_search import (
     ANGLES,
     CAUTION,
     CRUISE,
+    EXCITATION,
+    HUES,
+    INHIBITION,
     LARGE,
     PATCH,
     RESTING,
     RIDGE,
     SEEN,
     TAUGHT,
+    WIDTH,
+    column_axis,
 )
+from deodar.architectures.serial_order import EXCITATION as CHAIN_EXCITATION
+from deodar.architectures.serial_order import INHIBITION as CHAIN_INHIBITION
 from deodar.architectures.serial_order import OFF, PREDICT, STRENGTHS
 from deodar.architectures.serial_order import RESTING as CHAIN_RESTING
+from deodar.architectures.serial_order import WIDTH as CHAIN_WIDTH
 from deodar.experiments.rows import Row
 from deodar.papers.serial_order.parameters import TABLE
 
@@ -37,24 +45,48 @@ SentenceValue = float | list[float] | str | None
 
 
 def claims(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
-    """Return all claims, by section."""
-    return [*_section_4_1(), *_section_4_2(found), *_section_4_4(found), *_section_5(found), *_table()]
+    """Return all claims: those from runs, then those from parameters, each by section."""
+    return [*from_runs(found), *from_parameters()]
 
 
-def table(all_claims: Sequence[Claim]) -> str:
-    """Return the claims on sections 4 and 5 and table B.1 among others as Markdown."""
+def from_runs(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
+    """Return the sentences whose numbers come from rows."""
+    return [*_learned(found), *_transitions(found), *_searches(found)]
+
+
+def from_parameters() -> list[Claim]:
+    """Return the sentences whose numbers follow from the parameters of the model, then table B.1."""
+    return [*_nodes(), *_satisfaction(), *_colour_space(), *_table()]
+
+
+def runs_table(found: Mapping[str, Sequence[Row]]) -> str:
+    """Return the sentences whose numbers come from rows, as Markdown."""
     lines = ["| section | sentence, and the paper's number | deodar | n |", "|---|---|---|---|"]
-    for c in all_claims:
-        section, _, text = c.name.partition(": ")
-        if section[:2] in ("4.", "5.") or section in ("5", "B"):
-            parts = c.value if isinstance(c.value, list) else [c.value]
-            value = ", ".join("open" if part is None else _shown(part) for part in parts)
-            lines.append(f"| {section} | {text} | {value} | {c.n or ''} |")
-    return "\n".join(lines) + "\n"
+    return (
+        "\n".join([*lines, *(f"| {' | '.join(_cells(c))} | {c.n or ''} |" for c in from_runs(found))]) + "\n"
+    )
+
+
+def parameters_table() -> str:
+    """Return the sentences whose numbers follow from parameters, as Markdown; the values of table B.1 that
+    differ have a table of their own.
+    """
+    lines = ["| section | sentence, and the paper's number | deodar |", "|---|---|---|"]
+    said = [c for c in from_parameters() if ", printed " not in c.name]
+    return "\n".join([*lines, *(f"| {' | '.join(_cells(c))} |" for c in said)]) + "\n"
+
+
+def _cells(claim: Claim) -> tuple[str, str, str]:
+    section, _, text = claim.name.partition(": ")
+    parts = claim.value if isinstance(claim.value, list) else [claim.value]
+    return section, text, ", ".join("open" if part is None else _shown(part) for part in parts)
 
 
 def _shown(value: object) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    """Return a number with three digits: none of them is known more precisely."""
+    if not isinstance(value, float):
+        return str(value)
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def _number(section: str, text: str, value: SentenceValue, n: int = 0) -> Claim:
@@ -75,7 +107,7 @@ def _share(section: str, text: str, true: Sequence[bool]) -> Claim:
     return Claim(f"{section}: {text}", value, "none", None, "reported", where, n, interval, origin="none")
 
 
-def _section_4_1() -> list[Claim]:
+def _nodes() -> list[Claim]:
     s, node, memory = STRENGTHS, CHAIN_RESTING["node"], CHAIN_RESTING["memory"]
     on = node + s["c0 self-excitation"]
     kept = memory + s["c4 self-excitation of memory"]
@@ -112,7 +144,7 @@ def _section_4_1() -> list[Claim]:
     ]
 
 
-def _section_4_2(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
+def _learned(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
     rows = found["learning"]
     shapes = np.asarray([shape for r in rows for shape in r["weights"]], float).reshape(-1, 3)
 
@@ -143,7 +175,7 @@ def _section_4_2(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
     ]
 
 
-def _section_4_4(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
+def _transitions(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
     rows = [t for r in found["arena"] for t in r["transitions"]]
     # from the node's off; the third entry is the colour-space field, which is not part of the cascade
     times = [[t[0], 0.0, t[1], t[3], t[4], t[5]] for t in rows]
@@ -160,34 +192,23 @@ def _section_4_4(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
     return out
 
 
-def _section_5(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
-    rows = found["arena"]
-    far = [d for r in rows for d in r["distances"] if np.isfinite(d)]
-    durations = [d for r in rows for d in r["actions"]]
+def _satisfaction() -> list[Claim]:
     rest = CHAIN_RESTING["satisfaction"]
-    values: list[tuple[str, str, float | None, int]] = [
+    values: list[tuple[str, str, float]] = [
         (
-            "5",
-            "a block is found when it looms large: median distance, mm",
-            _median(far),
-            len(far),
+            "4.3",
+            "the action field alone leaves the field of the condition of satisfaction below threshold:"
+            " activation (below 0)",
+            rest + PREDICT,
         ),
+        ("4.3", "sensory input alone does, too: activation (below 0)", rest + LARGE),
+        ("4.3", "both together lift it above threshold: activation (above 0)", rest + PREDICT + LARGE),
         (
-            "5",
-            "the time of a search varies: longest over shortest action",
-            max(durations) / min(durations) if durations else None,
-            len(durations),
+            "4.3",
+            "its peak is self-stabilized: activation at the edge of a peak with the action field alone"
+            " (above 0)",
+            rest + PREDICT + _hysteresis(),
         ),
-    ]
-    out = [
-        _share(
-            "5",
-            "colours are searched in the shown order",
-            [r["sequence"].startswith(r["produced"]) for r in rows],
-        )
-    ]
-    out += [_number(*value) for value in values]
-    model: list[tuple[str, str, float]] = [
         (
             "5.1",
             "a sufficiently large blob of the wanted hue satisfies: share of the central picture",
@@ -199,43 +220,73 @@ def _section_5(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
             rest + LARGE,
         ),
         ("5.1", "a central portion of the picture is input: share of its columns", PATCH),
-        (
-            "5.2",
-            "production, ridge alone: activation of the colour-space field (below 0)",
-            RESTING + RIDGE,
-        ),
-        (
-            "5.2",
-            "production, camera alone, a whole column in one hue: activation (below 0)",
-            RESTING + SEEN,
-        ),
-        (
-            "5.2",
-            "production, both: activation (above 0)",
-            RESTING + RIDGE + SEEN,
-        ),
+    ]
+    return [_number(*value) for value in values]
+
+
+def _hysteresis() -> float:
+    """Return what a peak of the field of the condition of satisfaction contributes at its edge: the most over
+    all widths.
+    """
+    widths = np.arange(HUES // 2)
+    kernel = CHAIN_EXCITATION * np.exp(-(widths**2) / (2 * CHAIN_WIDTH**2))
+    return float((np.cumsum(kernel) - CHAIN_INHIBITION * (widths + 1)).max())
+
+
+def _colour_space() -> list[Claim]:
+    learning = RESTING + TAUGHT + SEEN
+    within = EXCITATION * 2 * np.pi * WIDTH**2
+    wide, narrow = (_attraction(width) for width in (24.0, 12.0))
+    values: list[tuple[str, str, float | list[float]]] = [
+        ("5.2", "production, ridge alone: activation of the colour-space field (below 0)", RESTING + RIDGE),
+        ("5.2", "production, camera alone, a whole column in one hue: activation (below 0)", RESTING + SEEN),
+        ("5.2", "production, both: activation (above 0)", RESTING + RIDGE + SEEN),
         (
             "5.2",
             "production: share of a column from which a block on the ridge makes a peak",
             -(RESTING + RIDGE) / SEEN,
         ),
+        ("5.2", "learning, camera alone suffices: activation (above 0)", learning),
         (
             "5.2",
-            "learning, camera alone suffices: activation (above 0)",
-            RESTING + TAUGHT + SEEN,
+            "learning, one of several objects is selected: samples of a peak that keep a second object below"
+            " threshold, and samples of the largest peak (more)",
+            [round(learning / INHIBITION), round((learning + within) / INHIBITION)],
+        ),
+        (
+            "5.2",
+            "attraction scales with the size of the peak: that of a peak twice as wide at the same place,"
+            " over that of the other (2)",
+            wide / narrow,
         ),
         (
             "5.2",
             "the vehicle is slower near obstacles: speed near over speed elsewhere (0.5)",
             CAUTION / CRUISE,
         ),
-        (
-            "5.2",
-            "infrared sensors (8 in appendix A, 6 in table B.1)",
-            float(len(ANGLES)),
-        ),
+        ("5.2", "infrared sensors (8 in appendix A, 6 in table B.1)", float(len(ANGLES))),
     ]
-    return [*out, *(_number(*value) for value in model)]
+    return [_number(*value) for value in values]
+
+
+def _attraction(width: float, middle: float = 30.0) -> float:
+    """Return the force towards a peak over columns of a width around a middle: the sum of their offsets."""
+    axis = column_axis()
+    inside = np.abs(np.asarray(axis.points) - middle) < width / 2
+    return float(np.asarray(axis.points)[inside].sum())
+
+
+def _searches(found: Mapping[str, Sequence[Row]]) -> list[Claim]:
+    rows = found["arena"]
+    far = [d for r in rows for d in r["distances"] if np.isfinite(d)]
+    durations = [d for r in rows for d in r["actions"]]
+    ratio = max(durations) / min(durations) if durations else None
+    right = [r["sequence"].startswith(r["produced"]) for r in rows]
+    return [
+        _share("5", "colours are searched in the shown order", right),
+        _number("5", "a block is found when it looms large: median distance, mm", _median(far), len(far)),
+        _number("5", "the time of a search varies: longest over shortest action", ratio, len(durations)),
+    ]
 
 
 def _table() -> list[Claim]:

@@ -38,7 +38,8 @@ def write(found: RowsOfConditions) -> dict[str, str]:
         "conditions": conditions(found),
         "transitions": transitions(found),
         "parameters": robustness.table(found),
-        "sentences": sentences.table(sentences.claims(found)),
+        "sentences-runs": sentences.runs_table(found),
+        "sentences-parameters": sentences.parameters_table(),
     }
 
 
