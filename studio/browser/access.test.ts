@@ -113,6 +113,7 @@ test("every control of an open document, also in its menus, has a name", async (
   for (const name of [
     "File menu",
     "Open panels and plots",
+    "What to record",
     "Run settings",
     "Speed: 1×",
     "Settings of this plot",

@@ -2,7 +2,9 @@
 
 import type { DockviewApi, IDockviewPanel } from "dockview-react";
 import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds";
-import { readParams } from "../plots/settings";
+import { readParams, readSettings } from "../plots/settings";
+import { shownPorts } from "../plots/shownPorts";
+import type { RecordedPort } from "../protocol";
 import { useStudio } from "../store";
 import { NARROW, placeFor } from "./placement";
 import { Remembered } from "./remembered";
@@ -46,16 +48,20 @@ export function openPlot(wish: PlotWish): void {
   });
 }
 
-// The ports of all plots.
-export function plottedPorts(): { element: string; port: string }[] {
-  const { elements, kinds } = useStudio.getState();
-  const ports = new Map<string, { element: string; port: string }>();
+// The ports that all plots show.
+export function plottedPorts(): RecordedPort[] {
+  const { document, elements, kinds } = useStudio.getState();
+  const ports = new Map<string, RecordedPort>();
   for (const panel of dock?.panels ?? []) {
-    const { element, port } = readParams(panel.params ?? {});
+    const { element, port, kind, settings } = readParams(panel.params ?? {});
     const found = elements.get(element);
-    if (isPlot(panel) && found !== undefined) {
-      const shown = portsOf(found).includes(port) ? port : mainPort(found, kinds.get(found.kind));
-      ports.set(`${element} ${shown}`, { element, port: shown });
+    if (document !== null && isPlot(panel) && found !== undefined) {
+      const type = kinds.get(found.kind);
+      const main = portsOf(found).includes(port) ? port : mainPort(found, type);
+      const plot = { kind: kind ?? plotKinds(portAxes(document, found, main))[0] ?? "course", port: main };
+      for (const one of shownPorts(document, found, type, plot, readSettings(settings))) {
+        ports.set(`${one.element} ${one.port}`, one);
+      }
     }
   }
   return [...ports.values()];

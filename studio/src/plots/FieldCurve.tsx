@@ -11,7 +11,7 @@ import { Chip } from "./Chip";
 import { inOrder, portColor } from "./colors";
 import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
-import { axisLabel, mainPort, points, portAxes, portsAlike } from "./kinds";
+import { axisLabel, points, portAxes, portsAlike } from "./kinds";
 import { type Level, pushAmplitude } from "./levels";
 import { drawLevels } from "./levelLines";
 import { axis, frame, type Look } from "./look";
@@ -21,6 +21,7 @@ import { CalmRange, reading, union } from "./range";
 import { RangeControl } from "./RangeControl";
 import { allAxes } from "./section";
 import { SectionStrip } from "./SectionStrip";
+import { curveLevel, firstCurves, LEVELS } from "./shownPorts";
 import type { Injection } from "./spot";
 import { type ChartOptions, useChart } from "./useChart";
 import { useLatest } from "./useLatest";
@@ -28,19 +29,17 @@ import { useLevels } from "./useLevels";
 import { useStreams } from "./useStreams";
 
 const MOST = 600;
-const LEVELS = "levels";
 const ROOM = 0.03;
 
 export function FieldCurve(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
   const scheme = useComputedColorScheme("light", { getInitialValueInEffect: false });
   const kind = useStudio((state) => state.kinds.get(element.kind));
-  const main = mainPort(element, kind);
   const ports = inOrder(portsAlike(element, port));
-  const level = ports.includes(main) ? main : port;
+  const level = curveLevel(element, kind, port);
   const names = Object.keys(kind?.levels[level] ?? {});
   const recorded = useStudio((state) => state.document?.record?.ports[element.id]);
-  const shown = settings.shown ?? firstShown(ports, level, recorded);
+  const shown = settings.shown ?? firstCurves(ports, level, recorded);
   const curves = ports.filter((other) => shown.includes(other));
   const withLevels = names.length > 0 && shown.includes(LEVELS);
 
@@ -218,13 +217,6 @@ export function FieldCurve(props: PlotProps) {
       />
     </PlotFrame>
   );
-}
-
-// Of a record, only what was recorded, unless nothing was.
-function firstShown(ports: string[], level: string, recorded?: string[]): string[] {
-  const first = [level, ...ports.filter((port) => port === "output")];
-  const there = first.filter((port) => recorded?.includes(port) ?? true);
-  return [...new Set([...(there.length > 0 ? there : first), LEVELS])];
 }
 
 function columns(lives: Live[]): uPlot.AlignedData {

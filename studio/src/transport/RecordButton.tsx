@@ -1,4 +1,4 @@
-// Records what is plotted, or all fields, into a new folder; a second press ends the record.
+// Records what is plotted or chosen into a new folder; a second press ends the record.
 
 import { ActionIcon, Tooltip } from "@mantine/core";
 import { IconPlayerRecordFilled, IconPlayerStopFilled } from "@tabler/icons-react";
@@ -8,31 +8,41 @@ import { leave } from "../files/flows";
 import { plottedPorts } from "../panels/openPlot";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { RecordMenu } from "./RecordMenu";
+import { unitText } from "./format";
+import { choiceFor, useRecordChoice } from "./recordChoice";
 import classes from "./Transport.module.css";
 
 export function RecordButton() {
   const recording = useStudio((state) => state.clock?.recording ?? null);
   const open = recording !== null && recording.ended === "";
   useEnding(recording?.path ?? "", recording?.ended ?? "");
-  const label = open
-    ? `Stop recording into ${recording.path}`
-    : "Record what is plotted, at every step, into a new folder";
+  const session = useStudio((state) => state.session);
+  const unit = useStudio((state) => unitText(state.document?.time_unit ?? ""));
+  useRecordChoice();
+  const { ports, every } = choiceFor(session);
+  const what = ports === null ? "what is plotted" : "the ports chosen";
+  const when = every === null ? "at every step" : `every ${every}${unit === "" ? "" : ` ${unit}`}`;
+  const label = open ? `Stop recording into ${recording.path}` : `Record ${what}, ${when}, into a new folder`;
   const press = () =>
-    request(open ? { type: "stop_record" } : { type: "start_record", ports: plottedPorts() });
+    request(open ? { type: "stop_record" } : { type: "start_record", ports: ports ?? plottedPorts(), every });
   return (
-    <Tooltip label={label}>
-      <ActionIcon
-        aria-label={open ? "Stop recording" : "Record"}
-        aria-pressed={open}
-        size={28}
-        color="red"
-        variant={open ? "filled" : "subtle"}
-        className={classes.record}
-        onClick={() => void press()}
-      >
-        {open ? <IconPlayerStopFilled size={16} /> : <IconPlayerRecordFilled size={16} />}
-      </ActionIcon>
-    </Tooltip>
+    <>
+      <Tooltip label={label}>
+        <ActionIcon
+          aria-label={open ? "Stop recording" : "Record"}
+          aria-pressed={open}
+          size={28}
+          color="red"
+          variant={open ? "filled" : "subtle"}
+          className={classes.record}
+          onClick={() => void press()}
+        >
+          {open ? <IconPlayerStopFilled size={16} /> : <IconPlayerRecordFilled size={16} />}
+        </ActionIcon>
+      </Tooltip>
+      <RecordMenu disabled={open} />
+    </>
   );
 }
 

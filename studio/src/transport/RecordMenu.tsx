@@ -1,0 +1,135 @@
+// The choice of what the next record holds: ports to tick, the plotted ones at first, and how often they are
+// sampled.
+
+import {
+  ActionIcon,
+  Button,
+  Checkbox,
+  NumberInput,
+  Popover,
+  ScrollArea,
+  TextInput,
+  Tooltip,
+} from "@mantine/core";
+import { IconChevronDown } from "@tabler/icons-react";
+import { useState } from "react";
+
+import { plottedPorts } from "../panels/openPlot";
+import type { RecordedPort } from "../protocol";
+import { useStudio } from "../store";
+import { countText, unitText } from "./format";
+import { choiceFor, findPorts, isIn, portName, toggled, useRecordChoice } from "./recordChoice";
+import classes from "./RecordMenu.module.css";
+
+// More ports than MANY have a search; at most MOST rows are listed.
+const MANY = 8;
+const MOST = 60;
+
+export function RecordMenu({ disabled }: { disabled: boolean }) {
+  const [opened, setOpened] = useState(false);
+  return (
+    <Popover
+      opened={opened}
+      onChange={setOpened}
+      position="bottom"
+      withArrow
+      shadow="md"
+      trapFocus
+      returnFocus
+    >
+      <Popover.Target>
+        <Tooltip label="Choose ports and interval of the record" disabled={opened}>
+          <ActionIcon
+            aria-label="What to record"
+            size={28}
+            w={24}
+            miw={24}
+            disabled={disabled}
+            onClick={() => setOpened(!opened)}
+          >
+            <IconChevronDown size={13} />
+          </ActionIcon>
+        </Tooltip>
+      </Popover.Target>
+      <Popover.Dropdown p="md" w={300}>
+        <Choice />
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
+
+function Choice() {
+  const session = useStudio((state) => state.session);
+  const document = useStudio((state) => state.document);
+  const unit = unitText(document?.time_unit ?? "");
+  useRecordChoice();
+  const { ports, every } = choiceFor(session);
+  const [search, setSearch] = useState("");
+  const elements = document?.elements ?? [];
+  const ticked = ports ?? plottedPorts();
+  // Ports that were ticked while the list is open stay where they are.
+  const [first] = useState(ticked);
+  const found = findPorts(elements, first, search);
+  const paths = new Map(elements.map((element) => [element.id, element]));
+  const count = ticked.filter(({ element }) => paths.has(element)).length;
+  const choose = (next: RecordedPort[] | null) => useRecordChoice.setState({ session, ports: next, every });
+  return (
+    <div className={classes.choice}>
+      {findPorts(elements, [], "").length > MANY && (
+        <TextInput
+          size="xs"
+          placeholder="Find a port"
+          aria-label="Find a port to record"
+          value={search}
+          onChange={(event) => setSearch(event.currentTarget.value)}
+          data-autofocus
+        />
+      )}
+      <ScrollArea.Autosize mah={240} type="auto">
+        <div className={classes.ports} role="group" aria-label="Ports to record">
+          {found.slice(0, MOST).map((port) => {
+            const element = paths.get(port.element);
+            const name = element === undefined ? "" : portName(element, port.port);
+            return (
+              <Checkbox
+                key={name}
+                size="xs"
+                label={name}
+                title={name}
+                checked={isIn(ticked, port)}
+                onChange={() => choose(toggled(ticked, port))}
+              />
+            );
+          })}
+        </div>
+        {found.length > MOST && <p className={classes.hint}>{found.length - MOST} more: type to find them</p>}
+        {found.length === 0 && <p className={classes.hint}>No port has this name.</p>}
+      </ScrollArea.Autosize>
+      <p className={classes.hint}>
+        {count === 0
+          ? "None is ticked: the activation of every field is recorded."
+          : `${countText(count)} ${count === 1 ? "port" : "ports"}`}
+      </p>
+      <Button size="compact-xs" variant="default" onClick={() => choose(null)}>
+        Tick what is plotted
+      </Button>
+      <NumberInput
+        label="Sampling interval"
+        size="xs"
+        value={every ?? ""}
+        onChange={(value) =>
+          useRecordChoice.setState({
+            session,
+            ports,
+            every: typeof value === "number" && value > 0 ? value : null,
+          })
+        }
+        min={0}
+        hideControls
+        placeholder="every step"
+        suffix={unit === "" ? "" : ` ${unit}`}
+      />
+      <p className={classes.hint}>A multiple of the time step. Empty: every step.</p>
+    </div>
+  );
+}
