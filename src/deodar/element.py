@@ -197,6 +197,8 @@ class Element(Part):
             of `input`.
         levels: for a port, the parameters that are levels on its scale, by their names in plots, which draw
             them as lines.
+        maps: for an array parameter that is a map from a source to a target, the ports whose axes its
+            dimensions have, in their order; plots draw it over these axes.
     """
 
     name: Annotated[str, Recompile(meaning="name inside its group")] = dc.field(default="", kw_only=True)
@@ -211,6 +213,7 @@ class Element(Part):
     convolution: ClassVar[Convolution | None] = None
     scaled_by: ClassVar[str] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
+    maps: ClassVar[Mapping[str, tuple[str, ...]]] = {}
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)

@@ -622,10 +622,10 @@ export type InsertElement = {
 // A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 //
 // `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
-// parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
-// parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens,
-// `names` what it opens besides files, and `settings` the values that it is made from; empty: it cannot be
-// opened.
+// parameters that are levels on its scale (threshold, resting level), `maps` for each array parameter from a
+// source to a target the ports whose axes its dimensions have. `example` is the initial value of a parameter
+// whose value is a part of this kind. `opens` lists the endings of the files that a world opens, `names` what
+// it opens besides files, and `settings` the values that it is made from; empty: it cannot be opened.
 export type Kind = {
   name: string;
   room: string;
@@ -635,6 +635,7 @@ export type Kind = {
   parameters: ParameterForm[];
   ports: Record<string, string>;
   levels: Record<string, Record<string, string>>;
+  maps: Record<string, string[]>;
   example: unknown;
   opens: string[];
   names: string[];
@@ -1482,6 +1483,7 @@ export type ToServer =
   | WatchTrace
   | WatchRows
   | WatchKernel
+  | WatchWeights
   | Unwatch
   | Drawn
   | NewExperiment
@@ -1621,6 +1623,21 @@ export type WatchTrace = {
   reduce?: "at" | "max" | "mean";
   at?: number[];
   other?: boolean;
+};
+
+// Send an array parameter that is a map from a source to a target (`Kind.maps`), as it is now.
+//
+// `most`, `drawn`, `at` and `other` as in `watch`.
+export type WatchWeights = {
+  type: "weights";
+  request?: number;
+  stream: number;
+  element: string;
+  parameter: string;
+  most?: number;
+  other?: boolean;
+  drawn?: string[];
+  at?: Record<string, number>;
 };
 
 // Start or stop sending `bodies`.

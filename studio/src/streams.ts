@@ -2,17 +2,18 @@
 // for each picture the browser draws, with the newest frame. Equal requests share one stream.
 
 import type { Frame } from "./frames";
-import type { Announced, Lost, Watch, WatchKernel, WatchRows, WatchTrace } from "./protocol";
+import type { Announced, Lost, Watch, WatchKernel, WatchRows, WatchTrace, WatchWeights } from "./protocol";
 import { History } from "./history";
 import { Rows } from "./rows";
 
-type Watching = Watch | WatchTrace | WatchRows | WatchKernel;
+type Watching = Watch | WatchTrace | WatchRows | WatchKernel | WatchWeights;
 
 export type Wish =
   | Omit<Watch, "stream" | "request">
   | Omit<WatchTrace, "stream" | "request">
   | Omit<WatchRows, "stream" | "request">
-  | Omit<WatchKernel, "stream" | "request">;
+  | Omit<WatchKernel, "stream" | "request">
+  | Omit<WatchWeights, "stream" | "request">;
 
 export type Live = {
   // The format of the stream; null until the server has sent it.

@@ -83,6 +83,36 @@ def test_a_page_watches_the_kernel_of_a_field_as_its_parameters_are_now(root: Pa
         play(address, scene)
 
 
+def test_a_page_watches_fixed_weights_over_the_axes_of_target_and_source(root: Path) -> None:
+    x, y = dd.Axis("x", 0, 10, samples=4), dd.Axis("y", 0, 10, samples=5)
+    weights = np.random.default_rng(0).normal(size=(4, 5, 4))
+    model = dd.Model("weights")
+    source = model.add(dd.Field("source", [y, x]))
+    source >> model.add(dd.Weights(weights, [x], name="map")) >> model.add(dd.Field("target", [x]))
+    dd.save(model, root / "weights.json")
+    whole = weights.astype(np.float32)
+
+    async def scene(p: Page) -> None:
+        await p.open("open_file", path="weights.json")
+        ident = p.element("map")
+        await p.do("weights", stream=1, element=ident, parameter="weights")
+        await p.do("weights", stream=2, element=ident, parameter="weights", drawn=["y", "x"], at={"x 2": 10})
+        await p.do("weights", stream=3, element=p.element("source"), parameter="weights")
+        await p.until(lambda: {1, 2} <= p.frames.keys() and 3 in p.lost)
+        assert np.array_equal(p.frames[1][1], whole.max(axis=2))
+        assert np.array_equal(p.frames[2][1], whole[:, :, 3].T)
+        said = [[a["name"] for a in p.forms[1][key]] for key in ("axes", "rest")]
+        assert said == [["x", "y"], ["x 2"]] and p.forms[1]["folded"] == ["x 2"]
+        assert "no weights 'weights'" in p.lost[3]["problem"]["what"]
+        count = len([m for m in p.all if m["type"] == "announced"])
+        await p.do("step", n=5)
+        await p.until(lambda: p.clock["tick"] == 5)
+        assert len([m for m in p.all if m["type"] == "announced"]) == count
+
+    with studio(root) as address:
+        play(address, scene)
+
+
 def test_a_user_opens_a_file_creates_a_peak_removes_it_and_undoes_the_change(root: Path) -> None:
     """Open, run to a peak, lower the resting level until it decays, undo, save, and open the saved file."""
 

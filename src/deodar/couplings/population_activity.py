@@ -63,6 +63,7 @@ class PopulationActivity(Coupling):
     ] = False
 
     linear: ClassVar[bool] = True
+    maps: ClassVar[Mapping[str, tuple[str, ...]]] = {"tuning": ("input", "output")}
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:

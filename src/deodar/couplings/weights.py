@@ -50,6 +50,7 @@ class Weights(Coupling):
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
 
     linear: ClassVar[bool] = True
+    maps: ClassVar[Mapping[str, tuple[str, ...]]] = {"weights": ("output", "input")}
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:

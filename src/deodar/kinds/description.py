@@ -36,6 +36,7 @@ class Description:
         ports: what each port carries; of a world, its sensors and motors.
         shapes: shapes of arrays, in one line.
         levels: for a port, the parameters that are levels on its scale (threshold, resting level).
+        maps: for an array parameter from a source to a target, the ports whose axes its dimensions have.
         reference: where the equation comes from; "" where the docstring says: no reference.
         example: a value to start from, where the kind stands inside an element; None otherwise.
         opens: endings of the files that a world opens.
@@ -55,6 +56,7 @@ class Description:
     ports: Mapping[str, str]
     shapes: str
     levels: Mapping[str, Mapping[str, str]]
+    maps: Mapping[str, tuple[str, ...]]
     reference: str
     example: Json
     opens: tuple[str, ...] = ()
@@ -101,6 +103,7 @@ def describe(cls: type, known: Mapping[str, type] | None = None) -> Description:
         ports=_ports(cls, doc, example),
         shapes=doc.line("Shapes"),
         levels=dict(cls.levels) if issubclass(cls, Element) else {},
+        maps=dict(cls.maps) if issubclass(cls, Element) else {},
         reference="" if reference == "no reference" else reference,
         example=plain(example) if example is not None and not isinstance(example, Element) else None,
         opens=cls.opens if issubclass(cls, World) else (),

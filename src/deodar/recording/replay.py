@@ -149,6 +149,17 @@ class RecordReader:
             )
         return self._recorded[name]
 
+    def document_axes(self, place: PortPlace) -> Axes:
+        """Return the axes of a port in the document, whether it was recorded or not.
+
+        Raises:
+            RecordError: the document has no such port, or its axes are not known.
+        """
+        axes = self._axes.get(place[0], {}).get(place[1])
+        if axes is None:
+            raise RecordError(f"the axes of {place[1]!r} are not known")
+        return axes
+
     def axes(self, place: PortPlace) -> Axes:
         """Return the axes of a recorded port.
 

@@ -7,7 +7,7 @@ import dataclasses as dc
 import math
 
 from deodar.live.published import PublishedState
-from deodar.server.kernel_stream import KernelStream
+from deodar.server.parameter_stream import ParameterStream
 from deodar.server.record_frames import RecordFrames
 from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
@@ -42,7 +42,7 @@ class Page:
 
     def __init__(self, number: int) -> None:
         self.number = number
-        self.streams: dict[int, Stream | KernelStream] = {}
+        self.streams: dict[int, Stream | ParameterStream] = {}
         self.pushes = False
         self.sent_bodies: SentBodies | None = None
         self.identity: object = None

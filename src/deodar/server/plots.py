@@ -34,6 +34,7 @@ OWN = (
     "surface",
     "volume",
     "kernel",
+    "weights",
     "multiples",
 )
 """The names of the plots of deodar, which the page draws (`studio/src/plots/kinds.ts`)."""

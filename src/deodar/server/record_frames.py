@@ -114,6 +114,9 @@ class RecordFrames:
     def axes(self, place: PortKey) -> Axes:
         return self.record.axes(place)
 
+    def document_axes(self, place: PortKey) -> Axes:
+        return self.record.document_axes(place)
+
     def element(self, ident: str) -> Element:
         return element_of(self.record.document, ident)
 

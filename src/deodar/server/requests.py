@@ -36,6 +36,7 @@ from deodar.server.page import Page
 from deodar.server.scene import SentBodies
 from deodar.server.stream import Stream
 from deodar.server.to_page import Answer, Fits, Folder
+from deodar.server.weights_stream import WeightsStream
 from deodar.session.recorder import compile_records
 from deodar.session.session import Session
 from deodar.worlds._base import World
@@ -519,6 +520,14 @@ async def _kernel(hub: Hub, page: Page, m: to_server.WatchKernel) -> None:
     # the first shape compiles the formula of the kernel, for up to seconds
     await asyncio.to_thread(stream.compute, source)
     page.streams[m.stream] = stream
+    hub.watch()
+
+
+@handles(to_server.WatchWeights)
+async def _weights(hub: Hub, page: Page, m: to_server.WatchWeights) -> None:
+    _require_room(hub, page, m.stream)
+    section = Section(tuple(m.drawn), tuple(m.at.items()))
+    page.streams[m.stream] = WeightsStream(m.stream, m.element, m.parameter, section, m.most, m.other)
     hub.watch()
 
 

@@ -43,6 +43,10 @@ class FrameSource(Protocol):
         """Return the axes of a port, or raise DeodarError: the port has no frames."""
         ...
 
+    def document_axes(self, place: PortKey) -> Axes:
+        """Return the axes of a port, also where it has no frames, or raise DeodarError: they are unknown."""
+        ...
+
     def element(self, ident: str) -> Element:
         """Return an element with its parameters as they are now, or raise DeodarError: it does not exist."""
         ...
@@ -114,6 +118,9 @@ class RunFrames:
             return program.axes(program.port(ident, port))
         except KeyError:
             raise ModelError(f"has no port {port!r}", where=ident) from None
+
+    def document_axes(self, place: PortKey) -> Axes:
+        return self.axes(place)
 
     def element(self, ident: str) -> Element:
         session = self._engine.session

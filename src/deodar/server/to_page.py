@@ -65,7 +65,8 @@ class Kind(Data, frozen=True):
     """A registered kind: the part of its description (`deodar.kinds`) that forms, equations and plots need.
 
     `room` is elements, couplings, kernels, sigmoids, windows, worlds or own. `levels` lists for each port the
-    parameters that are levels on its scale (threshold, resting level). `example` is the initial value of a
+    parameters that are levels on its scale (threshold, resting level), `maps` for each array parameter from a
+    source to a target the ports whose axes its dimensions have. `example` is the initial value of a
     parameter whose value is a part of this kind. `opens` lists the endings of the files that a world opens,
     `names` what it opens besides files, and `settings` the values that it is made from; empty: it cannot be
     opened.
@@ -79,6 +80,7 @@ class Kind(Data, frozen=True):
     parameters: list[ParameterForm]
     ports: dict[str, str]
     levels: dict[str, dict[str, str]]
+    maps: dict[str, list[str]]
     example: Any
     opens: list[str]
     names: list[str]

@@ -774,6 +774,22 @@ class WatchKernel(Request, frozen=True, kw_only=True, tag="kernel"):
 
 
 @MESSAGES.register
+class WatchWeights(Request, frozen=True, kw_only=True, tag="weights"):
+    """Send an array parameter that is a map from a source to a target (`Kind.maps`), as it is now.
+
+    `most`, `drawn`, `at` and `other` as in `watch`.
+    """
+
+    stream: Count
+    element: Id
+    parameter: Text
+    most: Count = 0
+    other: bool = False
+    drawn: list[Text] = []
+    at: dict[Text, float] = {}
+
+
+@MESSAGES.register
 class Unwatch(Request, frozen=True, kw_only=True, tag="unwatch"):
     """End a stream."""
 

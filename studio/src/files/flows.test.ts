@@ -31,6 +31,7 @@ const picture: Kind = {
   parameters: [],
   ports: {},
   levels: {},
+  maps: {},
   example: null,
   opens: [".png"],
   names: [],

@@ -65,6 +65,7 @@ export function fakeKind(name: string, room: string, more: Partial<Kind> = {}): 
     parameters: [],
     ports: {},
     levels: {},
+    maps: {},
     example: null,
     opens: [],
     names: [],

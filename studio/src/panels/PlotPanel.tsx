@@ -4,7 +4,16 @@ import type { IDockviewPanelProps } from "dockview-react";
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
 import { FieldCurve } from "../plots/FieldCurve";
 import { HeatMap } from "../plots/HeatMap";
-import { elementsAlike, isOwn, mainPort, type OwnPlot, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import {
+  elementsAlike,
+  isOwn,
+  mainPort,
+  type OwnPlot,
+  plotKinds,
+  portAxes,
+  portsOf,
+  weightsOf,
+} from "../plots/kinds";
 import { Kernel } from "../plots/Kernel";
 import { Multiples } from "../plots/Multiples";
 import { PackagedPlot } from "../plots/PackagedPlot";
@@ -14,6 +23,7 @@ import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
 import { SpaceTime } from "../plots/SpaceTime";
 import { TimeCourse } from "../plots/TimeCourse";
+import { Weights } from "../plots/Weights";
 import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
@@ -32,6 +42,7 @@ const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   surface: Surface,
   volume: Volume,
   kernel: Kernel,
+  weights: Weights,
   multiples: Multiples,
 };
 
@@ -43,15 +54,14 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
       ? plot.port
       : mainPort(element, useStudio.getState().kinds.get(element.kind)),
   );
-  const offered = useStudio(({ document, welcome }) =>
+  const offered = useStudio(({ document, welcome, kinds: types }) =>
     element === undefined || document === null
       ? "course"
-      : plotKinds(
-          portAxes(document, element, port),
-          welcome?.plots,
-          element.kernel,
-          elementsAlike(document, element, port).length > 1,
-        ).join(),
+      : plotKinds(portAxes(document, element, port), welcome?.plots, {
+          kernel: element.kernel,
+          weights: weightsOf(document, element, types.get(element.kind)).length > 0,
+          several: elementsAlike(document, element, port).length > 1,
+        }).join(),
   );
   const visible = useVisible(api);
   const compared = useStudio((state) => state.comparison !== null);

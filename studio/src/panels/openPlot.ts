@@ -107,7 +107,7 @@ export function plotTitle({ element, kind }: { element: string; kind: PlotKind |
     return "Plot";
   }
   const over = kind === "course" || kind === "space_time";
-  const of = { kernel: "Kernel", phase: "Phase", multiples: "Multiples" }[kind ?? ""];
+  const of = { kernel: "Kernel", weights: "Weights", phase: "Phase", multiples: "Multiples" }[kind ?? ""];
   return over ? `${found.name} over time` : of === undefined ? found.name : `${of} of ${found.name}`;
 }
 

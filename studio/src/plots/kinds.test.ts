@@ -19,6 +19,7 @@ import {
   runsDown,
   stepOf,
   titleOf,
+  weightsOf,
 } from "./kinds";
 
 const axis = (key: string, samples = 11, more: Partial<AxisView> = {}): AxisView => ({
@@ -81,8 +82,16 @@ describe("kinds of plots", () => {
       "volume",
     ]);
     expect(plotKinds([x, y, channel])).toEqual(["picture", "course"]);
+    expect(plotKinds([x], [], { weights: true })).toContain("weights");
+    expect(plotKinds(null, [], { weights: true })).toContain("weights");
     expect(isPicture([x, y, { ...channel, samples: 4 }])).toBe(false);
-    expect(plotKinds([x], [], true)).toEqual(["curve", "course", "space_time", "phase", "kernel"]);
+    expect(plotKinds([x], [], { kernel: true })).toEqual([
+      "curve",
+      "course",
+      "space_time",
+      "phase",
+      "kernel",
+    ]);
   });
 
   it("show several elements with the same port over the same axes side by side", () => {
@@ -95,8 +104,8 @@ describe("kinds of plots", () => {
       element("d", "k", { sum: ["x"] }),
     );
     expect(elementsAlike(document, one, "output").map(({ id }) => id)).toEqual(["a", "b"]);
-    expect(plotKinds([x], [], false, true)).toContain("multiples");
-    expect(plotKinds([], [], false, true)).toContain("multiples");
+    expect(plotKinds([x], [], { several: true })).toContain("multiples");
+    expect(plotKinds([], [], { several: true })).toContain("multiples");
     expect(plotKinds([x])).not.toContain("multiples");
   });
 
@@ -119,6 +128,15 @@ describe("kinds of plots", () => {
       true,
     ]);
     expect([[x], [hue]].map((axes) => fits(plot(1, true), axes))).toEqual([false, true]);
+  });
+
+  it("of weights need an array parameter over two axes or more", () => {
+    const type = { maps: { weights: ["output", "input"] } } as unknown as Kind;
+    const map = element("a", "k", { output: ["x"], input: ["y"] }, ["input"]);
+    expect(weightsOf(documentOf(map), map, type)).toEqual([{ name: "weights", ports: ["output", "input"] }]);
+    expect(weightsOf(documentOf(map), map, undefined)).toEqual([]);
+    const row = element("b", "k", { output: [], input: ["y"] }, ["input"]);
+    expect(weightsOf(documentOf(row), row, type)).toEqual([]);
   });
 
   it("have the titles of the page or of the package", () => {

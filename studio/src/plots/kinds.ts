@@ -12,6 +12,7 @@ export type OwnPlot =
   | "surface"
   | "volume"
   | "kernel"
+  | "weights"
   | "multiples";
 
 // A plot of the page, or the name of one of an installed package.
@@ -27,6 +28,7 @@ export const PLOT_TITLES: Record<OwnPlot, string> = {
   surface: "Surface",
   volume: "Volume slices",
   kernel: "Interaction kernel",
+  weights: "Weights",
   multiples: "Small multiples",
 };
 
@@ -39,17 +41,19 @@ export function portAxes(document: DocumentView, element: ElementView, port: str
   return found === undefined || found.includes(undefined) ? null : (found as AxisView[]);
 }
 
-// The kinds of plot for an array over these axes, of an element with or without an interaction kernel; the
-// best one first, those of packages last.
+// What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
+// elements that have the port over the same axes.
+export type Further = { kernel?: boolean; weights?: boolean; several?: boolean };
+
+// The kinds of plot for an array over these axes; the best one first, those of packages last.
 export function plotKinds(
   axes: AxisView[] | null,
   packaged: PlotView[] = [],
-  kernel = false,
-  several = false,
+  { kernel = false, weights = false, several = false }: Further = {},
 ): PlotKind[] {
   const multiples = several && !(axes !== null && isPicture(axes)) ? ["multiples"] : [];
   if (axes === null || axes.length === 0) {
-    return ["course", "phase", ...multiples];
+    return ["course", "phase", ...(weights ? ["weights"] : []), ...multiples];
   }
   const own = isPicture(axes)
     ? ["picture", "course"]
@@ -60,6 +64,7 @@ export function plotKinds(
     ...own,
     ...(axes.length > 2 && !isPicture(axes) ? ["volume"] : []),
     ...(kernel ? ["kernel"] : []),
+    ...(weights ? ["weights"] : []),
     ...multiples,
     ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
   ];
@@ -96,6 +101,21 @@ export function titleOf(kind: PlotKind, packaged: PlotView[]): string {
 export function isPicture(axes: AxisView[]): boolean {
   const last = axes[2];
   return axes.length === 3 && last?.name === "channel" && last.samples === CHANNELS;
+}
+
+export type WeightsView = { name: string; ports: string[] };
+
+// The array parameters of an element from a source to a target, with the ports whose axes their dimensions
+// have; those over at least two axes.
+export function weightsOf(
+  document: DocumentView,
+  element: ElementView,
+  kind: Kind | undefined,
+): WeightsView[] {
+  return Object.entries(kind?.maps ?? {}).flatMap(([name, ports]) => {
+    const axes = ports.flatMap((port) => portAxes(document, element, port) ?? []);
+    return axes.length < 2 ? [] : [{ name, ports }];
+  });
 }
 
 // Every port of an element, outputs before inputs.

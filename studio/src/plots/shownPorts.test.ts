@@ -32,8 +32,9 @@ it("time courses and phase plots show ports of several elements", () => {
   expect(shown("phase", { up: { ...trace, at: [] } })).toEqual(["u activation", "v output"]);
 });
 
-it("small multiples show one port of all elements alike, and a kernel none", () => {
+it("small multiples show one port of all elements alike, kernel and weights none", () => {
   expect(shown("multiples")).toEqual(["u activation", "v activation"]);
   expect(shown("heat")).toEqual(["u activation"]);
   expect(shown("kernel")).toEqual([]);
+  expect(shown("weights")).toEqual([]);
 });

@@ -29,6 +29,7 @@ export function shownPorts(
     case "multiples":
       return elementsAlike(document, element, port).map(({ id }) => ({ element: id, port }));
     case "kernel":
+    case "weights":
       return [];
     default:
       return [own];

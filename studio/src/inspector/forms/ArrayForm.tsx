@@ -1,15 +1,42 @@
-// An array: its shape and range, read only.
+// An array: its shape and range, read only, and a button that plots it where it has two axes or more.
 
+import { ActionIcon, Tooltip } from "@mantine/core";
+import { IconChartGridDots } from "@tabler/icons-react";
+
+import { openPlot } from "../../panels/openPlot";
+import { weightsOf } from "../../plots/kinds";
+import { useStudio } from "../../store";
 import { numberText } from "../numbers/number";
 import { ParameterRow } from "../parameters/ParameterRow";
+import { usePlace } from "../place";
 import type { FormProps } from "./props";
 
 export function ArrayForm({ form, path, value }: FormProps) {
+  const { element } = usePlace();
+  const plotted = useStudio(({ document, elements, kinds }) => {
+    const found = elements.get(element);
+    return (
+      document !== null &&
+      found !== undefined &&
+      weightsOf(document, found, kinds.get(found.kind)).some(({ name }) => name === path)
+    );
+  });
   return (
     <ParameterRow form={form} path={path} value={value} inline onReset={() => undefined}>
       <span className="dim one-line grow" title={arrayText(value)}>
         {arrayText(value)}
       </span>
+      {plotted && (
+        <Tooltip label={`Plot ${path}`}>
+          <ActionIcon
+            size="sm"
+            aria-label={`Plot ${path}`}
+            onClick={() => openPlot({ element, kind: "weights" })}
+          >
+            <IconChartGridDots size={15} />
+          </ActionIcon>
+        </Tooltip>
+      )}
     </ParameterRow>
   );
 }

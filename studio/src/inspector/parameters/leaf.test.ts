@@ -34,6 +34,7 @@ const kind = (name: string, parameters: ParameterForm[]): [string, Kind] => [
     parameters,
     ports: {},
     levels: {},
+    maps: {},
     example: null,
     opens: [],
     names: [],
