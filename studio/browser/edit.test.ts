@@ -115,6 +115,92 @@ test("elements are grouped, the group is renamed, and dissolved", async () => {
   await observer.until(() => paths() === "a,b,u");
 });
 
+/** Hold a box or the title of a group, drag it to a place of the screen, and release it there. */
+async function dragTo(
+  from: { x: number; y: number },
+  to: { x: number; y: number },
+  marked: Locator,
+): Promise<void> {
+  const { page } = studio;
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2, { steps: 3 });
+  await page.mouse.move(to.x, to.y, { steps: 3 });
+  await marked.waitFor();
+}
+
+const head = async (path: string) => {
+  const { x, y } = await placeOf(box(studio.page, path));
+  return { x: x + 20, y: y + 12 };
+};
+
+test("a box is dragged into an open group and out of it, each as one step of undo", async () => {
+  const { page } = studio;
+  await observer.ask({ type: "group", elements: [observer.element("u").id], name: "g" });
+  const frame = page.locator(".graph-frame");
+  await frame.waitFor();
+  await button(page, "Show everything").click();
+  const before = at("b");
+  const { x, y, width, height } = await placeOf(frame);
+  await dragTo(await head("b"), { x: x + 12, y: y + height - 12 }, page.locator(".graph-frame[data-into]"));
+  await shot(page, "edit-drag-into");
+  await page.mouse.up();
+  await observer.until(() => paths() === "a,g.b,g.u");
+  await page.locator(".graph-frame[data-into]").waitFor({ state: "detached" });
+  expect(at("g.b"), "it stays where it was released").not.toEqual(before);
+  await box(page, "g.b").waitFor();
+  await page.keyboard.press("Control+z");
+  await observer.until(() => paths() === "a,b,g.u");
+  expect(at("b")).toEqual(before);
+  await page.keyboard.press("Control+Shift+z");
+  await observer.until(() => paths() === "a,g.b,g.u");
+  await box(page, "g.b").waitFor();
+  await button(page, "Show everything").click();
+
+  const wide = await placeOf(frame);
+  const out = { x: wide.x + wide.width + 30, y: wide.y + wide.height / 2 };
+  await dragTo(await head("g.b"), out, page.locator(".graph[data-into]"));
+  await shot(page, "edit-drag-out");
+  await page.mouse.up();
+  await observer.until(() => paths() === "a,b,g.u");
+  expect(width).toBeLessThan(wide.width + 1);
+});
+
+test("a box and a group are dragged onto a folded group, and lie in it when it is opened", async () => {
+  const { page } = studio;
+  const ids = (names: string[]) => names.map((name) => observer.element(name).id);
+  await observer.ask({ type: "group", elements: ids(["u"]), name: "g" });
+  await observer.ask({ type: "group", elements: ids(["b"]), name: "h" });
+  await observer.ask({ type: "arrange", layout: { folded: ["g"] }, undoable: false });
+  const folded = page.getByRole("group", { name: /^Group g, folded/ });
+  await folded.waitFor();
+  await button(page, "Show everything").click();
+  const over = async () => {
+    const { x, y, width, height } = await placeOf(folded);
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  const taken = page.locator(".graph-folded[data-into]");
+  await dragTo(await head("a"), await over(), taken);
+  await shot(page, "edit-drag-folded");
+  await page.mouse.up();
+  await observer.until(() => paths() === "g.a,g.u,h.b");
+  await box(page, "a").waitFor({ state: "detached" });
+  await button(page, "Show everything").click();
+  const title = await placeOf(page.locator(".graph-frame-title"));
+  await dragTo({ x: title.x + title.width - 8, y: title.y + title.height / 2 }, await over(), taken);
+  await page.mouse.up();
+  await observer.until(() => paths() === "g.a,g.h.b,g.u");
+  await button(page, "Unfold g").click();
+  await box(page, "g.h.b").waitFor();
+  await shot(page, "edit-drag-opened");
+  const [one, other] = [await placeOf(box(page, "g.a")), await placeOf(box(page, "g.u"))];
+  expect(one.y, "below the box that was there").toBeGreaterThanOrEqual(other.y + other.height);
+  await page.keyboard.press("Control+z");
+  await observer.until(() => paths() === "g.a,g.u,h.b");
+  await page.keyboard.press("Control+z");
+  await observer.until(() => paths() === "a,g.u,h.b");
+});
+
 test("F2 renames an element in its place, and a name that is taken is refused", async () => {
   const { page } = studio;
   await select(page, "a");

@@ -733,6 +733,8 @@ export type MeasureCosts = {
 };
 
 // Move elements and groups into a group; an empty `group` is the top level.
+//
+// `positions` are those of boxes, which change in the same step of undo.
 export type MoveInto = {
   type: "move_into";
   request?: number;
@@ -740,6 +742,7 @@ export type MoveInto = {
   elements?: string[];
   groups?: string[][];
   group?: string[];
+  positions?: Record<string, unknown[]>;
 };
 
 // Move an object or a mark of the world; `x` and `y` are its new middle.

@@ -1,3 +1,6 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
 import { describe, expect, it } from "vitest";
 
 import { isPressed, keysText, SHORTCUTS } from "./shortcuts";
@@ -41,4 +44,21 @@ it("keys have the names that the operating system shows", () => {
   expect(keysText("Ctrl+Shift+Z", false)).toBe("Ctrl+Shift+Z");
   expect(keysText("Ctrl+Shift+Z", true)).toBe("⌘⇧Z");
   expect(["ArrowLeft", "ArrowRight", "Home"].map((keys) => keysText(keys))).toEqual(["←", "→", "Home"]);
+});
+
+it("the page for users of cedar names only keys that the studio has", () => {
+  const page = readFileSync(join(import.meta.dirname, "../../docs/from-cedar.md"), "utf8");
+  const rows = page.split("\n").filter((line) => line.startsWith("|"));
+  // the left column has the keys of cedar, which are those of the studio where the right one states so
+  const ours = rows
+    .map((line) => line.split("|"))
+    .map(([, left, right = ""]) => {
+      return right.includes("the same") ? `${left} ${right}` : right;
+    });
+  const named =
+    ours.join("\n").match(/(?:(?:Ctrl|Shift)\+)+[A-Z]\b|\bF\d+\b|\bSpace\b|\bDelete\b|`[^\w\s]`/g) ?? [];
+  // the canvas itself handles Ctrl+F
+  const known = new Set([...SHORTCUTS.flatMap(({ keys }) => keys), "Ctrl+F"]);
+  expect(named.length).toBeGreaterThan(15);
+  expect(named.map((key) => key.replaceAll("`", "")).filter((key) => !known.has(key))).toEqual([]);
 });

@@ -63,7 +63,7 @@ def test_each_edit_is_one_step_of_undo(root: Path) -> None:
             ("rename", {"element": u, "name": "field"}),
             ("group", {"elements": [left, right], "name": "inputs", "at": [0, 0]}),
             ("rename", {"group": ["inputs"], "name": "stimuli"}),
-            ("move_into", {"elements": [u], "group": ["stimuli"]}),
+            ("move_into", {"elements": [u], "group": ["stimuli"], "positions": {u: [5, 6]}}),
             ("ungroup", {"group": ["stimuli"]}),
             ("place", {"positions": {u: [3, 4]}}),
             ("remove", {"elements": [left], "connections": [{"source": right, "target": u}]}),

@@ -101,8 +101,11 @@ async def _rename(hub: Hub, page: Page, m: to_server.Rename) -> None:
 
 @handles(to_server.MoveInto)
 async def _move_into(hub: Hub, page: Page, m: to_server.MoveInto) -> None:
-    to = tuple(m.group)
-    await hub.project.change(lambda doc: building.move_into(doc, m.elements, _groups(m.groups), to))
+    def change(doc: Document) -> Document:
+        moved = building.move_into(doc, m.elements, _groups(m.groups), tuple(m.group))
+        return building.placed(moved, _of(doc, m.positions))
+
+    await hub.project.change(change)
 
 
 @handles(to_server.MakeGroup)

@@ -318,11 +318,15 @@ class Rename(DocumentRequest, frozen=True, kw_only=True, tag="rename"):
 
 @MESSAGES.register
 class MoveInto(DocumentRequest, frozen=True, kw_only=True, tag="move_into"):
-    """Move elements and groups into a group; an empty `group` is the top level."""
+    """Move elements and groups into a group; an empty `group` is the top level.
+
+    `positions` are those of boxes, which change in the same step of undo.
+    """
 
     elements: Ids = []
     groups: Groups = []
     group: Group = []
+    positions: dict[Id, Position] = {}
 
 
 @MESSAGES.register

@@ -1,17 +1,19 @@
 // A box without connections that is dropped on a connection is inserted into it.
 
+import { positionsOf } from "../graph/arrange";
 import type { Point } from "../graph/layout";
 import type { SceneNode } from "../graph/scene";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";
 import { usePicked } from "./picked";
+import { pointerOf } from "./stage";
 import { firstOf, wireAt } from "./wires";
 
 // The connection below the pointer lights up while such a box is dragged over it.
 export function markWire(event: MouseEvent | TouchEvent, dragged: SceneNode[]): void {
   const [node, ...others] = dragged;
-  const at = "clientX" in event ? event : event.changedTouches[0];
+  const at = pointerOf(event);
   const free = node !== undefined && others.length === 0 && isEditable() && isFree(node.id);
   const over = free && at !== undefined ? wireAt(at.clientX, at.clientY, node.id) : null;
   if (over !== usePicked.getState().over) {
@@ -27,8 +29,7 @@ export function insertDropped(element: string, boxes: Map<string, Point>): Promi
   if (wire === null) {
     return null;
   }
-  const positions = [...boxes].map(([id, { x, y }]) => [id, [Math.round(x), Math.round(y)]]);
-  return request({ type: "insert", element, wire, positions: Object.fromEntries(positions) }).then(
+  return request({ type: "insert", element, wire, positions: positionsOf(boxes) }).then(
     ({ problems = [] }) => problems.length === 0,
   );
 }

@@ -13,9 +13,11 @@ type PickedItems = {
   groups: string[];
   // The connection below an element that is dragged.
   over: string | null;
+  // The group that takes what is dragged when it is released; "" is the top level, null: none.
+  into: string | null;
 };
 
-export const usePicked = create<PickedItems>(() => ({ wires: [], groups: [], over: null }));
+export const usePicked = create<PickedItems>(() => ({ wires: [], groups: [], over: null, into: null }));
 
 // Another selection of elements ends that of groups and connections.
 let own = "";

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 
 import { fakeDocument, fakeElement, kindsOf, fakeKind } from "../graph/fakes";
 import { scene } from "../graph/scene";
-import { beside, near, NEW_BOX, pathOf, under } from "./placing";
+import { beside, dropGroupAt, near, NEW_BOX, pathOf, under } from "./placing";
 
 const elements = [fakeElement("u"), fakeElement("v"), fakeElement("g.w")];
 const layout = { boxes: { u: { x: 0, y: 0 }, v: { x: 228, y: 0 }, "g.w": { x: 1000, y: 1000 } } };
@@ -21,6 +21,24 @@ test("inside the frame of a group a new element belongs to the group", () => {
   expect(under({ x: 1010, y: 1050 }, made).group).toBe("g");
   expect(pathOf("g", { groups: [["g"]], elements: [] })).toEqual(["g"]);
   expect(pathOf("a/b", { groups: [["a/b"]], elements: [] })).toEqual(["a/b"]);
+});
+
+test("a box is dropped into the innermost group at the pointer, a group into none of its own", () => {
+  const boxes = { "g.w": { x: 0, y: 0 }, "g.h.v": { x: 300, y: 0 }, "f.u": { x: 900, y: 0 } };
+  const nested = scene(
+    fakeDocument([fakeElement("g.w"), fakeElement("g.h.v"), fakeElement("f.u")], [], {
+      groups: [["g"], ["g", "h"], ["f"]],
+      layout: { boxes, folded: ["f"] },
+    }),
+    kindsOf(fakeKind("Field", "elements")),
+  );
+  const inner = { x: 310, y: 10 };
+  expect(dropGroupAt(inner, nested, [])).toBe("g/h");
+  expect(dropGroupAt({ x: 10, y: 10 }, nested, [])).toBe("g");
+  expect(dropGroupAt(inner, nested, ["g/h"]), "a group does not move into itself").toBe("g");
+  expect(dropGroupAt(inner, nested, ["g"]), "nor into one inside it").toBe("");
+  expect(dropGroupAt({ x: 890, y: -20 }, nested, [])).toBe("f");
+  expect(dropGroupAt({ x: 0, y: 5000 }, nested, [])).toBe("");
 });
 
 test("beside a box a new one takes the next free place", () => {

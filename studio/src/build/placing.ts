@@ -2,7 +2,7 @@
 
 import { BOX, LIVE } from "../graph/boxes";
 import type { Places, Point, Rect } from "../graph/layout";
-import { keyOf, type Tree } from "../graph/tree";
+import { type Branch, keyOf, type Tree } from "../graph/tree";
 import type { DocumentView } from "../protocol";
 
 export const NEW_BOX = { width: BOX.width, height: BOX.title + LIVE.curve + BOX.pad };
@@ -77,21 +77,27 @@ function blocking(boxes: Rect[], x: number, y: number): Rect | undefined {
 
 // The innermost open group at a point.
 export function groupAt(at: Point, { tree, places }: Scene): string {
-  let best = "";
-  for (const group of tree.groups.values()) {
-    const rect = places.groups.get(group.key);
-    const inside =
-      rect !== undefined &&
-      !group.folded &&
-      at.x >= rect.x &&
-      at.x <= rect.x + rect.width &&
-      at.y >= rect.y &&
-      at.y <= rect.y + rect.height;
-    if (inside && group.key.length > best.length && group.key.startsWith(best)) {
-      best = group.key;
-    }
+  return innermost(at, tree.root, places, (group) => !group.folded);
+}
+
+// The innermost group at a point, open or folded, into which groups can be dropped: none of them, and none
+// inside them.
+export function dropGroupAt(at: Point, { tree, places }: Scene, dropped: string[]): string {
+  return innermost(at, tree.root, places, (group) => !dropped.includes(group.key));
+}
+
+function innermost(at: Point, branch: Branch, places: Places, takes: (group: Branch) => boolean): string {
+  const found = branch.groups.find((group) => takes(group) && holds(places.groups.get(group.key), at));
+  if (found === undefined) {
+    return branch.key;
   }
-  return best;
+  return found.folded ? found.key : innermost(at, found, places, takes);
+}
+
+function holds(rect: Rect | undefined, { x, y }: Point): boolean {
+  return (
+    rect !== undefined && x >= rect.x && x <= rect.x + rect.width && y >= rect.y && y <= rect.y + rect.height
+  );
 }
 
 function rounded({ x, y }: Point, group: string): Placing {

@@ -36,6 +36,10 @@ export function getPointer(): Point | null {
   return stage !== null && over !== null && stage.around.contains(over) ? pointer : null;
 }
 
+// The pointer or the finger of an event.
+export const pointerOf = (event: MouseEvent | TouchEvent): MouseEvent | Touch | undefined =>
+  "clientX" in event ? event : event.changedTouches[0];
+
 // Whether keys are meant for the canvas: it has the focus, or nothing has.
 export function isOnCanvas(focus: Element | null): boolean {
   return stage !== null && (focus === null || stage.around.contains(focus) || focus.contains(stage.around));

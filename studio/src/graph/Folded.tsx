@@ -6,6 +6,7 @@ import { IconChevronRight } from "@tabler/icons-react";
 import { Handle, Position, type NodeProps } from "@xyflow/react";
 import { memo } from "react";
 import type { Side } from "../build/ends";
+import { usePicked } from "../build/picked";
 import { usePortFits } from "../build/usePortFits";
 import { askFits, useWiring } from "../build/wiring";
 import { useStudio } from "../store";
@@ -31,11 +32,13 @@ export const Folded = memo(function Folded({ data }: NodeProps<FoldedNode>) {
   const selected = useStudio((state) =>
     state.selected.some((id) => within(state.elements.get(id)?.group ?? [], key)),
   );
+  const into = usePicked((state) => state.into === key);
   return (
     <div
       className="graph-folded"
       data-problem={inside || undefined}
       data-selected={selected || undefined}
+      data-into={into || undefined}
       onDoubleClick={(event) => {
         event.stopPropagation();
         fold(key, false);

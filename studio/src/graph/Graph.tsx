@@ -18,7 +18,8 @@ import { copyDragged } from "../build/dragging";
 import { insertDropped, markWire } from "../build/inserting";
 import { RenameBox } from "../build/RenameBox";
 import { openSelectionCommands } from "../build/commands";
-import { pickGroup } from "../build/picked";
+import { pickGroup, usePicked } from "../build/picked";
+import { dropIntoGroup, markGroup } from "../build/regrouping";
 import { renameSelected } from "../build/renaming";
 import { getStage } from "../build/stage";
 import { useStage } from "../build/useStage";
@@ -78,6 +79,7 @@ export function Graph() {
 function Canvas({ structure }: { structure: Structure }) {
   const kinds = useStudio((state) => state.kinds);
   const offline = useOffline();
+  const leaving = usePicked((state) => state.into === "");
   const around = useRef<HTMLDivElement>(null);
   const { now, touch } = useStart(structure, kinds, around);
   const { nodes, onNodesChange, settle, reset } = useNodes(now);
@@ -138,6 +140,7 @@ function Canvas({ structure }: { structure: Structure }) {
     <PainterContext value={painting}>
       <div
         className="graph"
+        data-into={leaving || undefined}
         ref={around}
         {...stage}
         onPointerDownCapture={touch}
@@ -152,17 +155,18 @@ function Canvas({ structure }: { structure: Structure }) {
           nodesDraggable={!offline}
           nodesConnectable={!offline}
           onNodeDragStart={() => useHover.getState().close()}
-          onNodeDragStop={(event, { id }) => {
+          onNodeDragStop={(event, { id }, dragged) => {
             if (event.altKey) {
               copyDragged(nodes);
               reset();
               return;
             }
-            const inserted = insertDropped(id, moved(flow.getNodes(), now.tree, now.places));
-            if (inserted === null) {
+            const boxes = moved(flow.getNodes(), now.tree, now.places);
+            const changed = insertDropped(id, boxes) ?? dropIntoGroup(dragged, boxes);
+            if (changed === null) {
               settle();
             } else {
-              void inserted.then((done) => !done && reset());
+              void changed.then((done) => !done && reset());
             }
           }}
           onNodeContextMenu={(event, { id, type }) => {
@@ -196,9 +200,10 @@ function Canvas({ structure }: { structure: Structure }) {
           {...wiring}
           onMoveStart={() => move(true)}
           onMove={(_, view) => layer.move(view)}
-          onNodeDrag={(event, _, dragged) => {
+          onNodeDrag={(event, node, dragged) => {
             layer.change();
             markWire(event, dragged);
+            markGroup(event, node, dragged);
           }}
           onMoveEnd={() => move(false)}
           onlyRenderVisibleElements

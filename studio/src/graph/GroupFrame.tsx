@@ -10,8 +10,9 @@ import type { FrameNode } from "./scene";
 
 export const GroupFrame = memo(function GroupFrame({ data: { key, name } }: NodeProps<FrameNode>) {
   const picked = usePicked((state) => state.groups.includes(key));
+  const into = usePicked((state) => state.into === key);
   return (
-    <div className="graph-frame" data-selected={picked || undefined}>
+    <div className="graph-frame" data-selected={picked || undefined} data-into={into || undefined}>
       <div className="graph-frame-title">
         <ActionIcon
           className="nodrag"

@@ -32,11 +32,13 @@ function keep(folded: string[]): void {
 // page may move them meanwhile.
 export function place(boxes: Map<string, Point>): Promise<Answer> {
   const stored = readBoxes(useStudio.getState().document?.layout ?? {});
-  const moved = [...boxes]
-    .map(([id, { x, y }]): [string, Point] => [id, { x: Math.round(x), y: Math.round(y) }])
-    .filter(([id, { x, y }]) => stored.get(id)?.x !== x || stored.get(id)?.y !== y);
-  return request({
-    type: "place",
-    positions: Object.fromEntries(moved.map(([id, { x, y }]) => [id, [x, y]])),
-  });
+  const moved = Object.entries(positionsOf(boxes)).filter(
+    ([id, [x, y]]) => stored.get(id)?.x !== x || stored.get(id)?.y !== y,
+  );
+  return request({ type: "place", positions: Object.fromEntries(moved) });
+}
+
+// Positions of boxes in whole pixels, as a message has them.
+export function positionsOf(boxes: Map<string, Point>): Record<string, [number, number]> {
+  return Object.fromEntries([...boxes].map(([id, { x, y }]) => [id, [Math.round(x), Math.round(y)]]));
 }
