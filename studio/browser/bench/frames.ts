@@ -28,12 +28,6 @@ export async function mainThread(
   page: Page,
   gesture: () => Promise<void>,
 ): Promise<{ rate: number; cpu: number }> {
-  const session = await page.context().newCDPSession(page);
-  await session.send("Performance.enable", { timeDomain: "threadTicks" });
-  const task = async () => {
-    const { metrics } = await session.send("Performance.getMetrics");
-    return metrics.find(({ name }) => name === "TaskDuration")?.value ?? NaN;
-  };
   const count = await page.evaluateHandle(() => {
     const count = { frames: 0, going: true };
     const next = () => {
@@ -44,16 +38,35 @@ export async function mainThread(
     return count;
   });
   const from = performance.now();
-  const before = await task();
-  await gesture();
-  const after = await task();
+  const spent = await threadTime(page, gesture);
   const seconds = (performance.now() - from) / 1000;
   const frames = await count.evaluate((found) => {
     found.going = false;
     return found.frames;
   });
+  return { rate: frames / seconds, cpu: spent / frames };
+}
+
+/** The processor time in ms that the main thread of a page spends on a gesture. */
+export const threadTime = (page: Page, gesture: () => Promise<unknown>): Promise<number> =>
+  spentOn(page, gesture, ["TaskDuration"]);
+
+/** The same without painting, whose time depends on the graphics card: scripts, styles and layout. */
+export const scriptTime = (page: Page, gesture: () => Promise<unknown>): Promise<number> =>
+  spentOn(page, gesture, ["ScriptDuration", "RecalcStyleDuration", "LayoutDuration"]);
+
+async function spentOn(page: Page, gesture: () => Promise<unknown>, kinds: string[]): Promise<number> {
+  const session = await page.context().newCDPSession(page);
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
+  const sum = async () => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    return metrics.reduce((total, { name, value }) => total + (kinds.includes(name) ? value : 0), 0);
+  };
+  const before = await sum();
+  await gesture();
+  const spent = (await sum()) - before;
   await session.detach();
-  return { rate: frames / seconds, cpu: (1000 * (after - before)) / frames };
+  return 1000 * spent;
 }
 
 /** Measure a page for some seconds. Only canvases that a selector names count for `least`. */

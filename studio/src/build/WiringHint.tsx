@@ -1,29 +1,28 @@
-// Beside the pointer, while a connection is made: why the element below it does not fit, or what changes.
+// Beside the pointer, while a connection is made: why what is below it does not fit, or what changes.
 
 import { useEffect, useState } from "react";
 
 import type { Point } from "../graph/layout";
-import { fitOf, useWiring } from "./wiring";
+import { endAt } from "./ends";
+import { getStage } from "./stage";
+import { groupHintOf, type Hint, hintOf, useWiring } from "./wiring";
 
 export function WiringHint() {
-  const fits = useWiring(({ wiring }) => wiring?.fits ?? null);
-  const [said, setSaid] = useState<(Point & { text: string; ok: boolean }) | null>(null);
+  const known = useWiring(({ wiring }) => wiring?.fits != null);
+  const [said, setSaid] = useState<(Point & Hint) | null>(null);
   useEffect(() => {
     setSaid(null);
-    if (fits === null) {
+    if (!known) {
       return;
     }
     const move = ({ clientX: x, clientY: y }: PointerEvent) => {
-      const at = document.elementFromPoint(x, y);
-      const box = at?.closest(".react-flow__node-box")?.getAttribute("data-id");
-      const port = at?.closest(".react-flow__handle")?.getAttribute("data-handleid") ?? null;
-      const fit = box == null ? undefined : fitOf(fits, box, port);
-      setSaid(fit === undefined || fit.reason === "" ? null : { x, y, text: fit.reason, ok: fit.fits });
+      const hint = hintAt(document.elementFromPoint(x, y));
+      setSaid(hint === null ? null : { x, y, ...hint });
     };
     addEventListener("pointermove", move);
     return () => removeEventListener("pointermove", move);
-  }, [fits]);
-  if (fits === null || said === null) {
+  }, [known]);
+  if (!known || said === null) {
     return null;
   }
   const right = innerWidth - said.x < 280 ? { right: innerWidth - said.x + 14 } : { left: said.x + 14 };
@@ -37,4 +36,22 @@ export function WiringHint() {
       {said.text}
     </div>
   );
+}
+
+function hintAt(at: Element | null): Hint | null {
+  const { wiring } = useWiring.getState();
+  const node = at?.closest(".react-flow__node")?.getAttribute("data-id");
+  if (wiring === null || wiring.fits === null || node == null) {
+    return null;
+  }
+  const judged = { ...wiring, fits: wiring.fits };
+  const handle = at?.closest(".react-flow__handle")?.getAttribute("data-handleid") ?? null;
+  const scene = getStage()
+    ?.scene()
+    .nodes.find(({ id }) => id === node);
+  if (scene?.type === "folded" && handle === null) {
+    return groupHintOf(judged, [...scene.data.inputs, ...scene.data.outputs]);
+  }
+  const { element, port } = endAt(node, handle);
+  return scene?.type === "box" || scene?.type === "folded" ? hintOf(judged, element, port) : null;
 }

@@ -25,3 +25,11 @@ export function between(from: End, side: Side, to: End): WireEnds {
     target_port: target.port,
   };
 }
+
+// The element and its port at a handle; the handles of a folded group name those inside.
+export function endAt(node: string, handle: string | null): { element: string; port: string | null } {
+  const gap = handle?.indexOf(" ") ?? -1;
+  return node.startsWith("group:") && handle !== null && gap >= 0
+    ? { element: handle.slice(0, gap), port: handle.slice(gap + 1) }
+    : { element: node, port: handle };
+}

@@ -9,7 +9,7 @@ import { useStudio } from "../store";
 import { finish } from "./connecting";
 import { openPalette } from "./palette";
 import { pickWire, usePicked } from "./picked";
-import type { WireEnds } from "./ends";
+import { endAt, type WireEnds } from "./ends";
 import { endOf, firstOf } from "./wires";
 import { begin, end, fitOf, stateOf, useWiring } from "./wiring";
 
@@ -118,14 +118,6 @@ export function useWires(wires: Wire[]): Props {
     };
   }, [flow, editable]);
   return { ...props, edges };
-}
-
-// The element and its port at a handle; the handles of a folded group name those inside.
-function endAt(node: string, handle: string | null): { element: string; port: string | null } {
-  const gap = handle?.indexOf(" ") ?? -1;
-  return node.startsWith("group:") && handle !== null && gap >= 0
-    ? { element: handle.slice(0, gap), port: handle.slice(gap + 1) }
-    : { element: node, port: handle };
 }
 
 function insertInto(wire: string, x: number, y: number): void {

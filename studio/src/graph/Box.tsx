@@ -1,9 +1,9 @@
 // An element on the canvas: its name, its kind, its live values, its ports.
 
 import { Handle, Position, type NodeProps } from "@xyflow/react";
-import { memo } from "react";
+import { memo, useMemo, useRef } from "react";
 import { Sketch } from "../build/Sketch";
-import { type PortFits, usePortFits } from "../build/usePortFits";
+import { useFitMarks } from "../build/useFitMarks";
 import { askFits, useWiring } from "../build/wiring";
 import { useStudio } from "../store";
 import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
@@ -22,20 +22,25 @@ export const Box = memo(function Box({ data, height = BOX.title, isConnectable }
   const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
   const problem = useProblem(id);
   const warning = useWarning(id);
-  const fits = usePortFits(id);
+  const holder = useRef<HTMLDivElement>(null);
+  const marked = useMemo(
+    () => [...inputs, ...outputs].map((name) => ({ element: id, port: name, handle: name })),
+    [id, inputs, outputs],
+  );
+  useFitMarks(holder, marked);
   const reached = useWiring((state) => state.target === id);
   const { enter, leave } = useHover.getState();
   const ports = (side: PortsProps["side"], names: string[]) =>
     level === "dot" ? (
       <Anchors names={names} side={side} height={height} />
     ) : (
-      <Ports element={id} names={names} side={side} height={height} fits={fits} connectable={isConnectable} />
+      <Ports element={id} names={names} side={side} height={height} connectable={isConnectable} />
     );
   return (
     <div
+      ref={holder}
       className="graph-box"
       data-family={family}
-      data-wiring={fits.box || undefined}
       data-reached={reached || undefined}
       data-selected={selected || undefined}
       data-problem={problem !== "" || undefined}
@@ -87,11 +92,10 @@ type PortsProps = {
   names: string[];
   side: "source" | "target";
   height: number;
-  fits: PortFits;
   connectable: boolean;
 };
 
-function Ports({ element, names, side, height, fits, connectable }: PortsProps) {
+function Ports({ element, names, side, height, connectable }: PortsProps) {
   return names.map((name, n) => {
     const top = portHeight(height, n, names.length);
     return (
@@ -108,7 +112,6 @@ function Ports({ element, names, side, height, fits, connectable }: PortsProps) 
             void askFits({ element, port: name });
           }
         }}
-        data-fits={fits.ports.get(name)}
         title={name}
       >
         {names.length > 1 && <span className={`graph-port graph-port-${side}`}>{name}</span>}

@@ -4,10 +4,10 @@
 import { ActionIcon } from "@mantine/core";
 import { IconChevronRight } from "@tabler/icons-react";
 import { Handle, Position, type NodeProps } from "@xyflow/react";
-import { memo } from "react";
+import { memo, useMemo, useRef } from "react";
 import type { Side } from "../build/ends";
 import { usePicked } from "../build/picked";
-import { usePortFits } from "../build/usePortFits";
+import { useFitMarks } from "../build/useFitMarks";
 import { askFits, useWiring } from "../build/wiring";
 import { useStudio } from "../store";
 import { fold } from "./arrange";
@@ -32,9 +32,16 @@ export const Folded = memo(function Folded({ data }: NodeProps<FoldedNode>) {
   const selected = useStudio((state) =>
     state.selected.some((id) => within(state.elements.get(id)?.group ?? [], key)),
   );
+  const holder = useRef<HTMLDivElement>(null);
+  const marked = useMemo(
+    () => [...inputs, ...outputs].map((port) => ({ ...port, handle: portHandle(port) })),
+    [inputs, outputs],
+  );
+  useFitMarks(holder, marked);
   const into = usePicked((state) => state.into === key);
   return (
     <div
+      ref={holder}
       className="graph-folded"
       data-problem={inside || undefined}
       data-selected={selected || undefined}
@@ -98,7 +105,6 @@ type BorderPortProps = { side: Side; position: Position; top: number; port: Fold
 
 // A port of an element inside.
 function BorderPort({ side, position, top, port: { element, port, path } }: BorderPortProps) {
-  const fits = usePortFits(element);
   return (
     <Handle
       id={portHandle({ element, port })}
@@ -106,7 +112,6 @@ function BorderPort({ side, position, top, port: { element, port, path } }: Bord
       position={position}
       style={{ top }}
       title={path}
-      data-fits={fits.ports.get(port)}
       onPointerEnter={() => {
         if (useWiring.getState().wiring === null) {
           void askFits({ element, port });
