@@ -34,9 +34,11 @@ browser: studio
 fast: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) -m fast
 
+# Python by ruff, the page by prettier and biome
 lint: .venv/installed-test
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
+	$(BIN)/python studio/build.py lint
 
 types: .venv/installed-test
 	$(BIN)/python -m pyright
@@ -45,9 +47,9 @@ types: .venv/installed-test
 studio: .venv/installed-test
 	$(BIN)/python studio/build.py build
 
-# its source, and its tests without a browser
+# its types, and its tests without a browser
 page: studio
-	$(BIN)/python studio/build.py check lint test
+	$(BIN)/python studio/build.py check test
 
 docs: .venv/installed-docs
 	$(BIN)/python docs/build.py
