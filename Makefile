@@ -26,9 +26,10 @@ quick: .venv/installed-test
 optimised: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
 
-# the page in a browser: tests that wait for half of their time, so they run beside others
+# the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
+# time, so they run beside others
 browser: studio
-	$(BIN)/python studio/build.py browser
+	$(BIN)/python studio/build.py browser firefox webkit
 
 # a verdict in about a minute
 fast: .venv/installed-test

@@ -6,7 +6,8 @@ python studio/build.py lint       the formatting of the files (prettier), and th
 python studio/build.py format     format the files, lines of at most 110 columns (prettier)
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
-python studio/build.py firefox    the page in an installed Firefox, before a running studio
+python studio/build.py firefox    the page in an installed Firefox, before a running studio; else a line
+python studio/build.py webkit     the same in an installed WebKit (the MiniBrowser of WebKitGTK)
 python studio/build.py bench      what the page promises about time, measured in a real browser and printed
 python studio/build.py pictures   the manual's pictures of the studio, into docs/pictures
 python studio/build.py npm ...    npm itself, to add or renew a library
@@ -51,9 +52,55 @@ TOOLS: dict[str, list[list[str]]] = {
     "format": [[PRETTIER, "--write", "."]],
     "test": [[VITEST, "run"]],
     "browser": [[VITEST, "run", "--config", "vitest.browser.ts"]],
-    "firefox": [[VITEST, "run", "--config", "vitest.firefox.ts"]],
+    "firefox": [[VITEST, "run", "--config", "vitest.engines.ts", "firefox.engine"]],
+    "webkit": [[VITEST, "run", "--config", "vitest.engines.ts", "webkit.engine"]],
     "bench": [[VITEST, "run", "--config", "vitest.bench.ts"]],
     "pictures": [[VITEST, "run", "--config", "vitest.pictures.ts"]],
+}
+
+
+@dataclass(frozen=True)
+class Browser:
+    """A browser that has to be installed for its tests.
+
+    Attributes:
+        title: its name.
+        variable: the environment variable that gives its program to the tests; a user may set it.
+        programs: names on PATH, or paths, of which the first that exists is taken.
+        needs: further programs on PATH, without which it cannot start.
+        packages: what to install on Debian.
+    """
+
+    title: str
+    variable: str
+    programs: tuple[str, ...]
+    needs: tuple[str, ...]
+    packages: str
+
+    def program(self) -> str | None:
+        """The program of the browser, or None."""
+        if not all(shutil.which(name) for name in self.needs):
+            return None
+        named = os.environ.get(self.variable)
+        return named or next((path for name in self.programs if (path := shutil.which(name))), None)
+
+
+# The browsers of the words in TOOLS that `make browser` runs only where they are installed.
+BROWSERS = {
+    "firefox": Browser(
+        "Firefox",
+        "DEODAR_FIREFOX",
+        (
+            "firefox",
+            "firefox-esr",
+            "/snap/bin/firefox",
+            "/Applications/Firefox.app/Contents/MacOS/firefox",
+            "C:/Program Files/Mozilla Firefox/firefox.exe",
+        ),
+        (),
+        "firefox-esr",
+    ),
+    "webkit": Browser("WebKit", "DEODAR_WEBKIT", ("WebKitWebDriver",), ("Xvfb",), "webkit2gtk-driver xvfb"),
 }
 
 
@@ -240,11 +287,21 @@ def build() -> bool:
 
 def run(word: str) -> int:
     """The status of the tools of one word: of the first that fails."""
+    browser = BROWSERS.get(word)
+    program = browser.program() if browser else None
+    if browser and program is None:
+        print(
+            f"No {browser.title} is installed: the page was not opened in it. Debian:"
+            f" apt-get install {browser.packages}; or set {browser.variable} to its program."
+        )
+        return 0
     found = node()
     with alone():
         install(found, tests=True)
     # the browser tests start the deodar of the Python that runs this
     environment = {"DEODAR_PYTHON": sys.executable, **found.environment()}
+    if browser and program:
+        environment[browser.variable] = program
     if word == "pictures":
         environment.setdefault("DEODAR_SHOTS", str(STUDIO.parent / "docs" / "pictures"))
     for command in TOOLS[word]:

@@ -179,3 +179,30 @@ def test_uv_builds_the_page_again_after_a_change_of_its_sources(page: ModuleType
     keys = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["uv"]["cache-keys"]
     watched = {path for key in keys for path in ROOT.glob(key.get("file", "pyproject.toml"))}
     assert set(page.sources()) <= watched
+
+
+@pytest.mark.parametrize(("word", "package"), [("firefox", "firefox-esr"), ("webkit", "webkit2gtk-driver")])
+def test_a_browser_that_is_not_installed_is_reported_with_its_package(
+    page: ModuleType,
+    word: str,
+    package: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(page.shutil, "which", lambda name: None)
+    monkeypatch.delenv(page.BROWSERS[word].variable, raising=False)
+    assert page.main([word]) == 0
+    (line,) = capsys.readouterr().out.splitlines()
+    assert "was not opened in it" in line and package in line
+
+
+def test_a_browser_starts_with_the_program_that_its_variable_names(
+    page: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    firefox = page.BROWSERS["firefox"]
+    monkeypatch.setattr(page.shutil, "which", lambda name: f"/bin/{name}" if name == "firefox-esr" else None)
+    monkeypatch.delenv(firefox.variable, raising=False)
+    assert firefox.program() == "/bin/firefox-esr"
+    monkeypatch.setenv(firefox.variable, "/opt/firefox")
+    assert firefox.program() == "/opt/firefox"
+    assert page.BROWSERS["webkit"].program() is None, "without an X server it cannot start"

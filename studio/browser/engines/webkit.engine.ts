@@ -1,0 +1,4 @@
+import { smoke } from "./smoke";
+import { launchWebkit } from "./webkit";
+
+smoke("WebKit", launchWebkit);
