@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from deodar.model import edit
 from tests.attacks import documents, kills, messages, records, soak, undo
 
 
@@ -17,9 +18,9 @@ def test_mutated_documents_are_read_or_refused_without_other_errors() -> None:
 
 
 def test_random_edits_are_undone_and_redone_to_the_same_bytes() -> None:
-    found = [undo.attack(250, seed) for seed in range(3)]
-    assert [error for outcome in found for error in outcome.errors] == []
-    assert len({name for outcome in found for name in outcome.edits}) >= 30
+    outcome = undo.attack(2, seed=1)
+    assert outcome.errors == []
+    assert len(undo.KINDS) >= 30 and all(outcome.least(kind) >= 2 for kind in undo.KINDS)
 
 
 def test_hostile_messages_are_answered_and_the_studio_continues(tmp_path: Path) -> None:
@@ -65,3 +66,16 @@ def test_a_studio_that_stores_data_of_closed_pages_is_detected(more: dict[str, f
     )
     assert next(iter(more)) in error and f"after {visits} visits" in error
     assert soak.beyond(early, early, visits) == []
+
+
+def test_an_undo_that_returns_another_document_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
+    returned = edit.UndoHistory.undo
+
+    def forgetful(history: edit.UndoHistory) -> bool:
+        done = returned(history)
+        history.document = edit.describe(history.document, notes="other notes")
+        return done
+
+    monkeypatch.setattr(edit.UndoHistory, "undo", forgetful)
+    outcome = undo.attack(2, seed=1)
+    assert any("has other bytes" in error for error in outcome.errors)

@@ -1,12 +1,14 @@
 """Random edits, undone and redone: a document has the bytes that it had, and patches give it to a page.
 
-The walk makes edits of every kind on one history. The text of every document is stored when it is made; after
-each undo and redo the document of that moment is written again, and compared.
+A walk makes edits on one history. The text of every document is stored when it is made; after each undo and
+redo the document of that moment is written again, and compared. The kind that was undone and redone least is
+drawn first, and walks follow one another until every kind was undone and redone as often as asked.
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 import json
 import random
 from collections.abc import Callable
@@ -16,31 +18,50 @@ import msgspec
 
 import deodar as dd
 from deodar.errors import DeodarError
+from deodar.importers import presets
 from deodar.model import building, clipboard, edit, files, script
 from deodar.model.building import Around
 from deodar.model.document import Document, Entry
-from deodar.server import converted, view
+from deodar.server import converted, templates, view
 from deodar.server.converted import Status
 from tests.server.page import patched
 
-MOST_ELEMENTS = 30
+MOST_ELEMENTS = 12
 """Number of elements from which the walk adds no more."""
 
 SCRIPTED = 20
 """Number of steps after which a document is also made again by its script."""
 
+WALK = 150
+"""Number of steps after which a walk begins again with an empty document."""
+
 Draw = random.Random
 X, Y = dd.Axis("x", 0, 10, samples=11), dd.Axis("y", 0, 1, samples=5)
+TEMPLATE = "boost"
+
+
+def _zeros() -> dict[str, int]:
+    return dict.fromkeys(KINDS, 0)
 
 
 @dc.dataclass
 class Outcome:
-    """Numbers of edits and steps by outcome."""
+    """Numbers of steps by outcome, and of edits that were made, undone and redone by kind."""
 
-    edits: dict[str, int] = dc.field(default_factory=dict[str, int])
+    made: dict[str, int] = dc.field(default_factory=_zeros)
+    undone: dict[str, int] = dc.field(default_factory=_zeros)
+    redone: dict[str, int] = dc.field(default_factory=_zeros)
     refused: int = 0
     steps: int = 0
     errors: list[str] = dc.field(default_factory=list[str])
+
+    def least(self, kind: str) -> int:
+        """How often a kind was both undone and redone."""
+        return min(self.undone[kind], self.redone[kind])
+
+    def fail(self, what: str) -> None:
+        """Note an error at the present step."""
+        self.errors.append(f"step {self.steps}: {what}")
 
 
 def _entry(draw: Draw, doc: Document) -> Entry:
@@ -114,8 +135,72 @@ EDITS: dict[str, Callable[[Draw, Document], Document]] = {
     "describe": lambda r, d: edit.describe(d, notes=str(r.random()), dt=r.choice((None, 0.5, 1.0))),
     "place": lambda r, d: building.placed(d, {i: (r.random(), 1.0) for i in _some(r, d)}),
     "comment": lambda r, d: building.comment(d, "", {"text": str(r.random()), "x": 1, "y": 2})[0],
+    "move a comment": lambda r, d: building.comment(d, _comment(r, d), {"x": r.random(), "y": 3})[0],
+    "remove a comment": lambda r, d: building.comment(d, _comment(r, d), None)[0],
+    "set several": lambda r, d: edit.change_all(d, {f"{e.path}.tau": r.uniform(5, 50) for e in _with_tau(d)}),
+    "add a template": lambda r, d: _inserted(r, d),
+    "apply a preset": lambda r, d: presets.applied(d, _preset(r, d))[0],
+    "add a kernel": lambda r, d: _listed(r, d, "kernel", lambda old: [*old, _kernel(r)]),
+    "change a kernel": lambda r, d: _listed(r, d, "kernel", lambda old: [_kernel(r), *old[1:]]),
+    "remove a kernel": lambda r, d: _listed(r, d, "kernel", lambda old: old[:-1]),
+    "add a window": lambda r, d: _listed(r, d, "windows", lambda old: [*old, _window(r, len(old))]),
+    "change a window": lambda r, d: _listed(r, d, "windows", lambda old: [_window(r, 0), *old[1:]]),
+    "remove a window": lambda r, d: _listed(r, d, "windows", lambda old: old[1:]),
 }
-"""Edits by name; an edit that does not apply raises an error of deodar."""
+"""Edits by kind; an edit that does not apply raises an error of deodar."""
+
+AMENDED = "several edits of a drag"
+KINDS = (*EDITS, AMENDED)
+
+
+def _comment(draw: Draw, doc: Document) -> str:
+    known: Any = doc.layout.get("comments")
+    if not known:
+        raise dd.errors.ModelError("no comments")
+    return draw.choice(sorted(known))
+
+
+def _with_tau(doc: Document) -> list[Entry]:
+    found = [e for e in doc.entries if isinstance(e.element, dd.Field)]
+    if len(found) < 2:
+        raise dd.errors.ModelError("too few fields")
+    return found
+
+
+def _inserted(draw: Draw, doc: Document) -> Document:
+    if len(doc.entries) >= MOST_ELEMENTS:
+        raise dd.errors.ModelError("full")
+    return building.insert(doc, _template(), TEMPLATE, (), (draw.random(), 2.0))[0]
+
+
+@functools.cache
+def _template() -> Document:
+    return templates.document(TEMPLATE)
+
+
+def _preset(draw: Draw, doc: Document) -> Document:
+    """Return a document with one other value."""
+    return edit.put(doc, _named(draw, doc, "tau").id, "tau", draw.uniform(5, 50))
+
+
+def _kernel(draw: Draw) -> Any:
+    made = dd.Gaussian(draw.uniform(1, 9), sigma=draw.uniform(1, 3))
+    return draw.choice((made, dd.MexicanHat(5, draw.uniform(1, 2), 3, 4)))
+
+
+def _window(draw: Draw, before: int) -> dd.Window:
+    start = 100 * before + draw.uniform(1, 40)
+    return dd.Window(start, start + draw.uniform(1, 40))
+
+
+def _listed(draw: Draw, doc: Document, leaf: str, how: Callable[[list[Any]], list[Any]]) -> Document:
+    """Return a document in which one element has another list of parts."""
+    chosen = _named(draw, doc, leaf)
+    old = list(getattr(chosen.element, leaf))
+    new = how(old)
+    if new == old:
+        raise dd.errors.ModelError("nothing to change")
+    return edit.put(doc, chosen.id, leaf, new)
 
 
 def _copied(draw: Draw, doc: Document) -> Document:
@@ -151,56 +236,80 @@ def _scripted(doc: Document) -> Document:
     return space["make"]().document
 
 
-def attack(steps: int, seed: int) -> Outcome:
-    """Make, undo and redo edits at random."""
+def attack(times: int, seed: int) -> Outcome:
+    """Make edits at random, until every kind was undone and redone a number of times."""
     draw, outcome = random.Random(seed), Outcome()
+    while not outcome.errors and any(outcome.least(kind) < times for kind in KINDS):
+        _walk(draw, outcome, times)
+    return outcome
+
+
+def _walk(draw: Draw, outcome: Outcome, times: int) -> None:
+    """Walk through a history that begins with an empty document."""
     history = edit.UndoHistory(Document("walk"))
     texts = [written(history.document)]
-    page, shown = whole(history.document), converted.convert(history.document)
-    for _ in range(steps):
-        choice = draw.random()
-        if choice < 0.28:
-            history.undo()
-        elif choice < 0.46:
+    kinds: list[str] = []  # of the change from each document to the next
+    shown = converted.convert(history.document)
+    page = whole(history.document)
+    for _ in range(WALK):
+        if all(outcome.least(kind) >= times for kind in KINDS):
+            return
+        # an edit discards what was undone, so that it comes more rarely where a redo is possible
+        choice, ahead = draw.random(), history.ahead > 0
+        if choice < 0.35:
+            if history.undo():
+                outcome.undone[kinds[history.depth]] += 1
+        elif choice < 0.85 and ahead:
             history.redo()
-        elif choice < 0.5:
-            steps_of = history.depth, history.ahead
-            folded = draw.choice(([], ["a"], ["a", "b"], None))
-            edit.arrange_everywhere(history, {"folded": folded, "panels": {"k": draw.random()}})
-            if (history.depth, history.ahead) != steps_of:
-                outcome.errors.append(f"step {outcome.steps}: a layout without undo changed the history")
-            texts = [written(doc) for doc in (*history.documents[: history.depth + 1],)]
-            texts += [written(doc) for doc in reversed(history.documents[history.depth + 1 :])]
-            outcome.edits["fold"] = outcome.edits.get("fold", 0) + 1
-        elif choice < 0.56 and history.depth:  # one more edit of a drag
-            new = edit.describe(history.document, notes=str(draw.random()))
-            history.amend(new)
-            texts[history.depth :] = [written(new)]
-            outcome.edits["amend"] = outcome.edits.get("amend", 0) + 1
-        else:
-            name = draw.choice(list(EDITS))
-            try:
-                new = EDITS[name](draw, history.document)
-            except DeodarError:
-                outcome.refused += 1
-                continue
-            if new is not history.document:
-                history.commit(new)
-                outcome.edits[name] = outcome.edits.get(name, 0) + 1
-                texts[history.depth :] = [written(new)]
+            outcome.redone[kinds[history.depth - 1]] += 1
+        elif choice > 0.99:
+            texts = _arranged(draw, history, outcome)
+        elif (kind := _drawn(draw, history, outcome)) is not None:
+            outcome.made[kind] += 1
+            kinds[history.depth - 1 :] = [kind]
+            texts[history.depth :] = [written(history.document)]
         outcome.steps += 1
         doc = history.document
         if written(doc) != texts[history.depth]:
-            outcome.errors.append(f"step {outcome.steps}: the document after undo or redo has other bytes")
+            outcome.fail("the document after undo or redo has other bytes")
         if outcome.steps % SCRIPTED == 0 and written(_scripted(doc)) != written(doc):
-            outcome.errors.append(f"step {outcome.steps}: the script makes another document")
+            outcome.fail("the script makes another document")
         after = converted.convert(doc, shown)
         status = Status(1, False, 0, 0, "live")
         found = converted.patch(
             shown, after, status, lambda after=after, doc=doc: view.problems(after.problems, doc)
         )
-        page = whole(doc) if found is None else patched(page, json.loads(msgspec.json.encode(found)))
-        if page != whole(doc):
-            outcome.errors.append(f"step {outcome.steps}: the patched document differs")
+        wanted = whole(doc)
+        page = wanted if found is None else patched(page, json.loads(msgspec.json.encode(found)))
+        if page != wanted:
+            outcome.fail("the patched document differs")
         shown = after
-    return outcome
+
+
+def _arranged(draw: Draw, history: edit.UndoHistory, outcome: Outcome) -> list[tuple[str, bytes | None]]:
+    """Change the layout of all documents, and return their texts."""
+    steps_of = history.depth, history.ahead
+    folded = draw.choice(([], ["a"], ["a", "b"], None))
+    edit.arrange_everywhere(history, {"folded": folded, "panels": {"k": draw.random()}})
+    if (history.depth, history.ahead) != steps_of:
+        outcome.fail("a layout without undo changed the history")
+    past = history.documents[: history.depth + 1]
+    return [written(doc) for doc in (*past, *reversed(history.documents[history.depth + 1 :]))]
+
+
+def _drawn(draw: Draw, history: edit.UndoHistory, outcome: Outcome) -> str | None:
+    """Make an edit of the rarest kind that applies, and return the kind; None where none applies."""
+    for kind in sorted(KINDS, key=lambda kind: (outcome.least(kind), draw.random())):
+        try:
+            if kind == AMENDED:
+                history.commit(edit.describe(history.document, notes=str(draw.random())))
+                history.amend(edit.describe(history.document, notes=str(draw.random())))
+                return kind
+            new = EDITS[kind](draw, history.document)
+        except DeodarError:
+            outcome.refused += 1
+            continue
+        if new is not history.document:
+            history.commit(new)
+            return kind
+    return None
