@@ -189,6 +189,11 @@ def test_a_node_that_is_left_out_or_active_again_is_no_transition_in_order() -> 
     assert in_order(produced([(1, "R"), (1, "R"), (2, "G")]))[0] is False
 
 
+def test_a_production_in_which_nothing_is_found_is_unfinished() -> None:
+    row = produced([])
+    assert (row["outcome"], row["found"], row["left"]) == ("unfinished", [], [])
+
+
 def test_an_unfinished_production_states_its_reason() -> None:
     row = produced([(1, "R"), (2, "G")], "RGBV")
     # the last node is that behind the sequence, which is active without the third and fourth

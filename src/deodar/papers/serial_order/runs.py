@@ -388,7 +388,7 @@ def _left(run: TaughtRun, letters: Sequence[str], ends: Sequence[int], pose: np.
     """Return for each block that was found whether its colour had left the middle of the picture, or the
     vehicle was far from it, at some time since the block before was found.
     """
-    begins = [0, *ends[:-1]]
+    begins = [0, *ends][: len(ends)]
     return [
         any(distance(run.arena, letter, row) > FAR for row in pose[begin : end + 1 : SPARSE])
         for letter, begin, end in zip(letters, begins, ends, strict=True)
