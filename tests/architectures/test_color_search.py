@@ -111,3 +111,32 @@ def test_a_block_that_is_in_view_at_once_does_not_start_the_chain_again() -> Non
     # the pulse alone would last from 300 to 460 ms after the change of the mode
     fallen = trial.times[np.flatnonzero(first)[-1]]
     assert begins + 300 < fallen < begins + 460
+
+
+def test_the_mode_opens_and_closes_what_the_documentation_names_and_nothing_else() -> None:
+    document = color_search(1, look_around=False).document
+    path = {entry.id: entry.path for entry in document.entries}
+    [parameter] = [p for p in document.parameters if p.name == "mode"]
+    assert [(path[ident], name) for ident, name in parameter.links] == [("producing", "amplitude")]
+    opened = {
+        f"{path[c.target]}.{c.target_port}"
+        for c in document.connections
+        if path[c.source] in ("producing", "not teaching") and not path[c.target].startswith("change of mode")
+    }
+    assert opened == {
+        "not teaching.input",
+        "item 1.meaning.gate",  # learning
+        "shown.factor",  # what the action field reads from the colour-space field
+        "read.factor",  # and from the weights
+        "ridge.factor",
+        "taught.input",  # the resting level of the colour-space field
+        "left speed.factor",
+        "right speed.factor",
+    }
+    # a change inhibits nodes and fields for a moment, and starts the first node
+    changed = {
+        path[c.target]
+        for c in document.connections
+        if path[c.source] in ("change of mode.clear", "change of mode.start")
+    }
+    assert changed == {"item 1.node", "item 1.memory", "action", "satisfaction"}
