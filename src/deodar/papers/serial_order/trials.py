@@ -90,7 +90,8 @@ def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
         habituation=c.habituation,
         values=values(c.varied, c.factor, length + 1) if c.varied else {},
         actions=actions(c, runs[0]),
-        coarse=c.body == "ring" or bool(c.duplicates),
+        # a batch stops at each sample while an action waits for an event
+        coarse=c.body == "ring" or bool(c.duplicates) or bool(c.event),
     )
     if c.body == "none":
         done = [
