@@ -1,13 +1,9 @@
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { button, choose, colours, drawn, reopen } from "./hands";
+import { examplePackage, infoOf } from "./installed";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
-
-const PACKAGE = join(import.meta.dirname, "..", "..", "examples", "package");
 
 /** A plot that raises an exception instead of drawing. */
 const FAILING = 'export function draw() { throw new RangeError("no radius"); }';
@@ -17,18 +13,13 @@ let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
-  // The server finds packages in its working folder, which is on Python's path: the one of the repository,
-  // installed by its pyproject.toml, and one whose plot fails.
-  const project = readFileSync(join(PACKAGE, "pyproject.toml"), "utf8");
-  const entries = project
-    .slice(project.indexOf("[project.entry-points"))
-    .replace(/\[project\.entry-points\."(.+)"\]/g, "[$1]")
-    .replaceAll('"', "");
+  // The package of the repository, and one whose plot fails.
+  const { copies, folders } = examplePackage();
   studio = await startStudio({
-    copies: ["examples/motor_attractor.json", "examples/package/deodar_change"],
+    copies: ["examples/motor_attractor.json", ...copies],
     files: { "failing.py": ABOUT, "failing.js": FAILING },
     folders: {
-      "deodar_change-0.1.0.dist-info": infoOf("deodar-change", entries),
+      ...folders,
       "failing-0.1.0.dist-info": infoOf("failing", "[deodar.plots]\nfailing = failing\n"),
     },
     file: "motor_attractor.json",
@@ -40,13 +31,6 @@ beforeAll(async () => {
 beforeEach(() => reopen(studio.page, observer, "motor_attractor.json"));
 
 afterAll(() => studio.stop());
-
-function infoOf(name: string, entries: string): Record<string, string> {
-  return {
-    METADATA: `Metadata-Version: 2.1\nName: ${name}\nVersion: 0.1.0\n`,
-    "entry_points.txt": entries,
-  };
-}
 
 async function step(n: number): Promise<void> {
   await observer.ask({ type: "step", n });

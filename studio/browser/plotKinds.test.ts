@@ -1,8 +1,12 @@
+import { readFileSync } from "node:fs";
+
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { PLOT_TITLES } from "../src/plots/kinds";
 import { writeArranged, writeEveryPlot } from "./everyPlot";
 import { colours, drawn, panel, reopen, settled } from "./hands";
+import { examplePackage } from "./installed";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -10,7 +14,7 @@ let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
-  studio = await startStudio();
+  studio = await startStudio(examplePackage());
   writeEveryPlot(studio.folder);
   observer = await studio.observe();
 });
@@ -23,8 +27,8 @@ const plot = (name: string): Locator => studio.page.getByRole("region", { name, 
 async function arrange(name: string, rows: Parameters<typeof writeArranged>[2]): Promise<void> {
   writeArranged(studio.folder, name, rows);
   await reopen(studio.page, observer, name);
-  await observer.ask({ type: "step", n: 20 });
-  await observer.until(() => observer.clock?.tick === 20);
+  await observer.ask({ type: "step", n: 300 });
+  await observer.until(() => observer.clock?.tick === 300);
   await expect.poll(() => studio.page.getByText("Press play").count()).toBe(0);
 }
 
@@ -75,4 +79,160 @@ test("the kernel of a field over two axes is a heat map over both lags", async (
   await expect.poll(() => drawn(kernel.locator("canvas.plot-heat"))).not.toBe(before);
   await expect.poll(() => reading("Interaction kernel of plane")).toMatch(/ 0\.080$/);
   await shot(page, "plot-kernel-plane");
+});
+
+test("the cursor is linked among maps, pictures, scenes and multiples, not to a kernel's lags", async () => {
+  await arrange("cursor.json", [
+    [
+      ["line", "curve"],
+      ["flat", "heat"],
+      ["picture", "picture"],
+      ["map", "weights"],
+    ],
+    [
+      ["flat", "surface"],
+      ["volume", "volume"],
+      ["plane", "multiples"],
+      ["line", "kernel"],
+    ],
+    [
+      ["node", "course"],
+      ["node", "phase"],
+    ],
+  ]);
+  const [heat, surface, volume] = ["Heat map of flat", "Surface of flat", "Volume slices of volume"];
+  const expectReading = (name: string, words: RegExp) =>
+    expect.poll(() => reading(name), { message: name }).toMatch(words);
+  for (const name of [surface, volume]) await plot(name).locator("canvas.plot-scene[aria-label]").waitFor();
+  await point(plot("Curves of line").locator(".u-over"), 0.5, 0.5);
+  for (const name of [heat, surface, volume, "Weights of map"])
+    await expectReading(name, /^x (9|10)\.\d* max -?\d/);
+  await expectReading("Picture of picture", /^x (9|10)\.\d*$/);
+  const cells = plot("Small multiples of plane").locator(".plot-readout");
+  await expect.poll(() => cells.allTextContents()).toHaveLength(2);
+  for (const text of await cells.allTextContents()) expect(text).toMatch(/^x\s(9|10)\.\d*\s+max/);
+  for (const name of ["Interaction kernel of line", "Phase plot of node"])
+    expect(await reading(name), name).toBe("");
+  await shot(studio.page, "plot-linked-scenes");
+
+  await point(plot(heat).locator(".u-over"), 0.25, 0.75);
+  for (const name of [surface, volume]) await expectReading(name, /^x 4\.\d* y 7\.\d* -?\d/);
+  await expectReading("Picture of picture", /^x 4\.\d* y 7\.\d* r 0\.2\d* g 0\.[78]\d* b 0/);
+  expect(await reading(surface), "the same value in both").toBe(await reading(heat));
+
+  for (const name of [surface, volume]) {
+    await point(plot(name).getByRole("group"), 0.5, 0.55);
+    await expectReading(name, /^[xyz] .*\d$/);
+    await expectReading(heat, /^[xy] .*\d$/);
+  }
+  await point(plot(surface).getByRole("group"), 0.45, 0.5);
+  await expectReading(surface, /^x \S+ y \S+ \d+/);
+  await expect.poll(async () => (await reading(heat)) === (await reading(surface))).toBe(true);
+  await expectReading("Curves of line", /^x /);
+
+  await point(plot("Time course of node").locator(".u-over"), 0.05, 0.5);
+  await expectReading("Phase plot of node", /^t \d/);
+  await expectReading(surface, /^$/);
+});
+
+test("a field over four axes is cut by sliders on the axes that are not drawn", async () => {
+  await arrange("four.json", [
+    [
+      ["four", "heat"],
+      ["four", "volume"],
+    ],
+  ]);
+  const [heat, volume] = ["Heat map of four", "Volume slices of four"];
+  const slide = (name: string, axis: string, key: string) =>
+    plot(name)
+      .getByRole("slider", { name: `Position on ${axis}` })
+      .press(key);
+  expect(await plot(heat).getByRole("slider").count()).toBe(2);
+  expect(await plot(volume).getByRole("slider").count()).toBe(4);
+  const value = async (name: string) => Number((await reading(name)).split(" ").at(-1));
+  await point(plot(heat).locator(".u-over"), 0.01, 0.5);
+  // 100 w + 10 z + x / 100
+  await expect.poll(() => value(heat)).toBe(350);
+  await slide(heat, "z", "Home");
+  await expect.poll(() => value(heat)).toBe(300);
+  await slide(heat, "w", "Home");
+  await expect.poll(() => value(heat)).toBe(0);
+  await slide(heat, "z", "End");
+  await expect.poll(() => value(heat)).toBe(50);
+
+  await point(plot(volume).getByRole("group"), 0.5, 0.5);
+  await expect.poll(() => value(volume)).toBeGreaterThanOrEqual(300);
+  await slide(volume, "w", "Home");
+  await expect.poll(() => value(volume)).toBeLessThan(100);
+  await slide(volume, "w", "ArrowRight");
+  await expect.poll(async () => Math.floor((await value(volume)) / 100)).toBe(1);
+  await shot(studio.page, "plot-four-axes");
+});
+
+test("two axes that share a unit have the same scale in pictures, kernels and multiples", async () => {
+  await arrange("aspect.json", [
+    [
+      ["picture", "picture"],
+      ["plane", "kernel"],
+    ],
+    [
+      ["plane", "multiples"],
+      ["plane", "heat"],
+    ],
+  ]);
+  const shares: Record<string, number> = {
+    "Picture of picture": 21 / 11,
+    "Interaction kernel of plane": 41 / 21,
+    "Small multiples of plane": 21 / 11,
+    "Heat map of plane": 21 / 11,
+  };
+  for (const [name, share] of Object.entries(shares)) {
+    for (const over of await plot(name).locator(".u-over").all()) {
+      const room = await settled(studio.page, () => over.boundingBox());
+      expect((room?.width ?? 0) / (room?.height ?? 1) / share, name).toBeGreaterThan(0.97);
+      expect((room?.width ?? 0) / (room?.height ?? 1) / share, name).toBeLessThan(1.03);
+    }
+  }
+});
+
+test("every kind of plot is exported as PNG, SVG and CSV", async () => {
+  const { page } = studio;
+  // the element, and the first line of its table
+  const shown: Record<string, [element: string, header: string]> = {
+    course: ["node", "time (ms),activation"],
+    curve: ["far", "long [thinned: 600 values of 1000 samples],output"],
+    heat: ["plane", "x (cm),y (cm),activation"],
+    picture: ["picture", "x (cm),y (cm),output red,output green,output blue"],
+    space_time: ["line", "time (ms),x (cm),activation"],
+    phase: ["node", "time (ms),activation,rate of change (1/ms)"],
+    surface: ["flat", "x (cm),y (cm),output"],
+    volume: ["volume", "x (cm),y (cm),z (cm),activation"],
+    kernel: ["line", "lag in x (cm),weight"],
+    weights: ["map", "x (cm),y (cm),weights"],
+    multiples: ["plane", "x (cm),y (cm),plane,fellow"],
+    polar: ["ring", "angle (deg),activation"],
+  };
+  expect(new Set([...Object.keys(PLOT_TITLES), "polar"])).toEqual(new Set(Object.keys(shown)));
+  const titles: Record<string, string> = { ...PLOT_TITLES, polar: "Polar plot" };
+  const all = Object.entries(shown).map(([kind, [element]]) => [element, kind] as const);
+  await arrange("export.json", [all.slice(0, 4), all.slice(4, 8), all.slice(8)]);
+  for (const [kind, [element, header]] of Object.entries(shown)) {
+    const name = `${titles[kind]} of ${element}`;
+    const files: Record<string, Buffer> = {};
+    for (const format of ["PNG", "SVG", "CSV"]) {
+      const item = page.getByRole("menuitem", { name: `Export ${format}` });
+      await plot(name).getByRole("button", { name: "Menu of this plot" }).click();
+      const coming = page.waitForEvent("download");
+      await item.click();
+      files[format] = readFileSync(await (await coming).path());
+      await page.getByRole("menu").waitFor({ state: "detached" });
+    }
+    expect(files["PNG"]?.subarray(1, 4).toString(), name).toBe("PNG");
+    expect(files["PNG"]?.length, name).toBeGreaterThan(1000);
+    expect(files["SVG"]?.toString(), name).toMatch(/^<svg .*<(path|image|text).*<\/svg>\s*$/s);
+    const lines = files["CSV"]?.toString().trimEnd().split("\n") ?? [];
+    expect(lines[0], name).toBe(header);
+    expect(lines.length, name).toBeGreaterThan(20);
+    expect(lines[1], name).toMatch(/\d,.*\d$/);
+  }
 });

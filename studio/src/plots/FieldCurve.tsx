@@ -9,6 +9,7 @@ import type { Live, Wish } from "../streams";
 import { AxisControl } from "./AxisControl";
 import { Chip } from "./Chip";
 import { inOrder, portColor } from "./colors";
+import { axisHeader } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
 import { axisLabel, points, portAxes, portsAlike } from "./kinds";
@@ -195,7 +196,10 @@ export function FieldCurve(props: PlotProps) {
           )}
         </>
       }
-      table={() => ({ header: [x === null ? "" : axisLabel(x), ...curves], columns: data.current })}
+      table={() => ({
+        header: [x === null ? "" : axisHeader(x, form?.shape[0]), ...curves],
+        columns: data.current,
+      })}
       exportAs={(format) => {
         if (chart.current !== null) {
           const { width, height } = chart.current;

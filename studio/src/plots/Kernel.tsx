@@ -7,7 +7,7 @@ import type { Live, Wish } from "../streams";
 import type { CursorAt } from "./chartCursor";
 import { drawColorBar } from "./colorBar";
 import { portColor } from "./colors";
-import { plane as planeRows } from "./exportCsv";
+import { arrayTable } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, commonScale, edges, points } from "./kinds";
 import { axis, frame, type Look, mapFrame } from "./look";
@@ -145,16 +145,7 @@ export function Kernel(props: PlotProps) {
       }
       table={() => {
         const values = newest.current?.frame?.values;
-        if (x === null || values === undefined) {
-          return null;
-        }
-        const places = points(x, form?.shape[0]);
-        return y === null
-          ? { header: [axisLabel(x), "weight"], columns: [places, values] }
-          : {
-              header: [axisLabel(x), axisLabel(y), "weight"],
-              columns: planeRows(places, points(y, form?.shape[1]), values),
-            };
+        return form === null || values === undefined ? null : arrayTable(form, values, "weight");
       }}
       exportAs={(format) => {
         if (chart.current !== null) {

@@ -7,9 +7,9 @@ import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
 import { AxisControl } from "./AxisControl";
 import { ColorControl } from "./ColorControl";
-import { plane, type Table } from "./exportCsv";
+import { axisHeader, plane, type Table } from "./exportCsv";
 import { exportMultiples } from "./exportDrawing";
-import { axisLabel, elementsAlike, isPicture, points, portAxes } from "./kinds";
+import { elementsAlike, isPicture, points, portAxes } from "./kinds";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { type CellHandle, MultipleCell, type SharedScales } from "./MultipleCell";
 import { extent } from "./paint";
@@ -178,8 +178,11 @@ function tableOf(lives: Live[], shown: ElementView[], dimensions: number, timeUn
   const values = lives.map(({ frame }) => frame?.values ?? []);
   const places = points(x, form.shape[0]);
   if (y === undefined) {
-    return { header: [axisLabel(x), ...names], columns: [places, ...values] };
+    return { header: [axisHeader(x, form.shape[0]), ...names], columns: [places, ...values] };
   }
   const [across, up] = plane(places, points(y, form.shape[1]), []);
-  return { header: [axisLabel(x), axisLabel(y), ...names], columns: [across ?? [], up ?? [], ...values] };
+  return {
+    header: [axisHeader(x, form.shape[0]), axisHeader(y, form.shape[1]), ...names],
+    columns: [across ?? [], up ?? [], ...values],
+  };
 }

@@ -4,6 +4,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { useEffect, useMemo, useRef, useState } from "react";
 import type { ListedProblem, PlotView } from "../protocol";
 import type { Live, Wish } from "../streams";
+import { arrayTable } from "./exportCsv";
 import { exportPicture } from "./exportDrawing";
 import { fits } from "./kinds";
 import { type Look, pageLook, paperLook } from "./look";
@@ -106,6 +107,10 @@ export function PackagedPlot(props: PlotProps & { plot: PlotView }) {
         lost: problem ?? streaming.lost,
       }}
       note={form !== null && form.folded.length > 0 ? `max over ${form.folded.join(", ")}` : ""}
+      table={() => {
+        const { frame, form: shown } = newest.current ?? {};
+        return frame == null || shown == null ? null : arrayTable(shown, frame.values, port);
+      }}
       exportAs={(format) => {
         const sheet = document.createElement("canvas");
         if (drawOn(sheet, paperLook(1), EXPORT_RATIO)) {

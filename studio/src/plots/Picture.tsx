@@ -5,6 +5,7 @@ import type uPlot from "uplot";
 import type { AxisView } from "../protocol";
 import type { Live, Wish } from "../streams";
 import type { CursorAt } from "./chartCursor";
+import { arrayTable } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, commonScale, edges, isPicture } from "./kinds";
 import { axis, frame, type Look } from "./look";
@@ -96,6 +97,10 @@ export function Picture(props: PlotProps) {
       kind="picture"
       ports={ports}
       streaming={streaming}
+      table={() => {
+        const { frame, form: shown } = newest.current ?? {};
+        return frame == null || shown == null ? null : arrayTable(shown, frame.values, port);
+      }}
       exportAs={(format) => {
         if (chart.current !== null && picture.current !== null) {
           const { width, height } = chart.current;

@@ -8,11 +8,11 @@ import type { Live, Wish } from "../streams";
 import { drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorsControl } from "./ColorsControl";
-import { plane } from "./exportCsv";
+import { arrayTable } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { attachInjection } from "./injection";
 import type { ScaleName } from "./colors";
-import { axisLabel, commonScale, edges, type PlotKind, points, runsDown } from "./kinds";
+import { axisLabel, commonScale, edges, type PlotKind, runsDown } from "./kinds";
 import { pushAmplitude } from "./levels";
 import { axis, type Look, mapFrame } from "./look";
 import { FollowingColors, middleOf } from "./mapColors";
@@ -146,12 +146,7 @@ export function PlaneMap(props: PlaneMapProps) {
       }
       table={() => {
         const { frame, form: now } = newest.current ?? {};
-        return frame == null || now == null
-          ? null
-          : {
-              header: [axisLabel(x), axisLabel(y), shown],
-              columns: plane(points(x, now.shape[0]), points(y, now.shape[1]), frame.values),
-            };
+        return frame == null || now == null ? null : arrayTable(now, frame.values, shown);
       }}
       exportAs={(format) => {
         if (chart.current !== null && heat.current !== null) {

@@ -45,8 +45,8 @@ type PlotFrameProps = PlotProps & {
   controls?: ReactNode;
   streaming: Streaming;
   exportAs: (format: DrawingFormat) => void;
-  // The values that are drawn; missing: the plot has none as numbers.
-  table?: () => Table | null;
+  // The values that are drawn.
+  table: () => Table | null;
   children: ReactNode;
 };
 
@@ -139,20 +139,18 @@ export function PlotFrame(props: PlotFrameProps) {
                 Export {format.toUpperCase()}
               </Menu.Item>
             ))}
-            {table !== undefined && (
-              <Menu.Item
-                leftSection={<IconTableDown size={15} />}
-                disabled={!seen}
-                onClick={() => {
-                  const values = table();
-                  if (values !== null) {
-                    exportCsv(`${element.path} ${titleOf(kind, packaged)}`, values);
-                  }
-                }}
-              >
-                Export CSV
-              </Menu.Item>
-            )}
+            <Menu.Item
+              leftSection={<IconTableDown size={15} />}
+              disabled={!seen}
+              onClick={() => {
+                const values = table();
+                if (values !== null) {
+                  exportCsv(`${element.path} ${titleOf(kind, packaged)}`, values);
+                }
+              }}
+            >
+              Export CSV
+            </Menu.Item>
             {hasFigure(kind, axes.length) && (
               <Menu.Item
                 leftSection={<IconFileDescription size={15} />}

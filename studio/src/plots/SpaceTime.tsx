@@ -12,7 +12,7 @@ import type { Wish } from "../streams";
 import { drawColorBar } from "./colorBar";
 import { AxisControl } from "./AxisControl";
 import { ColorsControl } from "./ColorsControl";
-import { plane } from "./exportCsv";
+import { axisHeader, plane } from "./exportCsv";
 import { exportDrawing } from "./exportDrawing";
 import { axisLabel, cell, edges, isPicture, points } from "./kinds";
 import { axis, type Look, mapFrame } from "./look";
@@ -171,7 +171,7 @@ export function SpaceTime(props: PlotProps) {
         const { times, values } = rows.current.within(span.current);
         const time = timeUnit === "" ? "time" : `time (${timeUnit})`;
         return {
-          header: [time, axisLabel(x), port],
+          header: [time, axisHeader(x, rows.current.width), port],
           columns: plane(times, points(x, rows.current.width), values),
         };
       }}

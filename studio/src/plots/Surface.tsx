@@ -4,15 +4,15 @@
 import { useMemo, useRef } from "react";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
-import { AxisControl } from "./AxisControl";
-import { ColorsControl } from "./ColorsControl";
-import { plane } from "./exportCsv";
-import { axisLabel, commonScale, edges, isPicture, points } from "./kinds";
+import { arrayTable } from "./exportCsv";
+import { axisLabel, edges, isPicture } from "./kinds";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
-import { PlotFrame, type PlotProps } from "./PlotFrame";
+import type { PlotProps } from "./PlotFrame";
+import { readPlane } from "./readPlane";
+import { ScenePlot } from "./ScenePlot";
 import type { SceneFrame } from "./sceneFrame";
 import { allAxes } from "./section";
-import { SectionStrip } from "./SectionStrip";
+import { surfaceSize } from "./sceneSize";
 import type { SceneStage } from "./sceneStage";
 import { useLevels } from "./useLevels";
 import { usePorts } from "./usePorts";
@@ -20,7 +20,6 @@ import { useScene } from "./useScene";
 import { useStreams } from "./useStreams";
 
 const MOST = 100;
-const HEIGHT = 0.5;
 
 export function Surface(props: PlotProps) {
   const { element, port, settings, visible, set } = props;
@@ -45,15 +44,13 @@ export function Surface(props: PlotProps) {
     }
     colors.current.follow(frame.values, name, middleOf(twoSided, levels.current), settings.range);
     const { range } = colors.current.now;
-    const [wide, deep] = commonScale(x, y) ?? [1, 1];
-    const longest = Math.max(wide, deep);
-    const size = [wide / longest, deep / longest, HEIGHT] as const;
+    const size = surfaceSize(x, y);
     stage.showSurface(frame.values, nx, ny, size, colors.current.now);
     return {
       size,
       axes: [
-        { label: axisLabel(x), range: edges(x) },
-        { label: axisLabel(y), range: edges(y) },
+        { label: axisLabel(x), range: edges(x), along: x },
+        { label: axisLabel(y), range: edges(y), along: y },
         { label: port, range },
       ],
       bar: null,
@@ -65,45 +62,34 @@ export function Surface(props: PlotProps) {
   });
   const form = streaming.forms[0] ?? null;
   const names = form?.axes.map((axis) => axis.name) ?? [];
-  const { host, redraw, problem, exportAs } = useScene({
+  const scene = useScene({
     label: `${port} of ${element.path} as a surface over ${names.join(" and ")}`,
     view: settings.view,
     keep: (view) => set({ view }),
+    read: ([across = null, up = null]) => {
+      const [x, y] = newest.current?.form?.axes ?? [];
+      return x === undefined || y === undefined ? "" : readPlane(newest.current, x, y, { x: across, y: up });
+    },
     show,
   });
+  const { redraw } = scene;
 
   return (
-    <PlotFrame
+    <ScenePlot
       {...props}
       kind="surface"
       ports={ports}
-      streaming={{ ...streaming, seen: streaming.seen && problem === null, lost: problem ?? streaming.lost }}
-      strip={<SectionStrip rest={form?.rest ?? []} at={at} set={set} />}
-      controls={
-        <>
-          <AxisControl axes={allAxes(form)} labels={["First axis", "Second axis"]} set={set} />
-          <ColorsControl settings={settings} shown={() => colors.current.now.range} set={set} />
-        </>
-      }
+      streaming={streaming}
+      scene={scene}
+      colors={colors}
+      axes={allAxes(form)}
+      labels={["First axis", "Second axis"]}
+      cut={form?.rest ?? []}
+      label={`Surface of ${element.path}; the arrow keys turn it`}
       table={() => {
         const { frame, form: shown } = newest.current ?? {};
-        const [x, y] = shown?.axes ?? [];
-        return frame == null || shown == null || x === undefined || y === undefined
-          ? null
-          : {
-              header: [axisLabel(x), axisLabel(y), port],
-              columns: plane(points(x, shown.shape[0]), points(y, shown.shape[1]), frame.values),
-            };
+        return frame == null || shown == null ? null : arrayTable(shown, frame.values, port);
       }}
-      exportAs={(format) => exportAs(`${element.path} ${port}`, format)}
-    >
-      <div
-        ref={host}
-        className="plot-host plot-turning"
-        tabIndex={0}
-        role="group"
-        aria-label={`Surface of ${element.path}; the arrow keys turn it`}
-      />
-    </PlotFrame>
+    />
   );
 }

@@ -5,20 +5,21 @@ import { useMemo, useRef } from "react";
 import type { AxisView } from "../protocol";
 import { useStudio } from "../store";
 import type { Live, Wish } from "../streams";
-import { AxisControl } from "./AxisControl";
-import { ColorsControl } from "./ColorsControl";
-import { plane, type Table } from "./exportCsv";
-import { axisLabel, commonScale, edges, isPicture, points, portAxes } from "./kinds";
+import { axisHeader, plane, type Table } from "./exportCsv";
+import { axisLabel, edges, isPicture, points, portAxes } from "./kinds";
 import { FollowingColors, middleOf, scaleOf } from "./mapColors";
 import { extent, paintHeat } from "./paint";
-import { PlotFrame, type PlotProps } from "./PlotFrame";
+import type { PlotProps } from "./PlotFrame";
+import { reading } from "./range";
+import { readPlane } from "./readPlane";
+import { ScenePlot } from "./ScenePlot";
 import type { SceneFrame } from "./sceneFrame";
+import { volumeSize } from "./sceneSize";
 import { cameraAt, type Viewpoint } from "./sceneView";
-import { SectionStrip } from "./SectionStrip";
 import type { SceneStage } from "./sceneStage";
 import { useLevels } from "./useLevels";
 import { usePorts } from "./usePorts";
-import { useScene } from "./useScene";
+import { type ScenePosition, useScene } from "./useScene";
 import { useStreams } from "./useStreams";
 
 const MOST = 128;
@@ -74,7 +75,7 @@ export function Volume(props: PlotProps) {
     colors.current.follow(ends, name, middleOf(twoSided, levels.current), settings.range);
     const { range, table } = colors.current.now;
     const camera = cameraAt(view);
-    const size = sizes(x, y, z);
+    const size = volumeSize(x, y, z);
     const slices = CUTS.map((axis) => {
       const canvas = canvases[axis] as HTMLCanvasElement;
       const [nx = 0, ny = 0] = newest.current[axis]?.form?.shape ?? [];
@@ -83,44 +84,41 @@ export function Volume(props: PlotProps) {
       return { axis, canvas, place: place(drawn[axis] as AxisView) ?? behind };
     });
     stage.showSlices(slices, size);
-    const named = (axis: AxisView) => ({ label: axisLabel(axis), range: edges(axis) });
+    const named = (axis: AxisView) => ({
+      label: axisLabel(axis),
+      range: edges(axis),
+      along: axis,
+      folded: place(axis) === null,
+    });
     return { size, axes: [named(x), named(y), named(z)], bar: colors.current.now };
   };
   const streaming = useStreams(wishes, visible, (lives) => {
     newest.current = lives;
     redraw();
   });
-  const { host, redraw, problem, exportAs } = useScene({
+  const scene = useScene({
     label: `Slices of ${port} of ${element.path} over ${drawn.map((axis) => axis.name).join(", ")}`,
     view: settings.view,
     keep: (view) => set({ view }),
+    read: (positions, slice) => readSlices(drawn, newest.current, positions, slice),
     show,
   });
+  const { redraw } = scene;
 
   return (
-    <PlotFrame
+    <ScenePlot
       {...props}
       kind="volume"
       ports={ports}
-      streaming={{ ...streaming, seen: streaming.seen && problem === null, lost: problem ?? streaming.lost }}
-      strip={<SectionStrip rest={axes} at={at} set={set} />}
-      controls={
-        <>
-          <AxisControl axes={axes} labels={["First axis", "Second axis", "Upwards"]} set={set} />
-          <ColorsControl settings={settings} shown={() => colors.current.now.range} set={set} />
-        </>
-      }
+      streaming={streaming}
+      scene={scene}
+      colors={colors}
+      axes={axes}
+      labels={["First axis", "Second axis", "Upwards"]}
+      cut={axes}
+      label={`Slices of ${element.path}; the arrow keys turn them`}
       table={() => tableOf(drawn, newest.current, at, port)}
-      exportAs={(format) => exportAs(`${element.path} ${port}`, format)}
-    >
-      <div
-        ref={host}
-        className="plot-host plot-turning"
-        tabIndex={0}
-        role="group"
-        aria-label={`Slices of ${element.path}; the arrow keys turn them`}
-      />
-    </PlotFrame>
+    />
   );
 }
 
@@ -133,14 +131,6 @@ function inOrder(axes: AxisView[], chosen: string[]): AxisView[] {
   });
   const first = chosen.flatMap((name) => numbered.filter((axis) => axis.name === name));
   return [...first, ...numbered.filter((axis) => !first.includes(axis))];
-}
-
-// Lengths of the box: in one scale where all axes share it.
-function sizes(x: AxisView, y: AxisView, z: AxisView): [number, number, number] {
-  const [one, other] = [commonScale(x, y), commonScale(x, z)];
-  const lengths = one === null || other === null ? [1, 1, 1] : [one[0], one[1], other[1]];
-  const longest = Math.max(...lengths);
-  return lengths.map((length) => (0.8 * length) / longest) as [number, number, number];
 }
 
 // One row for each value of each slice; a maximum has no position on its axis.
@@ -164,5 +154,23 @@ function tableOf(axes: AxisView[], lives: Live[], at: Record<string, number>, po
     });
     values.push(...frame.values);
   }
-  return { header: [...axes.map(axisLabel), port], columns: [...columns, values] };
+  const shown = lives.flatMap(({ form }) =>
+    (form?.axes ?? []).map((axis, d) => [axis.name, form?.shape[d]] as const),
+  );
+  const header = axes.map((axis) => axisHeader(axis, shown.find(([name]) => name === axis.name)?.[1]));
+  return { header: [...header, port], columns: [...columns, values] };
+}
+
+// What lies at positions: on the slice with the pointer, else on the one with the most of the positions.
+function readSlices(axes: AxisView[], lives: Live[], at: ScenePosition, slice: number | null): string {
+  const known = (cut: number) => at.filter((value, d) => d !== cut && value !== null).length;
+  const cut = slice ?? CUTS.reduce<number>((best, other) => (known(other) > known(best) ? other : best), 0);
+  const [x, y] = lives[cut]?.form?.axes ?? [];
+  if (x === undefined || y === undefined) {
+    return "";
+  }
+  const [across = null, up = null] = at.filter((_, d) => d !== cut);
+  const [axis, position] = [axes[cut], at[cut] ?? null];
+  const word = axis === undefined || position === null ? "" : `${axis.name} ${reading(position)}   `;
+  return word + readPlane(lives[cut] ?? null, x, y, { x: across, y: up });
 }

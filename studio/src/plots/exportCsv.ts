@@ -1,5 +1,7 @@
 // The values of a plot as a CSV file: one row for each position, or moment, with the names and units of axes.
 
+import type { Announced, AxisView } from "../protocol";
+import { axisLabel, points } from "./kinds";
 import { type TableColumn, saveFile } from "./save";
 
 export type Table = { header: string[]; columns: TableColumn[] };
@@ -29,6 +31,36 @@ export function plane(places: TableColumn, other: TableColumn, values: TableColu
     }
   }
   return [one, two, values];
+}
+
+// The values of a stream over one axis, over two, or over two with the channels of a picture.
+export function arrayTable(form: Announced, values: Float32Array, name: string): Table | null {
+  const [x, y] = form.axes;
+  const [nx = 0, ny = 0] = form.shape;
+  if (x === undefined) {
+    return null;
+  }
+  const across = points(x, nx);
+  if (y === undefined) {
+    return { header: [axisHeader(x, nx), name], columns: [across, values] };
+  }
+  const header = [axisHeader(x, nx), axisHeader(y, ny)];
+  if (!form.channels) {
+    return { header: [...header, name], columns: plane(across, points(y, ny), values) };
+  }
+  const channels = CHANNELS.map((_, c) => values.filter((_, i) => i % CHANNELS.length === c));
+  return {
+    header: [...header, ...CHANNELS.map((channel) => `${name} ${channel}`)],
+    columns: [...plane(across, points(y, ny), []).slice(0, 2), ...channels],
+  };
+}
+
+const CHANNELS = ["red", "green", "blue"];
+
+// The name and unit of an axis; where the page has fewer values than samples, how many.
+export function axisHeader(axis: AxisView, count: number | undefined): string {
+  const thinned = count !== undefined && count < axis.samples;
+  return `${axisLabel(axis)}${thinned ? ` [thinned: ${count} values of ${axis.samples} samples]` : ""}`;
 }
 
 function cellText(value: number | null | undefined): string {

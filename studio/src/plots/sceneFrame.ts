@@ -1,13 +1,21 @@
 // What surrounds a scene: the box with ticks and names of its axes, and the colour bar. It is drawn below the
 // scene, so the edges in front of it are left out.
 
+import type { AxisView } from "../protocol";
 import { drawColorBar } from "./colorBar";
 import { font, type Look } from "./look";
 import type { MapColors } from "./mapColors";
 import { tick, ticks } from "./range";
 import { cameraAt, type Point3, projection, type Viewpoint } from "./sceneView";
 
-export type SceneAxis = { label: string; range: readonly [number, number] };
+export type SceneAxis = {
+  label: string;
+  range: readonly [number, number];
+  // The axis of the model, for the linked cursor; missing: it carries values.
+  along?: AxisView;
+  // Whether the slice at a right angle to it shows the maximum over it, and so has no position.
+  folded?: boolean;
+};
 
 export type SceneFrame = {
   // Lengths of the box.

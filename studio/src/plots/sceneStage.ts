@@ -9,6 +9,8 @@ import {
   DirectionalLight,
   DoubleSide,
   LinearFilter,
+  LineBasicMaterial,
+  LineSegments,
   LinearSRGBColorSpace,
   Mesh,
   MeshBasicMaterial,
@@ -16,7 +18,11 @@ import {
   NearestFilter,
   PerspectiveCamera,
   PlaneGeometry,
+  Raycaster,
   Scene,
+  Sphere,
+  Vector2,
+  Vector3,
   WebGLRenderer,
 } from "three";
 import type { MapColors } from "./mapColors";
@@ -25,6 +31,9 @@ import { ANGLE, cameraAt, DISTANCE, magnification, type Point3, type Viewpoint }
 // A plane through the box at right angles to an axis, from its lower end (0) to its upper end (1). The canvas
 // has the first other axis to the right and the second one upwards.
 export type Slice = { axis: 0 | 1 | 2; place: number; canvas: HTMLCanvasElement };
+
+// What a ray from the camera meets first: a point of the box, and the axis of the slice that it is on.
+export type Hit = { point: Point3; slice: 0 | 1 | 2 | null };
 
 // The colours are those of the scales, not of a lamp on a surface of some material.
 ColorManagement.enabled = false;
@@ -39,12 +48,16 @@ export class SceneStage {
   private lamp = new DirectionalLight(0xffffff, DIRECTED);
   private surface: SurfaceMesh | null = null;
   private planes = new Map<number, Mesh<PlaneGeometry, MeshBasicMaterial>>();
+  private places = new Map<number, number>();
+  private size: Point3 = [1, 1, 1];
+  private cursor = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.camera.up.set(0, 0, 1);
-    this.scene.add(new AmbientLight(0xffffff, AMBIENT), this.lamp);
+    this.cursor.frustumCulled = false;
+    this.scene.add(new AmbientLight(0xffffff, AMBIENT), this.lamp, this.cursor);
   }
 
   // Show values over two axes as heights and colours. C order: index = ix * ny + iy.
@@ -54,19 +67,22 @@ export class SceneStage {
       this.surface = new SurfaceMesh(nx, ny);
       this.scene.add(this.surface.mesh);
     }
+    this.size = size;
     this.surface.set(values, size, colors);
   }
 
   // Show planes, at most one for each axis.
   showSlices(slices: Slice[], size: Point3): void {
+    this.size = size;
     for (const { axis, place, canvas } of slices) {
+      this.places.set(axis, place);
       const [across, up] = [0, 1, 2].filter((d) => d !== axis) as [number, number];
       let plane = this.planes.get(axis);
       if (plane?.material.map?.image !== canvas) {
         plane?.removeFromParent();
         plane = new Mesh(
           new PlaneGeometry(),
-          new MeshBasicMaterial({ side: DoubleSide, map: texture(canvas) }),
+          new MeshBasicMaterial({ side: DoubleSide, map: texture(canvas), ...BEHIND_LINES }),
         );
         this.scene.add(plane);
         this.planes.set(axis, plane);
@@ -90,6 +106,47 @@ export class SceneStage {
     }
   }
 
+  // Show lines on the surface and on the slices where the cursor is: a share of the box along each axis, null
+  // where it has no position.
+  showCursor(shares: readonly (number | null)[], color: string): void {
+    const points = [
+      ...(this.surface?.lines(shares, this.size) ?? []),
+      ...[...this.places].flatMap(([axis, place]) => this.linesOnSlice(axis, place, shares)),
+    ];
+    this.cursor.geometry.dispose();
+    this.cursor.geometry = new BufferGeometry().setFromPoints(points.map((point) => new Vector3(...point)));
+    this.cursor.material.color.set(color);
+    this.cursor.visible = points.length > 0;
+  }
+
+  // What lies under a pixel of the page, from the top left, in the view that was drawn last.
+  hit(x: number, y: number, width: number, height: number): Hit | null {
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
+    const meshes = [...(this.surface === null ? [] : [this.surface.mesh]), ...this.planes.values()];
+    const [first] = ray.intersectObjects(meshes, false);
+    if (first === undefined) {
+      return null;
+    }
+    const slice = [...this.planes].find(([, plane]) => plane === first.object)?.[0] ?? null;
+    return { point: first.point.toArray(), slice: slice as Hit["slice"] };
+  }
+
+  private linesOnSlice(axis: number, place: number, shares: readonly (number | null)[]): Point3[] {
+    return [0, 1, 2].flatMap((d) => {
+      const share = shares[d] ?? null;
+      const rest = [0, 1, 2].find((other) => other !== axis && other !== d) as number;
+      if (d === axis || share === null) {
+        return [];
+      }
+      return [0, 1].map((end) => {
+        const at = [0, 0, 0];
+        [at[axis], at[d], at[rest]] = [place, share, end];
+        return at.map((part, k) => (part - 0.5) * (this.size[k] as number)) as Triple;
+      });
+    });
+  }
+
   // Draw; lengths in pixels of the page, `ratio` pixels of the canvas for each.
   render(view: Viewpoint, width: number, height: number, ratio: number): void {
     this.renderer.setPixelRatio(ratio);
@@ -110,6 +167,8 @@ export class SceneStage {
 
   end(): void {
     this.surface?.end();
+    this.cursor.geometry.dispose();
+    this.cursor.material.dispose();
     for (const { geometry, material } of this.planes.values()) {
       geometry.dispose();
       material.map?.dispose();
@@ -122,6 +181,9 @@ export class SceneStage {
 }
 
 type Triple = [number, number, number];
+
+// Lines on a plane are drawn above it.
+const BEHIND_LINES = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 };
 
 class SurfaceMesh {
   readonly mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
@@ -147,7 +209,10 @@ class SurfaceMesh {
       }
     }
     geometry.setIndex(corners);
-    this.mesh = new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true, side: DoubleSide }));
+    // The vertices move inside the box.
+    geometry.boundingSphere = new Sphere(new Vector3(), 1);
+    const material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, ...BEHIND_LINES });
+    this.mesh = new Mesh(geometry, material);
     // Every vertex moves: it is never out of view.
     this.mesh.frustumCulled = false;
   }
@@ -157,13 +222,14 @@ class SurfaceMesh {
     const [place, normal, color] = [this.positions, this.normals, this.colors].map(
       ({ array }) => array as Float32Array,
     ) as [Float32Array, Float32Array, Float32Array];
-    const [stepX, stepY] = [size[0] / Math.max(1, nx - 1), size[1] / Math.max(1, ny - 1)];
+    // Each sample is in the middle of its part of the axis.
+    const [stepX, stepY] = [size[0] / nx, size[1] / ny];
     const share = (i: number) => Math.min(1, Math.max(0, ((values[i] as number) - low) / (high - low))) || 0;
     for (let i = 0, at = 0; i < nx; i++) {
       for (let j = 0; j < ny; j++, at++) {
         const part = share(at);
-        place[3 * at] = i * stepX - size[0] / 2;
-        place[3 * at + 1] = j * stepY - size[1] / 2;
+        place[3 * at] = (i + 0.5) * stepX - size[0] / 2;
+        place[3 * at + 1] = (j + 0.5) * stepY - size[1] / 2;
         place[3 * at + 2] = (part - 0.5) * size[2];
         const from = 4 * Math.round(255 * part);
         for (let c = 0; c < 3; c++) {
@@ -187,6 +253,33 @@ class SurfaceMesh {
     for (const attribute of [this.positions, this.normals, this.colors]) {
       attribute.needsUpdate = true;
     }
+  }
+
+  // Segments along the surface at a share of the first and of the second axis.
+  lines([across = null, up = null]: readonly (number | null)[], size: Point3): Point3[] {
+    const { nx, ny } = this;
+    const { array } = this.positions;
+    const vertex = (i: number, j: number): Triple => {
+      const at = 3 * (i * ny + j);
+      return [array[at] as number, array[at + 1] as number, array[at + 2] as number];
+    };
+    const near = (share: number, count: number) => Math.min(count - 1, Math.floor(share * count));
+    const segments = (count: number, point: (k: number) => Point3) =>
+      Array.from({ length: Math.max(0, count - 1) }, (_, k) => [point(k), point(k + 1)]).flat();
+    return [
+      ...(across === null
+        ? []
+        : segments(ny, (j) => {
+            const [, y, z] = vertex(near(across, nx), j);
+            return [(across - 0.5) * size[0], y, z];
+          })),
+      ...(up === null
+        ? []
+        : segments(nx, (i) => {
+            const [x, , z] = vertex(i, near(up, ny));
+            return [x, (up - 0.5) * size[1], z];
+          })),
+    ];
   }
 
   end(): void {

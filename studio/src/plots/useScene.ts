@@ -1,21 +1,29 @@
 // A scene in three dimensions that fills its place: the frame on one canvas, and above it what three.js
-// draws. The pointer and the arrow keys turn it, the wheel and + and - magnify it.
+// draws. The pointer and the arrow keys turn it, the wheel and + and - magnify it. The cursor of all plots is
+// lines on it: what lies under the pointer, or where the pointer in another plot is.
 
 import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useRef, useState } from "react";
 import type { ListedProblem } from "../protocol";
 import { type DrawingFormat, exportScene } from "./exportDrawing";
+import { type Coordinate, linkedCursor, valueOn } from "./linked";
 import { pageLook } from "./look";
 import { drawSceneFrame, type SceneFrame } from "./sceneFrame";
 import { FIRST_VIEW, turned, type Viewpoint, zoomed } from "./sceneView";
-import type { SceneStage } from "./sceneStage";
+import type { Hit, SceneStage } from "./sceneStage";
 import { useLatest } from "./useLatest";
+
+// Positions on the axes of the box; null where there is none.
+export type ScenePosition = readonly (number | null)[];
 
 export type SceneContent = {
   // What it shows, in words.
   label: string;
   view: Viewpoint | null;
   keep: (view: Viewpoint) => void;
+  // What lies at positions on the axes of the box, in words; `slice` is the axis of the slice with the
+  // pointer.
+  read: (at: ScenePosition, slice: Hit["slice"]) => string;
   // Put the values on the stage and return what surrounds them; null: there are none yet.
   show: (stage: SceneStage, view: Viewpoint) => SceneFrame | null;
 };
@@ -94,6 +102,11 @@ class LiveScene {
   private stage: SceneStage;
   private below = document.createElement("canvas");
   private above = document.createElement("canvas");
+  private words = document.createElement("div");
+  private frame: SceneFrame | null = null;
+  private pointed: Hit | null = null;
+  private linked: Coordinate[] = [];
+  private unlink: () => void;
   private view: Viewpoint;
   private due = 0;
   private listening = new AbortController();
@@ -108,10 +121,16 @@ class LiveScene {
       canvas.className = "plot-scene";
       host.append(canvas);
     }
+    this.words.className = "plot-readout numbers";
+    host.append(this.words);
     this.above.setAttribute("role", "img");
     this.stage = make(this.above);
     this.view = content().view ?? FIRST_VIEW;
     this.observer.observe(host);
+    this.unlink = linkedCursor.listen(this, (coordinates) => {
+      this.linked = coordinates;
+      this.redraw();
+    });
     this.listen();
   }
 
@@ -124,6 +143,7 @@ class LiveScene {
     const { clientWidth: width, clientHeight: height } = this.host;
     const frame = this.content().show(this.stage, this.view);
     if (frame !== null) {
+      this.stage.showCursor([], "");
       this.stage.render(this.view, width, height, 2);
       exportScene(title, { width, height, frame, view: this.view, image: this.above }, format);
       this.redraw();
@@ -131,12 +151,16 @@ class LiveScene {
   }
 
   end(): void {
+    this.point(null);
+    this.unlink();
     cancelAnimationFrame(this.due);
     this.listening.abort();
     this.observer.disconnect();
     this.stage.end();
     this.below.remove();
     this.above.remove();
+    this.words.remove();
+    delete this.host.dataset["linked"];
   }
 
   private draw(): void {
@@ -154,7 +178,43 @@ class LiveScene {
     if (ctx !== null) {
       drawSceneFrame(ctx, frame, this.view, { ...pageLook(), unit: devicePixelRatio }, width, height);
     }
+    this.frame = frame;
+    this.showCursor(frame);
     this.stage.render(this.view, width, height, devicePixelRatio);
+  }
+
+  private showCursor(frame: SceneFrame): void {
+    const at = this.pointed === null ? linkedTo(frame, this.linked) : pointedAt(frame, this.pointed);
+    const shares = at.map((value, d) => {
+      const [lower, upper] = frame.axes[d]?.range ?? [0, 1];
+      return value === null ? null : (value - lower) / (upper - lower);
+    });
+    const some = at.some((value) => value !== null);
+    this.stage.showCursor(shares, pageLook().text);
+    this.words.textContent = some ? this.content().read(at, this.pointed?.slice ?? null) : "";
+    if (some && this.pointed === null) {
+      this.host.dataset["linked"] = ["x", "y", "z"].filter((_, d) => at[d] != null).join("");
+    } else {
+      delete this.host.dataset["linked"];
+    }
+  }
+
+  // Pass on what the pointer points at; null: nothing.
+  private point(hit: Hit | null): void {
+    if (hit === null && this.pointed === null) {
+      return;
+    }
+    this.pointed = hit;
+    const frame = this.frame;
+    const at = hit === null || frame === null ? [] : pointedAt(frame, hit);
+    linkedCursor.point(
+      this,
+      at.flatMap((value, d) => {
+        const along = frame?.axes[d]?.along;
+        return value === null || along === undefined ? [] : [{ along, value }];
+      }),
+    );
+    this.redraw();
   }
 
   private turn(view: Viewpoint): void {
@@ -174,10 +234,18 @@ class LiveScene {
     );
     host.addEventListener(
       "pointermove",
-      ({ pointerId, movementX, movementY }) =>
-        host.hasPointerCapture(pointerId) && this.turn(turned(this.view, movementX, movementY)),
+      ({ pointerId, movementX, movementY, clientX, clientY }) => {
+        if (host.hasPointerCapture(pointerId)) {
+          this.point(null);
+          this.turn(turned(this.view, movementX, movementY));
+        } else {
+          const { left, top, width, height } = host.getBoundingClientRect();
+          this.point(this.stage.hit(clientX - left, clientY - top, width, height));
+        }
+      },
       { signal },
     );
+    host.addEventListener("pointerleave", () => this.point(null), { signal });
     host.addEventListener("lostpointercapture", () => this.content().keep(this.view), { signal });
     host.addEventListener(
       "wheel",
@@ -203,4 +271,21 @@ class LiveScene {
       { signal },
     );
   }
+}
+
+// The positions of a point of the box. A slice that shows a maximum has none on its axis.
+function pointedAt({ axes, size }: SceneFrame, { point, slice }: Hit): ScenePosition {
+  return axes.map(({ range: [lower, upper], along, folded }, d) =>
+    along === undefined || (slice === d && folded === true)
+      ? null
+      : lower + ((point[d] as number) / (size[d] as number) + 0.5) * (upper - lower),
+  );
+}
+
+// The positions of the cursor of another plot, where the box has its axes and contains them.
+function linkedTo({ axes }: SceneFrame, coordinates: Coordinate[]): ScenePosition {
+  return axes.map(({ range: [lower, upper], along }) => {
+    const value = along === undefined ? null : valueOn(along, coordinates);
+    return value === null || value < lower || value > upper ? null : value;
+  });
 }
