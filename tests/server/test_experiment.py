@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar import codec
 from deodar.errors import DeodarError
 from deodar.experiments.results import stored_rows
 from deodar.server import hub, requests, state_store, to_server
@@ -219,6 +220,37 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
 
     with studio(folder) as address:
         play(address, scene)
+
+
+@pytest.mark.parametrize("repeated", [False, True], ids=["never repeated", "repeated before"])
+def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeated: bool) -> None:
+    few(1).run(folder / "results")
+    file = folder / "results" / "trials.jsonl"
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            if repeated:
+                await d.do(to_server.RepeatTrial(trial=2))
+                await d.do(to_server.LeaveTrial())
+            await d.do(to_server.CloseExperiment())
+            lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+            changed = [
+                codec.line(row | {"duration": row["duration"] - 1}) + "\n" if row.get("trial") == 2 else line
+                for line in lines
+                for row in [json.loads(line)]
+            ]
+            assert changed != lines
+            file.write_text("".join(changed), encoding="utf-8")
+            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            with pytest.raises(DeodarError, match="trial 2 gives another row than the stored one"):
+                await d.do(to_server.RepeatTrial(trial=2))
+            assert d.hub.project.record is None
+            assert not list((folder / "results" / "repeats").glob("*2.*"))
+            await d.do(to_server.RepeatTrial(trial=1))
+            assert d.hub.project.record is not None
+
+    asyncio.run(scene())
 
 
 def test_what_cannot_be_done_is_refused(folder: Path, tmp_path: Path) -> None:

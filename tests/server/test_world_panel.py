@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import base64
 import math
 from pathlib import Path
 from typing import Any
 
+import cv2
+import numpy as np
 import pytest
 
 import deodar as dd
@@ -210,4 +213,50 @@ def test_a_world_in_another_unit_of_length_is_refused_and_its_warnings_are_shown
         assert {p["severity"] for p in one.document["problems"]} == {"warning"}
 
     with studio(tmp_path, tmp_path / "planning.json", world=Arena("blocks")) as address:
+        play(address, story)
+
+
+def test_a_preview_shows_a_world_and_the_sensors_that_the_model_lacks(tmp_path: Path) -> None:
+    model = dd.Model("seeing", dt=40)
+    plane = [dd.Axis("x", 0, 1, 8), dd.Axis("y", 0, 1, 6), dd.Axis("color", 0, 2, 3)]
+    model.add(dd.Sensor("eye", plane, sensor="picture"))
+    dd.save(model, tmp_path / "seeing.json")
+    video = cv2.VideoWriter(str(tmp_path / "red.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 25, (64, 48))
+    for _ in range(3):
+        video.write(np.full((48, 64, 3), (0, 0, 255), np.uint8))
+    video.release()
+    blue = np.full((48, 64, 3), (255, 0, 0), np.uint8)
+    cv2.imwrite(str(tmp_path / "blue.png"), blue)
+    record = dd.simulate(model, 120, world=dd.Picture(tmp_path / "blue.png"), record=["eye.output"])
+    dd.save_record(record, tmp_path / "run.nc")
+
+    async def preview(one: Page, kind: str, path: str, **settings: Any) -> dict[str, Any]:
+        answer = await one.ask("preview_world", kind=kind, path=path, settings=settings)
+        assert answer["problems"] == [], answer
+        return answer["preview"]
+
+    async def story(one: Page) -> None:
+        await one.runs()
+        before = one.clock["world"]
+        for kind, path, color in [("Picture", "blue.png", 2), ("Video", "red.avi", 0)]:
+            found = await preview(one, kind, path)
+            pixels = np.frombuffer(base64.b64decode(found["pixels"]), np.uint8)
+            pixels = pixels.reshape(found["height"], found["width"], 3)
+            assert found["sensors"] == ["picture"] and found["missing"] == [] and found["scene"] is None
+            assert pixels[..., color].min() > 240 and np.delete(pixels, color, axis=2).max() < 15, kind
+        found = await preview(one, "Recording", "run.nc")
+        assert found["sensors"] == ["picture"] and found["missing"] == [] and found["motors"] == []
+        found = await preview(one, "Arena", "z", unit="cm")
+        assert found["scene"]["unit"] == "cm" and found["missing"] == ["picture"]
+        for kind, path, said in [
+            ("Video", "nothing.avi", "no such video"),
+            ("Video", "../red.avi", "outside"),
+            ("Recording", "blue.png", "blue.png"),
+            ("Nothing", "blue.png", "Nothing"),
+        ]:
+            (problem,) = (await one.ask("preview_world", kind=kind, path=path, settings={}))["problems"]
+            assert said in f"{problem['where']} {problem['what']}", problem
+        assert one.clock["world"] == before, "a preview does not change the world"
+
+    with studio(tmp_path, tmp_path / "seeing.json") as address:
         play(address, story)

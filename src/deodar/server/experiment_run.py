@@ -109,6 +109,9 @@ class ExperimentRun:
     def repeat(self, trial: int) -> Path:
         """Run a trial again as it ran, and return its record, which is kept in the folder of the results.
 
+        Beside the record is the row that the repeated trial gave, so that a row that is changed later is
+        refused too.
+
         Raises:
             RecordError: there is no row of this trial, the repeated trial gives another row, or `close` was
                 called.
@@ -117,12 +120,17 @@ class ExperimentRun:
         if stored is None:
             raise RecordError(f"there is no row of trial {trial}")
         path = self.folder / REPEATS / f"{trial:06}.nc"
+        beside = path.with_suffix(".json")
         with self._repeating:
-            if path.is_file():
-                return path
-            row = self._again(trial, path)
-            if codec.parse(codec.line(row)) != stored:
+            if path.is_file() and beside.is_file():
+                row = codec.parse(beside.read_text(encoding="utf-8"))
+            else:
+                line = codec.line(self._again(trial, path))
+                beside.write_text(line, encoding="utf-8")
+                row = codec.parse(line)
+            if row != stored:
                 path.unlink(missing_ok=True)
+                beside.unlink(missing_ok=True)
                 raise RecordError(
                     f"trial {trial} gives another row than the stored one",
                     where=str(self.folder),
