@@ -1,14 +1,19 @@
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-import type { Page } from "playwright-core";
+import type { Locator, Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
-import { box, button, choose, drag, number, panel, select, slider, type } from "./hands";
+import { box, button, choose, colours, drag, number, panel, select, settled, slider, type } from "./hands";
 import { shot, startStudio, type Studio, type StudioOptions } from "./studio";
 
-/** The browser's message for a server that does not run. */
-const GONE = [/WebSocket connection to .* failed/, /ERR_CONNECTION_REFUSED/];
+/** The browser's messages for a server that does not run, or ended while it sent a picture. */
+const GONE = [
+  /WebSocket connection to .* failed/,
+  /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_CONTENT_LENGTH_MISMATCH|ERR_EMPTY_RESPONSE/,
+];
+
+type Point = { x: number; y: number };
 
 const NODE = { axes: [], sigmoid: { kind: "Logistic" }, kernel: [] };
 const RUNAWAY = {
@@ -139,6 +144,115 @@ test("without a connection controls are disabled and typed values restored", asy
   expect(await page.locator(".react-flow__node.draggable").count(), "a box that can be dragged").toBe(0);
   expect(await page.locator(".react-flow__handle.connectable").count(), "a port to connect").toBe(0);
   await shot(page, "not-connected");
+});
+
+test("without a connection plots keep their picture and take no change", async () => {
+  const { page, server, observe } = await start({ expected: GONE });
+  const observer = await observe();
+  await observer.runs();
+  const plot = page.getByRole("region", { name: "Curves of u" });
+  await observer.ask({ type: "step", n: 50 });
+  await expect.poll(() => colours(plot.locator("canvas").first())).toBeGreaterThan(2);
+  observer.close();
+  await server.stop("SIGKILL");
+  await page.getByText("Connection lost, trying again").waitFor();
+  for (const name of ["Settings of this plot", "Edit what this plot shows", "input"])
+    await expect
+      .poll(() => plot.getByRole("button", { name, exact: true }).isDisabled(), { message: name })
+      .toBe(true);
+  const over = plot.locator(".u-over");
+  await over.hover();
+  await page.mouse.down({ button: "right" });
+  expect(await plot.locator(".plot-ghost[data-on]").count(), "an injection that is not made").toBe(0);
+  await page.mouse.up({ button: "right" });
+  await plot.getByRole("button", { name: "Menu of this plot" }).click();
+  const entry = (name: string) => page.getByRole("menuitem", { name, exact: true });
+  await entry("Export PNG").waitFor();
+  expect(await entry("Export PNG").isDisabled(), "what is drawn can be exported").toBe(false);
+  for (const name of ["Time course", "Save as a figure file"])
+    expect(await entry(name).isDisabled(), name).toBe(true);
+  expect(await colours(plot.locator("canvas").first())).toBeGreaterThan(2);
+  await shot(page, "not-connected-plot");
+});
+
+/** What is done while the mouse button is down, by what is dragged, and what the restarted server must have. */
+const GESTURES: Record<string, (studio: Studio) => Promise<void>> = {
+  box: async ({ page }) => {
+    await holdAndMove(page, box(page, "left"), { x: 20, y: 12 }, { x: 90, y: 70 });
+  },
+  wire: async ({ page }) => {
+    const output = box(page, "u").locator('.react-flow__handle[data-handleid="output"]');
+    await holdAndMove(page, output, { x: 2, y: 2 }, { x: 60, y: 90 });
+  },
+  slider: async ({ page }) => {
+    await select(page, "u");
+    await settled(page, () => slider(page, "tau").boundingBox());
+    await holdAndMove(page, slider(page, "tau"), { x: 5, y: 5 }, { x: 30, y: 0 });
+  },
+};
+
+/** Press the mouse at a point of an element, and move it while it is down. */
+async function holdAndMove(page: Page, from: Locator, at: Point, by: Point): Promise<void> {
+  const there = await from.boundingBox();
+  if (there === null) throw new Error("It is not visible.");
+  const [x, y] = [there.x + at.x, there.y + at.y];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + by.x, y + by.y, { steps: 5 });
+}
+
+for (const [what, begin] of Object.entries(GESTURES)) {
+  test(`a server that ends while a ${what} is dragged leaves nothing half done`, async () => {
+    const studio = await start({ expected: GONE });
+    const { page, server, restart, observe } = studio;
+    const before = await observe();
+    await before.runs();
+    const document = JSON.stringify([before.document?.elements, before.document?.connections]);
+    before.close();
+    await begin(studio);
+    await server.stop("SIGKILL");
+    await page.getByText("Connection lost, trying again").waitFor();
+    await page.mouse.move(600, 300, { steps: 3 });
+    await page.mouse.up();
+    await restart("SIGKILL");
+    await page.getByText("Connection lost, trying again").waitFor({ state: "detached" });
+    const after = await observe();
+    await after.runs();
+    expect(JSON.stringify([after.document?.elements, after.document?.connections])).toBe(document);
+    expect(after.document?.undo).toBe(0);
+    expect(await page.getByRole("dialog").count(), "a dialog of the gesture").toBe(0);
+    expect(await page.locator("[data-wiring], .react-flow__connection").count(), "a wire in the air").toBe(0);
+    await select(page, "u");
+    await type(page, "tau", "31");
+    await after.until(() => after.value("u", "tau") === 31);
+  });
+}
+
+test("two pages that drag one box at once agree on its place", async () => {
+  const { page, another, observe } = await start();
+  const observer = await observe();
+  await observer.runs();
+  const second = await another();
+  await box(second, "left").waitFor();
+  await holdAndMove(page, box(page, "left"), { x: 20, y: 12 }, { x: 40, y: 80 });
+  await holdAndMove(second, box(second, "left"), { x: 20, y: 12 }, { x: -60, y: 50 });
+  await page.mouse.move(300, 500, { steps: 3 });
+  await second.mouse.move(200, 450, { steps: 3 });
+  await page.mouse.up();
+  await second.mouse.up();
+  const { id } = observer.element("left");
+  const stored = () => (observer.document?.layout["boxes"] as Record<string, Point> | undefined)?.[id];
+  await observer.until(() => observer.document?.undo === 2 && stored() !== undefined);
+  const place = (one: Page) =>
+    one
+      .locator(`.react-flow__node[data-id="${id}"]`)
+      .evaluate((node: HTMLElement) =>
+        node.style.transform.match(/-?[\d.]+/g)?.map((n) => Math.round(Number(n))),
+      );
+  const at = stored() as Point;
+  const agreed = [Math.round(at.x), Math.round(at.y)];
+  await expect.poll(() => place(page)).toEqual(agreed);
+  await expect.poll(() => place(second)).toEqual(agreed);
 });
 
 test("live pictures follow their boxes when a bar moves them", async () => {

@@ -87,7 +87,12 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
       </div>
     );
   }
-  const change = (next: Partial<PlotParams>) => api.updateParameters({ ...plot, kind, port, ...next });
+  // Without a connection the arrangement, which has the settings of plots, is not kept.
+  const change = (next: Partial<PlotParams>) => {
+    if (useStudio.getState().connection === "open") {
+      api.updateParameters({ ...plot, kind, port, ...next });
+    }
+  };
   const props: PlotProps = {
     element,
     port,

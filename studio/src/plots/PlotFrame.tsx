@@ -11,6 +11,7 @@ import {
   IconVectorSpline,
 } from "@tabler/icons-react";
 import { type MouseEvent, type ReactNode, useState } from "react";
+import { NeedsServer, useOffline } from "../connection/NeedsServer";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -75,8 +76,9 @@ export function PlotFrame(props: PlotFrameProps) {
   const axes = document === null ? [] : (portAxes(document, element, port) ?? []);
   const [editing, setEditing] = useState(false);
   const { lost, seen } = streaming;
+  const off = useOffline();
   const onClick = (event: MouseEvent) => {
-    if (event.target instanceof Element && event.target.closest(".u-axis") !== null) {
+    if (!off && event.target instanceof Element && event.target.closest(".u-axis") !== null) {
       setEditing(true);
     }
   };
@@ -92,6 +94,7 @@ export function PlotFrame(props: PlotFrameProps) {
               size="xs"
               variant="unstyled"
               className="plot-port"
+              disabled={off}
               aria-label={`Port of ${element.path}`}
               data={ports}
               value={port}
@@ -99,21 +102,31 @@ export function PlotFrame(props: PlotFrameProps) {
             />
           )}
           {note !== undefined && note !== "" && <span className="plot-note">{note}</span>}
-          <div className="plot-legend">{legend}</div>
+          <div className="plot-legend">
+            <NeedsServer>{legend}</NeedsServer>
+          </div>
         </div>
-        <PlotParameters element={element} kind={kind} axes={axes} opened={editing} onOpened={setEditing} />
-        {controls !== undefined && (
-          <Popover position="bottom-end" width={260} shadow="md" trapFocus>
-            <Popover.Target>
-              <Tooltip label="Settings of this plot">
-                <ActionIcon size="sm" aria-label="Settings of this plot">
-                  <IconAdjustmentsHorizontal size={15} />
-                </ActionIcon>
-              </Tooltip>
-            </Popover.Target>
-            <Popover.Dropdown className="plot-controls">{controls}</Popover.Dropdown>
-          </Popover>
-        )}
+        <NeedsServer>
+          <PlotParameters
+            element={element}
+            kind={kind}
+            axes={axes}
+            opened={editing && !off}
+            onOpened={setEditing}
+          />
+          {controls !== undefined && (
+            <Popover position="bottom-end" width={260} shadow="md" trapFocus>
+              <Popover.Target>
+                <Tooltip label="Settings of this plot">
+                  <ActionIcon size="sm" aria-label="Settings of this plot">
+                    <IconAdjustmentsHorizontal size={15} />
+                  </ActionIcon>
+                </Tooltip>
+              </Popover.Target>
+              <Popover.Dropdown className="plot-controls">{controls}</Popover.Dropdown>
+            </Popover>
+          )}
+        </NeedsServer>
         <Menu position="bottom-end" shadow="md" withinPortal>
           <Menu.Target>
             <ActionIcon size="sm" aria-label="Menu of this plot">
@@ -124,7 +137,11 @@ export function PlotFrame(props: PlotFrameProps) {
             {kinds.length > 1 && <Menu.Label>Show as</Menu.Label>}
             {kinds.length > 1 &&
               kinds.map((other) => (
-                <Menu.Item key={other} disabled={other === kind} onClick={() => change({ kind: other })}>
+                <Menu.Item
+                  key={other}
+                  disabled={off || other === kind}
+                  onClick={() => change({ kind: other })}
+                >
                   {titleOf(other, packaged)}
                 </Menu.Item>
               ))}
@@ -154,6 +171,7 @@ export function PlotFrame(props: PlotFrameProps) {
             {hasFigure(kind, axes.length) && (
               <Menu.Item
                 leftSection={<IconFileDescription size={15} />}
+                disabled={off}
                 onClick={() => void saveFigure({ element: element.id, port, kind, range })}
               >
                 Save as a figure file
@@ -162,7 +180,7 @@ export function PlotFrame(props: PlotFrameProps) {
           </Menu.Dropdown>
         </Menu>
       </header>
-      {strip}
+      <NeedsServer>{strip}</NeedsServer>
       <div className="plot-body" role="presentation" onClick={onClick}>
         {children}
         {!seen && (

@@ -1,6 +1,7 @@
 // The axes that a plot does not draw: a slider for the position on each, or the maximum over it.
 
 import { Slider } from "@mantine/core";
+import { useOffline } from "../connection/NeedsServer";
 import type { AxisView } from "../protocol";
 import { stepOf } from "./kinds";
 import { reading } from "./range";
@@ -13,6 +14,7 @@ type Strip = {
 };
 
 export function SectionStrip({ rest, at, set }: Strip) {
+  const off = useOffline();
   if (rest.length === 0) {
     return null;
   }
@@ -37,6 +39,7 @@ export function SectionStrip({ rest, at, set }: Strip) {
             <Slider
               className="plot-cut-slider"
               data-off={position === undefined || undefined}
+              disabled={off}
               size={4}
               thumbSize={12}
               label={null}

@@ -3,18 +3,20 @@
 
 import type uPlot from "uplot";
 import { socket } from "../socket";
+import { useStudio } from "../store";
 import { paintGhost } from "./ghost";
 import { Pusher } from "./pusher";
 import { type Injection, spot } from "./spot";
 
-// Listens on a chart; `ask` returns the input to inject, or null if the element takes none. Returns a
+// Listens on a chart; `given` returns the input to inject, or null if the element takes none. Returns a
 // function that ends it.
 export function attachInjection(
   chart: uPlot,
   host: HTMLElement,
-  ask: () => Injection | null,
+  given: () => Injection | null,
   color: string,
 ): () => void {
+  const ask = () => (useStudio.getState().connection === "open" ? given() : null);
   const pusher = new Pusher((message) => socket.post(message));
   const ghost = document.createElement("canvas");
   ghost.className = "plot-ghost";
