@@ -16,7 +16,7 @@ type Watched = {
   picture: number;
 };
 
-/** From now on note when each box is shown with a new drawing, and the time between pictures of the browser. */
+/** From now on note when each box is shown with a new drawing, and the time between two pictures. */
 async function watch(page: Page): Promise<void> {
   await page.evaluate(() => {
     const watched: Watched = { begun: 0, gaps: new Map(), picture: 0 };
@@ -80,7 +80,7 @@ const found = (page: Page) =>
     };
   }, LONGEST_MS);
 
-test("each of 200 boxes is redrawn once a second, on a slow machine and while the canvas is moved", async () => {
+test("each of 200 boxes is redrawn once a second, also while the canvas is moved", async () => {
   const { page, context, stop, observe } = await startStudio({
     files: { "many.json": JSON.stringify(many(COUNT)) },
   });
