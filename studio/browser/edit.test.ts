@@ -257,6 +257,28 @@ test("a frame drawn with Shift selects boxes, and commands align them", async ()
   expect(at("b")?.y).toBe(200);
 });
 
+test("three boxes are distributed with equal gaps, downwards and to the right", async () => {
+  const { page } = studio;
+  await page.keyboard.press("Control+a");
+  await panel(page, "Inspector").getByText("3 elements").first().waitFor();
+  const gaps = async (start: "x" | "y", size: "width" | "height") => {
+    const all = await Promise.all(["a", "b", "u"].map((path) => placeOf(box(page, path))));
+    const [one, two, three] = all.sort((p, q) => p[start] - q[start]);
+    if (one === undefined || two === undefined || three === undefined) return Number.NaN;
+    return Math.abs(two[start] - one[start] - one[size] - (three[start] - two[start] - two[size]));
+  };
+  for (const [command, start, size] of [
+    ["distribute vertically", "y", "height"],
+    ["distribute horizontally", "x", "width"],
+  ] as const) {
+    expect(await gaps(start, size), "before").toBeGreaterThan(5);
+    await page.keyboard.press("Control+k");
+    await page.getByRole("dialog", { name: "Commands and elements" }).getByRole("combobox").fill(command);
+    await page.keyboard.press("Enter");
+    await expect.poll(() => gaps(start, size)).toBeLessThan(3);
+  }
+});
+
 test("the commands and the menu of files export the document as a Python script", async () => {
   const { page } = studio;
   await page.keyboard.press("Control+k");
