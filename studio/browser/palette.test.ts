@@ -154,6 +154,43 @@ test("the list of elements is a panel: a line is dragged to the canvas, or click
   expect(kinds().sort()).toEqual(["BoxStimulus", "Field"]);
 });
 
+test("a line of the palette that is dropped on a connection is inserted into it", async () => {
+  const { page } = studio;
+  const add = (kind: string, name: string, at: [number, number], values = {}) =>
+    observer.ask({ type: "add_element", kind, name, at, values });
+  await add("RateNode", "one", [0, 0]);
+  await add("RateNode", "other", [400, 0]);
+  const [source, target] = [observer.element("one").id, observer.element("other").id];
+  await observer.ask({ type: "connect", source, target });
+  await button(page, "Open panels and plots").click();
+  await page.getByRole("menuitem", { name: "Elements", exact: true }).click();
+  await button(page, "Show everything").click();
+  const wire = page.getByRole("img", { name: "one to other", exact: true });
+  await wire.waitFor();
+  const at = await wire.locator(".graph-wire").evaluate((path: SVGPathElement) => {
+    const { x, y } = path.getPointAtLength(path.getTotalLength() / 2);
+    return new DOMPoint(x, y).matrixTransform(path.getScreenCTM() as DOMMatrix).toJSON() as DOMPoint;
+  });
+  const line = panel(page, "Elements").getByRole("option", { name: "Field", exact: true });
+  await line.scrollIntoViewIfNeeded();
+  const from = await line.boundingBox();
+  await page.mouse.move((from?.x ?? 0) + 60, (from?.y ?? 0) + 12);
+  await page.mouse.down();
+  await page.mouse.move(at.x - 20, at.y - 20, { steps: 4 });
+  await page.mouse.move(at.x, at.y, { steps: 4 });
+  await page.locator(".graph-wire[data-picked]").waitFor();
+  await page.mouse.up();
+  await observer.until(() => {
+    const ends = observer.document?.connections.map((c) => [c.source, c.target]) ?? [];
+    const between = observer.document?.elements.find(({ kind }) => kind === "Field")?.id;
+    return (
+      ends.length === 2 &&
+      ends.some(([from, to]) => from === source && to === between) &&
+      ends.some(([from, to]) => from === between && to === target)
+    );
+  });
+});
+
 test("architectures are added whole: entered at the pointer, or dragged from the panel", async () => {
   const { page } = studio;
   const at = await ground(0.3, 0.3);
