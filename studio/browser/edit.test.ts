@@ -1,4 +1,5 @@
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
@@ -88,14 +89,38 @@ test("a copy goes to another window as text, and foreign text is refused as a wh
   await second.locator(".react-flow__pane").click({ position: { x: 300, y: 20 } });
   await second.keyboard.press("Control+v");
   await observer.until(() => paths() === "a,b,u,u2");
-  await second.evaluate(() => navigator.clipboard.writeText("no document"));
-  await second.keyboard.press("Control+v");
-  await second
-    .getByText(/the clipboard holds no elements/i)
+  const state = () => JSON.stringify([paths(), observer.document?.connections, observer.document?.undo]);
+  const before = state();
+  for (const [foreign, said] of [
+    ["no document", /the clipboard holds no elements/i],
+    [text.slice(0, text.length / 2), /the clipboard holds no elements/i],
+    [text.replace('"Field"', '"Nothing"'), /Nothing/],
+  ] as const) {
+    await second.evaluate((content) => navigator.clipboard.writeText(content), foreign);
+    await second.keyboard.press("Control+v");
+    await second.getByText(said).first().waitFor();
+    expect(state(), foreign).toBe(before);
+  }
+  await second.close();
+});
+
+test("a function in pasted text is not imported, and the page says what to type", async () => {
+  const { page, folder } = studio;
+  writeFileSync(join(folder, "hostile.py"), 'open("called", "w").close()\n');
+  const called = { kind: "Function", id: "0000000a", axes: [], function: "hostile:call" };
+  const text = JSON.stringify({ deodar: 1, name: "hostile", elements: { f: called }, connections: [] });
+  await page.evaluate((content) => navigator.clipboard.writeText(content), text);
+  await page.keyboard.press("Control+v");
+  await observer.until(() => paths() === "a,b,f,u");
+  await page
+    .getByText(/--trust/)
     .first()
     .waitFor();
-  expect(paths()).toBe("a,b,u,u2");
-  await second.close();
+  await shot(page, "edit-hostile");
+  expect(existsSync(join(folder, "called"))).toBe(false);
+  await page.keyboard.press("Control+z");
+  await observer.until(() => paths() === "a,b,u");
+  await observer.runs();
 });
 
 test("elements are grouped, the group is renamed, and dissolved", async () => {

@@ -1,10 +1,20 @@
+import { execFileSync } from "node:child_process";
+
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
 import { box, button, file, openEmpty, panel } from "./hands";
 import type { Observer } from "./observer";
+import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
+
+/** Prints the titles of the registered kinds; worlds are no part of a document. */
+const TITLES = `
+import json
+from deodar.kinds.description import descriptions
+print(json.dumps([kind.title for kind in descriptions() if kind.room != "worlds"]))
+`;
 
 let studio: Studio;
 let observer: Observer;
@@ -152,6 +162,32 @@ test("the list of elements is a panel: a line is dragged to the canvas, or click
   await box(page, "box_stimulus").waitFor();
   await shot(page, "palette-panel");
   expect(kinds().sort()).toEqual(["BoxStimulus", "Field"]);
+});
+
+test("the palette lists every registered kind, each with a sketch", async () => {
+  const { page } = studio;
+  const registered = JSON.parse(execFileSync(python(), ["-c", TITLES], { encoding: "utf8" })) as string[];
+  await page.keyboard.press("/");
+  await option("Gaussian stimulus").waitFor();
+  const lines = await palette()
+    .getByRole("option")
+    .evaluateAll((all) =>
+      all.map((line) => {
+        const path = line.querySelector<SVGGraphicsElement>("svg path, svg text");
+        const { width = 0, height = 0 } = path?.getBBox() ?? {};
+        const title = line.querySelector(".one-line")?.textContent ?? "";
+        return {
+          title,
+          sketched: line.querySelector("svg:not(.chooser-thumbnail)") !== null,
+          drawn: width + height > 5,
+        };
+      }),
+    );
+  const kinds = lines.filter(({ sketched }) => sketched);
+  expect(kinds.map(({ title }) => title).sort()).toEqual(registered.sort());
+  const blank = kinds.filter(({ drawn }) => !drawn).map(({ title }) => title);
+  expect(blank, "without a sketch").toEqual([]);
+  await page.keyboard.press("Escape");
 });
 
 test("a line of the palette that is dropped on a connection is inserted into it", async () => {

@@ -612,6 +612,10 @@ test("a plot is exported as a picture file", async () => {
     lines.filter((points) => points > 60),
     "two curves",
   ).toHaveLength(2);
+  // uPlot has no option for its context, so that charts and exports replace the method while they are made
+  expect(await page.evaluate(() => String(HTMLCanvasElement.prototype.getContext))).toContain(
+    "[native code]",
+  );
 });
 
 test("a plot is exported as a table", async () => {
