@@ -1,8 +1,9 @@
 import { readdirSync, readFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { expect, test } from "vitest";
 
+const MOST = 40;
 const SOURCES = fileURLToPath(new URL("src/", import.meta.url));
 const files = readdirSync(SOURCES, { recursive: true, encoding: "utf8" }).filter((file) =>
   /(?<!\.test)\.(tsx?|css)$/.test(file),
@@ -22,6 +23,15 @@ test("no two exported types, classes and components of the page have the same na
   );
   expect(names.length).toBeGreaterThan(200);
   expect(doubled(names)).toEqual([]);
+});
+
+test("a folder of the page has at most 40 files without tests", () => {
+  const counts = new Map<string, number>();
+  for (const file of files) {
+    counts.set(dirname(file), (counts.get(dirname(file)) ?? 0) + 1);
+  }
+  expect(counts.size).toBeGreaterThan(20);
+  expect([...counts].filter(([, count]) => count > MOST)).toEqual([]);
 });
 
 function doubled(names: string[]): string[] {

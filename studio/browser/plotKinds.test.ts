@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
-import { PLOT_TITLES } from "../src/plots/kinds";
+import { PLOT_TITLES } from "../src/plots/kinds/kinds";
 import { writeArranged, writeEveryPlot } from "./everyPlot";
 import { colours, drawn, panel, reopen, settled } from "./hands";
 import { examplePackage } from "./installed";

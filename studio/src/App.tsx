@@ -2,7 +2,7 @@
 
 import { useEffect } from "react";
 
-import { Chooser } from "./build/Chooser";
+import { Chooser } from "./build/palette/Chooser";
 import { Dock } from "./panels/Dock";
 import { Dialogs } from "./dialogs/Dialogs";
 import { DropArea } from "./files/DropArea";

@@ -37,7 +37,7 @@ OWN = (
     "weights",
     "multiples",
 )
-"""The names of the plots of deodar, which the page draws (`studio/src/plots/kinds.ts`)."""
+"""The names of the plots of deodar, which the page draws (`studio/src/plots/kinds/kinds.ts`)."""
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
 """The names that a plot may have: they are part of an address."""

@@ -1,15 +1,15 @@
 // All commands, elements and kinds in one list (Ctrl+K), and those for the selection at a right click.
 
 import { exportScript } from "../files/exportScript";
-import type { Point } from "../graph/layout";
+import type { Point } from "../graph/layout/layout";
 import { keysText, type Shortcut } from "../shortcuts";
 import { useStudio } from "../store";
 import { ALIGNMENTS, align } from "./aligning";
-import { useChooser } from "./chooser";
+import { useChooser } from "./palette/chooser";
 import { addElement } from "./edits";
-import type { ListEntry } from "./entries";
+import type { ListEntry } from "./palette/entries";
 import { isEditable } from "./editable";
-import { kindEntries, knownTemplates, selectedOne, spotFor, templateEntries } from "./palette";
+import { kindEntries, knownTemplates, selectedOne, spotFor, templateEntries } from "./palette/palette";
 import { getPointer, getStage } from "./stage";
 
 // Commands without keys.

@@ -4,7 +4,7 @@ import type { Answer, Kind } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import type { Values } from "../values";
-import type { End, WireEnds } from "./ends";
+import type { End, WireEnds } from "./wiring/ends";
 import { showMade } from "./made";
 import { pathOf, type Placing } from "./placing";
 

@@ -1,6 +1,6 @@
 // Groups are made of what is selected, and dissolved.
 
-import { keyOf } from "../graph/tree";
+import { keyOf } from "../graph/layout/tree";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 
-import { below } from "../graph/tree";
+import { below } from "../graph/layout/tree";
 import { useStudio } from "../store";
 import { getStage } from "./stage";
 

@@ -1,8 +1,8 @@
 // Where a new box is put: at the pointer, at the end of a wire, or beside what is selected.
 
-import { BOX, LIVE } from "../graph/boxes";
-import type { Places, Point, Rect } from "../graph/layout";
-import { type Branch, keyOf, type Tree } from "../graph/tree";
+import { BOX, LIVE } from "../graph/boxes/boxes";
+import type { Places, Point, Rect } from "../graph/layout/layout";
+import { type Branch, keyOf, type Tree } from "../graph/layout/tree";
 import type { DocumentView } from "../protocol";
 
 export const NEW_BOX = { width: BOX.width, height: BOX.title + LIVE.curve + BOX.pad };

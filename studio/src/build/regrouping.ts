@@ -1,11 +1,11 @@
 // What is dragged into a group, or out of it, moves there when it is released: the pointer decides, and the
 // group below it is marked.
 
-import { positionsOf } from "../graph/arrange";
-import { boxSize } from "../graph/boxes";
-import { FRAME, type Point } from "../graph/layout";
+import { positionsOf } from "../graph/layout/arrange";
+import { boxSize } from "../graph/boxes/boxes";
+import { FRAME, type Point } from "../graph/layout/layout";
 import { type GraphScene, groupKey, type SceneNode } from "../graph/scene";
-import { below, type Branch } from "../graph/tree";
+import { below, type Branch } from "../graph/layout/tree";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";

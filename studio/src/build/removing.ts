@@ -2,12 +2,12 @@
 
 import { request } from "../socket";
 import { useStudio } from "../store";
-import { useChooser } from "./chooser";
-import { endsOf } from "./ends";
+import { useChooser } from "./palette/chooser";
+import { endsOf } from "./wiring/ends";
 import { isEditable } from "./editable";
 import { usePicked } from "./picked";
 import { chosen } from "./selection";
-import { contentOf } from "./wires";
+import { contentOf } from "./wiring/wires";
 
 export async function removeSelected(): Promise<void> {
   if (!isEditable()) {

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 
-import type { Rect } from "../graph/layout";
+import type { Rect } from "../graph/layout/layout";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { isEditable } from "./editable";

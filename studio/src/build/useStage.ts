@@ -4,18 +4,18 @@
 import { useReactFlow } from "@xyflow/react";
 import { type DragEvent, type MouseEvent, type RefObject, useEffect, useMemo, useRef } from "react";
 
-import { glide } from "../graph/glide";
-import type { Point } from "../graph/layout";
+import { glide } from "../graph/layout/glide";
+import type { Point } from "../graph/layout/layout";
 import type { GraphScene } from "../graph/scene";
 import { useStudio } from "../store";
-import { type Carried, carried, isCarried } from "./carried";
+import { type Carried, carried, isCarried } from "./wiring/carried";
 import { listen } from "./clipboard";
 import { addElement, addTemplate } from "./edits";
-import { openPalette, passes, spotFor } from "./palette";
+import { openPalette, passes, spotFor } from "./palette/palette";
 import { usePicked } from "./picked";
 import { getPointer, getStage, setStage } from "./stage";
 import { NEW_BOX } from "./placing";
-import { firstOf, wireAt } from "./wires";
+import { firstOf, wireAt } from "./wiring/wires";
 
 const GLIDE_MS = 200;
 const FRAMES = 30;

@@ -1,6 +1,6 @@
 // The document as a Python script that makes the same document, written to the folder of downloads.
 
-import { saveFile } from "../plots/save";
+import { saveFile } from "../plots/export/save";
 import { request } from "../socket";
 import { useStudio } from "../store";
 

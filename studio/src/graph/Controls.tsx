@@ -11,10 +11,10 @@ import {
 } from "@tabler/icons-react";
 import { useReactFlow } from "@xyflow/react";
 import type { ReactNode } from "react";
-import { openPalette } from "../build/palette";
+import { openPalette } from "../build/palette/palette";
 import { useOffline } from "../connection/NeedsServer";
-import { FIT } from "./fit";
-import { glide } from "./glide";
+import { FIT } from "./layout/fit";
+import { glide } from "./layout/glide";
 
 type Props = { onSearch: () => void; onTidy: () => void };
 

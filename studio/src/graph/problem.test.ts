@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import type { RunClock } from "../protocol";
 import { fakeDocument } from "./fakes";
-import { labelOf } from "./label";
+import { labelOf } from "./boxes/label";
 import { problemOf, warningOf } from "./problem";
 
 test("the failure of the run comes before the problems of the document", () => {

@@ -1,10 +1,10 @@
 import { expect, test } from "vitest";
 import { fakeConnections, fakeDocument, fakeElement, fakeKind, kindsOf } from "./fakes";
-import { boxSize } from "./boxes";
-import { withCourses } from "./courses";
-import type { Point } from "./layout";
+import { boxSize } from "./boxes/boxes";
+import { withCourses } from "./wires/courses";
+import type { Point } from "./layout/layout";
 import type { ElementView } from "../protocol";
-import { differ, moved } from "./moved";
+import { differ, moved } from "./layout/moved";
 import { foldedAround, groupNode, PORT, scene } from "./scene";
 
 const KINDS = kindsOf(

@@ -3,14 +3,14 @@
 
 import { Position, type Edge, type Node, type NodeHandle } from "@xyflow/react";
 import type { DocumentView, ElementView, Kind } from "../protocol";
-import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes";
-import { chains, type Chain } from "./chains";
-import { type CanvasComment, readComments } from "./comments";
-import { elementFamily, type ElementFamily } from "./family";
-import { COUNT, FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout";
-import { signText, together, type Sign } from "./sign";
-import type { Course } from "./wirePath";
-import { around, hiddenBy, tree, type Branch, type Tree } from "./tree";
+import { boxSize, dimensions, portHeight, readBoxes, readFolded } from "./boxes/boxes";
+import { chains, type Chain } from "./wires/chains";
+import { type CanvasComment, readComments } from "./boxes/comments";
+import { elementFamily, type ElementFamily } from "./boxes/family";
+import { COUNT, FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout/layout";
+import { signText, together, type Sign } from "./wires/sign";
+import type { Course } from "./wires/wirePath";
+import { around, hiddenBy, tree, type Branch, type Tree } from "./layout/tree";
 
 export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
 

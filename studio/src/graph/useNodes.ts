@@ -5,8 +5,8 @@ import { applyNodeChanges, useStoreApi, type NodeChange } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { changeComment } from "../build/commenting";
 import { useStudio } from "../store";
-import { place } from "./arrange";
-import { differ, moved } from "./moved";
+import { place } from "./layout/arrange";
+import { differ, moved } from "./layout/moved";
 import { commentId, type GraphScene, type SceneNode } from "./scene";
 
 // Steps by arrow keys that follow each other are one change.

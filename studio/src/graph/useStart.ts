@@ -4,9 +4,9 @@
 import { getViewportForBounds, useReactFlow } from "@xyflow/react";
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import type { Kind } from "../protocol";
-import { FIT, ZOOM } from "./fit";
-import { firstFolded, useOpening, withFolded } from "./folding";
-import { PANEL, type Rect } from "./layout";
+import { FIT, ZOOM } from "./layout/fit";
+import { firstFolded, useOpening, withFolded } from "./layout/folding";
+import { PANEL, type Rect } from "./layout/layout";
 import { scene, type GraphScene, type Structure } from "./scene";
 
 // A panel that differs by less keeps its layout.

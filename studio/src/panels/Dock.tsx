@@ -4,7 +4,7 @@
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent, type DockviewTheme } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
 import { type KeyboardEvent, useEffect, useRef, useState, useSyncExternalStore } from "react";
-import { PalettePanel } from "../build/PalettePanel";
+import { PalettePanel } from "../build/palette/PalettePanel";
 import { CostsPanel } from "../costs/CostsPanel";
 import { Experiment } from "../experiment/Experiment";
 import { Graph } from "../graph/Graph";

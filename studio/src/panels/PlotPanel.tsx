@@ -2,8 +2,8 @@
 
 import type { IDockviewPanelProps } from "dockview-react";
 import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
-import { FieldCurve } from "../plots/FieldCurve";
-import { HeatMap } from "../plots/HeatMap";
+import { FieldCurve } from "../plots/kinds/FieldCurve";
+import { HeatMap } from "../plots/kinds/HeatMap";
 import {
   elementsAlike,
   isOwn,
@@ -13,24 +13,24 @@ import {
   portAxes,
   portsOf,
   weightsOf,
-} from "../plots/kinds";
-import { Kernel } from "../plots/Kernel";
-import { Multiples } from "../plots/Multiples";
-import { PackagedPlot } from "../plots/PackagedPlot";
-import { Phase } from "../plots/Phase";
-import { Picture } from "../plots/Picture";
+} from "../plots/kinds/kinds";
+import { Kernel } from "../plots/kinds/Kernel";
+import { Multiples } from "../plots/kinds/Multiples";
+import { PackagedPlot } from "../plots/kinds/PackagedPlot";
+import { Phase } from "../plots/kinds/Phase";
+import { Picture } from "../plots/kinds/Picture";
 import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
-import { SpaceTime } from "../plots/SpaceTime";
-import { TimeCourse } from "../plots/TimeCourse";
-import { Weights } from "../plots/Weights";
+import { SpaceTime } from "../plots/kinds/SpaceTime";
+import { TimeCourse } from "../plots/kinds/TimeCourse";
+import { Weights } from "../plots/kinds/Weights";
 import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 
 // Loaded when they are first shown, as three.js is.
-const Surface = lazy(async () => ({ default: (await import("../plots/Surface")).Surface }));
-const Volume = lazy(async () => ({ default: (await import("../plots/Volume")).Volume }));
+const Surface = lazy(async () => ({ default: (await import("../plots/kinds/Surface")).Surface }));
+const Volume = lazy(async () => ({ default: (await import("../plots/kinds/Volume")).Volume }));
 
 const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
   course: TimeCourse,

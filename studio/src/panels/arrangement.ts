@@ -1,7 +1,7 @@
 // Arrangements of panels: the first one, whether a stored one can be used, and what counts as a change.
 
 import type { DockviewApi, SerializedDockview } from "dockview-react";
-import { firstToPlot, mainPort, plotKinds, portAxes } from "../plots/kinds";
+import { firstToPlot, mainPort, plotKinds, portAxes } from "../plots/kinds/kinds";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 import { NARROW } from "./placement";

@@ -1,7 +1,7 @@
 // Adding panels to the dock from anywhere: the dock passes on its interface when it is ready.
 
 import type { DockviewApi, IDockviewPanel } from "dockview-react";
-import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds";
+import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds/kinds";
 import { readParams, readSettings } from "../plots/settings";
 import { shownPorts } from "../plots/shownPorts";
 import type { RecordedPort } from "../protocol";

@@ -1,6 +1,6 @@
 // Ranges of values on an axis or a colour scale, and numbers in few signs.
 
-import type { Range } from "./paint";
+import type { Range } from "./colors/paint";
 
 const SHRINK_AFTER_MS = 3000;
 const SHRINK_BELOW = 0.6;

@@ -1,7 +1,7 @@
 // Sections of arrays: which axes a plot draws, and the positions on the others (src/deodar/live/section.py).
 
 import type { Announced, AxisView } from "../protocol";
-import { stepOf } from "./kinds";
+import { stepOf } from "./kinds/kinds";
 
 // All axes of the array of a stream: the drawn ones first, then the others.
 export function allAxes(form: Announced | null): AxisView[] {

@@ -1,10 +1,10 @@
 // What a plot panel keeps with the document: which element, how it is shown, and settings of its kind. They
 // are read with care, because a document may hold anything.
 
-import { SCALES, type ScaleName } from "./colors";
-import type { PlotKind } from "./kinds";
-import type { Range } from "./paint";
-import type { Viewpoint } from "./sceneView";
+import { SCALES, type ScaleName } from "./colors/colors";
+import type { PlotKind } from "./kinds/kinds";
+import type { Range } from "./colors/paint";
+import type { Viewpoint } from "./scenes/sceneView";
 
 export type TraceSetting = { element: string; port: string; reduce: "at" | "max" | "mean"; at: number[] };
 

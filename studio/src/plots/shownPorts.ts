@@ -1,8 +1,8 @@
 // The ports whose values a plot shows, which a record of what is plotted holds.
 
 import type { DocumentView, ElementView, Kind, RecordedPort } from "../protocol";
-import { inOrder } from "./colors";
-import { elementsAlike, mainPort, type PlotKind, portsAlike } from "./kinds";
+import { inOrder } from "./colors/colors";
+import { elementsAlike, mainPort, type PlotKind, portsAlike } from "./kinds/kinds";
 import type { PlotSettings } from "./settings";
 
 // The name of the levels among the curves.

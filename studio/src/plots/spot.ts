@@ -1,8 +1,8 @@
 // What is injected where.
 
 import type { AxisView, DocumentView, ElementView } from "../protocol";
-import { portAxes } from "./kinds";
-import type { Spot } from "./pusher";
+import { portAxes } from "./kinds/kinds";
+import type { Spot } from "./injection/pusher";
 
 export type Injection = {
   element: ElementView;

@@ -3,7 +3,7 @@
 import type uPlot from "uplot";
 
 import { type Values, valueAt } from "../values";
-import type { Look } from "./look";
+import type { Look } from "./colors/look";
 
 const SHADE = 0.12;
 

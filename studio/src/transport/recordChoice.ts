@@ -1,7 +1,7 @@
 // What the next record holds: the ports, and how often they are sampled.
 
 import { create } from "zustand";
-import { portsOf } from "../plots/kinds";
+import { portsOf } from "../plots/kinds/kinds";
 import type { ElementView, RecordedPort } from "../protocol";
 
 type RecordChoice = {

@@ -3,8 +3,8 @@
 import { Button } from "@mantine/core";
 import { useMemo, useRef } from "react";
 
-import { isPicture, portAxes } from "../plots/kinds";
-import { paintPicture } from "../plots/paint";
+import { isPicture, portAxes } from "../plots/kinds/kinds";
+import { paintPicture } from "../plots/colors/paint";
 import { useStreams } from "../plots/useStreams";
 import type { ElementView } from "../protocol";
 import { request } from "../socket";

@@ -13,7 +13,7 @@ import {
   useSyncExternalStore,
 } from "react";
 
-import { pageLook } from "../plots/look";
+import { pageLook } from "../plots/colors/look";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { BlockPalette } from "./BlockPalette";

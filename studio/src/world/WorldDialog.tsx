@@ -11,7 +11,7 @@ import type { Asking } from "../dialogs/dialogs";
 import { base64, isTooLarge } from "../files/flows";
 import { lastPart } from "../files/paths";
 import { useFolder } from "../dialogs/useFolder";
-import { pageLook } from "../plots/look";
+import { pageLook } from "../plots/colors/look";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";

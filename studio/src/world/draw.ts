@@ -1,7 +1,7 @@
 // Draws a world from above: floor, axes, objects, the paths of the bodies, marks, bodies.
 
 import type { BodyView, BoxView, MarkView } from "../protocol";
-import { font, type Look } from "../plots/look";
+import { font, type Look } from "../plots/colors/look";
 import type { Seen } from "./live";
 import { type PlanFrame, type PlanPoint, ticks, toPixels } from "./plan";
 

@@ -1,0 +1,47 @@
+// One line of a list: the sketch of a kind or the picture of a template, its title, and why it cannot be
+// chosen, if so.
+
+import { carriedBy, carry } from "../wiring/carried";
+import type { ListEntry } from "./entries";
+import { Sketch } from "./Sketch";
+import { TemplatePicture } from "./TemplatePicture";
+
+type Props = {
+  id: string;
+  entry: ListEntry;
+  active: boolean;
+  draggable: boolean;
+  onLook: () => void;
+  onChoose: () => void;
+};
+
+export function EntryLine({ id, entry, active, draggable, onLook, onChoose }: Props) {
+  const { title, note, why, kind, template } = entry;
+  const carried = draggable ? carriedBy(entry) : null;
+  return (
+    <div
+      id={id}
+      className="chooser-entry"
+      role="option"
+      tabIndex={-1}
+      aria-selected={active}
+      aria-disabled={why !== undefined}
+      title={why}
+      draggable={carried !== null}
+      onDragStart={(event) => carried !== null && carry(event.dataTransfer, carried)}
+      onPointerMove={() => !active && why === undefined && onLook()}
+      // the text field keeps the focus
+      onPointerDown={(event) => carried === null && event.preventDefault()}
+      onClick={onChoose}
+      onKeyDown={(event) => event.key === "Enter" && onChoose()}
+    >
+      {kind !== undefined && <Sketch kind={kind} />}
+      {template !== undefined && <TemplatePicture template={template} className="chooser-thumbnail" />}
+      <span className="chooser-words">
+        <span className="one-line">{title}</span>
+        {why !== undefined && <span className="chooser-why one-line">{why}</span>}
+      </span>
+      {note !== undefined && <span className="chooser-note one-line">{note}</span>}
+    </div>
+  );
+}

@@ -1,0 +1,141 @@
+// The palette: every registered kind, to add elements at the pointer and parts to the selected element.
+
+import type { Point } from "../../graph/layout/layout";
+import type { Kinds } from "../../inspector/parameters/leaf";
+import type { Kind, TemplateView } from "../../protocol";
+import { useStudio } from "../../store";
+import { useChooser } from "./chooser";
+import { addComment } from "../commenting";
+import { addElement, addPart, addTemplate } from "../edits";
+import type { WireEnds } from "../wiring/ends";
+import type { ListEntry } from "./entries";
+import { isEditable } from "../editable";
+import { ELEMENTS, familyOf, isPart, isSource, takes } from "./families";
+import { SHAPES, shapeOf } from "./shapes";
+import { beside, near, type Placing, under } from "../placing";
+import { getPointer, getStage } from "../stage";
+
+// All kinds as entries; `add` adds an element.
+export function kindEntries(
+  kinds: Kinds,
+  selected: Selected | null,
+  add: (kind: Kind) => unknown,
+): ListEntry[] {
+  const rank = (kind: Kind) => SHAPES.indexOf(shapeOf(kind, kinds));
+  const known = [...kinds.values()]
+    .filter((kind) => familyOf(kind) !== null)
+    .sort((a, b) => rank(a) - rank(b) || a.title.localeCompare(b.title));
+  const elements = ELEMENTS.flatMap((family) =>
+    known.filter((kind) => familyOf(kind) === family).map((kind) => elementEntry(kind, add)),
+  );
+  const parts = known.filter(isPart).flatMap((kind) => partEntries(kind, selected));
+  return [...elements, ...parts];
+}
+
+export function elementEntry(kind: Kind, add: (kind: Kind) => unknown): ListEntry {
+  return {
+    id: kind.name,
+    family: familyOf(kind) ?? "",
+    title: kind.title,
+    kind,
+    words: `${kind.name} ${wordsOf(kind)}`,
+    run: () => add(kind),
+  };
+}
+
+const ROOMS = { architectures: "Architectures, added whole", examples: "Examples, added whole" };
+
+// Published architectures and examples, each added as a group.
+export function templateEntries(templates: TemplateView[], at: Point | null): ListEntry[] {
+  return templates.map((template) => ({
+    id: `template ${template.name}`,
+    family: ROOMS[template.room],
+    title: template.title,
+    template,
+    words: `${template.name} ${template.sentence} template model`,
+    run: () => addTemplate(template.name, spotFor(null, at)),
+  }));
+}
+
+export type Selected = { id: string; name: string; kind: Kind | undefined };
+
+function partEntries(kind: Kind, selected: Selected | null): ListEntry[] {
+  const family = familyOf(kind) ?? "";
+  const entry = { family, title: kind.title, kind, words: `${kind.name} ${wordsOf(kind)}` };
+  const places = selected === null ? [] : takes(selected.kind, kind);
+  if (selected === null || places.length === 0) {
+    return [{ ...entry, id: kind.name, why: `Select an element that has ${family.toLowerCase()}` }];
+  }
+  return places.map(({ name, several }) => ({
+    ...entry,
+    id: `${kind.name} ${name}`,
+    note: places.length > 1 ? `${name.replaceAll("_", " ")} of ${selected.name}` : `for ${selected.name}`,
+    run: () => addPart(selected.id, name, several, kind),
+  }));
+}
+
+function wordsOf(kind: Kind): string {
+  return kind.parameters.map((form) => `${form.name.replaceAll("_", " ")} ${form.meaning}`).join(" ");
+}
+
+// The one selected element.
+export function selectedOne(): Selected | null {
+  const { selected, elements, kinds } = useStudio.getState();
+  const found = selected.length === 1 ? elements.get(selected[0] as string) : undefined;
+  return found === undefined ? null : { id: found.id, name: found.name, kind: kinds.get(found.kind) };
+}
+
+// Open the palette at a position on the screen, without one at the pointer. An element is inserted into
+// `wire`, if that is given.
+export function openPalette(at: Point | null = getPointer(), wire?: WireEnds): void {
+  const { kinds } = useStudio.getState();
+  if (!isEditable() || getStage() === null) {
+    return;
+  }
+  const add = (kind: Kind) => addElement(kind.name, spotFor(kind, at), { wire });
+  const entries = kindEntries(kinds, selectedOne(), add);
+  useChooser.getState().open({
+    label: wire === undefined ? "Add an element" : "Insert an element",
+    placeholder: "Name, family or parameter",
+    at,
+    entries:
+      wire === undefined
+        ? [...entries, commentEntry(at), ...templateEntries(knownTemplates(), at)]
+        : entries.filter(({ kind }) => kind !== undefined && passes(kind)),
+    empty: "No kind matches",
+  });
+}
+
+export const knownTemplates = (): TemplateView[] => useStudio.getState().welcome?.templates ?? [];
+
+function commentEntry(at: Point | null): ListEntry {
+  return {
+    id: "comment",
+    family: "On the canvas alone",
+    title: "Comment",
+    words: "note text",
+    run: () => addComment(at),
+  };
+}
+
+// A kind with an input, of which a connection can pass through the elements.
+export const passes = (kind: Kind): boolean => !isPart(kind) && !isSource(kind);
+
+// At the pointer; otherwise beside the selected element, sources at its left; otherwise in the middle, like
+// templates (no kind).
+export function spotFor(kind: Kind | null, at: Point | null): Placing {
+  const stage = getStage();
+  if (stage === null) {
+    return { at: { x: 0, y: 0 }, group: "" };
+  }
+  const scene = stage.scene();
+  if (at !== null) {
+    return under(stage.toFlow(at), scene);
+  }
+  const selected = selectedOne();
+  if (kind !== null && selected !== null && !scene.pills.has(selected.id)) {
+    return beside(selected.id, !isSource(kind), scene);
+  }
+  const { left, top, width, height } = stage.around.getBoundingClientRect();
+  return near(stage.toFlow({ x: left + width / 2, y: top + height / 2 }), scene);
+}

@@ -1,0 +1,33 @@
+// A kind or a template that is dragged from the list of elements to the canvas.
+
+import type { ListEntry } from "../palette/entries";
+
+const TYPE = { kind: "application/x-deodar-kind", template: "application/x-deodar-template" };
+
+export type Carried = { what: keyof typeof TYPE; name: string };
+
+// What an entry of the list carries; null: it is not dragged.
+export function carriedBy({ kind, template, why }: ListEntry): Carried | null {
+  if (why !== undefined) {
+    return null;
+  }
+  if (template !== undefined) {
+    return { what: "template", name: template.name };
+  }
+  return kind === undefined ? null : { what: "kind", name: kind.name };
+}
+
+export function carry(transfer: DataTransfer, { what, name }: Carried): void {
+  transfer.setData(TYPE[what], name);
+  transfer.effectAllowed = "copy";
+}
+
+export const isCarried = ({ types }: DataTransfer): boolean =>
+  types.includes(TYPE.kind) || types.includes(TYPE.template);
+
+// What is dropped.
+export function carried(transfer: DataTransfer): Carried | null {
+  const what = transfer.types.includes(TYPE.template) ? "template" : "kind";
+  const name = transfer.getData(TYPE[what]);
+  return name === "" ? null : { what, name };
+}

@@ -1,0 +1,225 @@
+// The end of a connection that was begun: at a port, at an element, or on the empty ground, where the palette
+// offers what fits.
+
+import type { Point } from "../../graph/layout/layout";
+import type { FitView, Kind, OfferView } from "../../protocol";
+import { useStudio } from "../../store";
+import { useChooser } from "../palette/chooser";
+import { addElement, connect, reconnect } from "../edits";
+import { between, type End, type Side, type WireEnds } from "./ends";
+import type { ListEntry } from "../palette/entries";
+import { isEditable } from "../editable";
+import { elementEntry, kindEntries } from "../palette/palette";
+import { atEnd, beside, type Placing } from "../placing";
+import { getStage } from "../stage";
+import { begin, end, fitOf, judged, stateOf, useWiring } from "./wiring";
+
+type WireTarget = { element: string; port: string | null };
+
+// The pointer was released at `at`, over a port, an element or the ground.
+export async function finish(at: Point, to: WireTarget | null): Promise<void> {
+  const known = await judged();
+  end();
+  // a port may lead to another one of its element; the element as a whole is no target
+  if (
+    known === null ||
+    (to?.element === known.from.element && (to.port ?? known.from.port) === known.from.port)
+  ) {
+    return;
+  }
+  const { moved } = known;
+  if (to === null) {
+    offerKinds(
+      at,
+      known.from,
+      known.side,
+      known.fits.kinds.map(({ kind }) => kind),
+      moved,
+    );
+    return;
+  }
+  if (moved !== undefined && isEndOf(moved, known.side, to)) {
+    return;
+  }
+  const fit = fitOf(known.fits, to.element, to.port);
+  if (fit === undefined || stateOf(fit) === "no") {
+    const side = known.side === "source" ? "input" : "output";
+    useStudio.getState().notify({ what: fit?.reason ?? `This element has no ${side}.` }, "info");
+  } else if (fit.fits) {
+    const ends = between(known.from, known.side, fit);
+    await (moved === undefined ? connect(ends) : reconnect(moved, ends));
+  } else {
+    useChooser.getState().open({
+      label: "Choose a coupling",
+      placeholder: "Coupling",
+      hint: fit.reason,
+      at,
+      entries: fit.offers.map((offer) =>
+        offerEntry("Couplings that fit", known.from, known.side, fit, offer, moved),
+      ),
+      empty: "No coupling matches",
+    });
+  }
+}
+
+// Whether a connection that begins at `side` ends at this port or element already.
+function isEndOf(wire: WireEnds, side: Side, { element, port }: WireTarget): boolean {
+  const [own, ownPort] =
+    side === "source" ? [wire.target, wire.target_port] : [wire.source, wire.source_port];
+  return element === own && (port === null || port === ownPort);
+}
+
+// A connection on the empty ground: what fits its end. `moved` is the connection that it was before.
+function offerKinds(at: Point, from: End, side: Side, kinds: string[], moved?: WireEnds): void {
+  const stage = getStage();
+  if (stage === null) {
+    return;
+  }
+  const spot = atEnd(stage.toFlow(at), side === "source", stage.scene());
+  useChooser.getState().open({
+    label: "Add a connected element",
+    placeholder: "Name, family or parameter",
+    hint: `Connected with ${called(from)}`,
+    at,
+    entries: fitting(kinds, from, side, () => spot, moved),
+    empty: "No kind that fits matches",
+  });
+}
+
+// Kinds whose new element is connected.
+function fitting(
+  kinds: string[],
+  from: End,
+  side: Side,
+  spot: (kind: Kind) => Placing,
+  replaces?: WireEnds,
+): ListEntry[] {
+  const known = useStudio.getState().kinds;
+  const ends = side === "source" ? { source: from, replaces } : { target: from, replaces };
+  const add = (kind: Kind) => addElement(kind.name, spot(kind), ends);
+  return kindEntries(known, null, add).filter(
+    ({ kind, why }) => why === undefined && kind !== undefined && kinds.includes(kind.name),
+  );
+}
+
+function offerEntry(
+  family: string,
+  from: End,
+  side: Side,
+  to: End,
+  offer: OfferView,
+  replaces?: WireEnds,
+): ListEntry {
+  const { elements, kinds } = useStudio.getState();
+  const kind = kinds.get(offer.kind);
+  const { source, source_port, target, target_port } = between(from, side, to);
+  const run = () =>
+    addElement(offer.kind, midway(source, target), {
+      values: offer.values,
+      source: { element: source, port: source_port },
+      target: { element: target, port: target_port },
+      replaces,
+    });
+  const title = kind?.title ?? offer.kind;
+  const base = kind === undefined ? { id: "", title, family } : elementEntry(kind, run);
+  return {
+    ...base,
+    id: `${to.element} ${to.port} ${offer.kind} ${JSON.stringify(offer.values)}`,
+    family,
+    title,
+    note: offer.note,
+    words: `${base.words ?? ""} ${elements.get(to.element)?.path ?? ""}`,
+    run,
+  };
+}
+
+// Between two boxes.
+function midway(one: string, other: string): Placing {
+  const scene = getStage()?.scene();
+  const [a, b] = [one, other].map((id) => scene?.places.elements.get(id) ?? { x: 0, y: 0 });
+  const home = scene?.tree.home;
+  const group = home?.get(one) === home?.get(other) ? (home?.get(one) ?? "") : "";
+  const middle = (from = 0, to = 0) => Math.round((from + to) / 2);
+  return { at: { x: middle(a?.x, b?.x), y: middle(a?.y, b?.y) }, group };
+}
+
+// Begin a connection at the selected element and choose its other end by words and arrow keys.
+export async function connectByKeys(port?: string): Promise<void> {
+  const { selected, elements } = useStudio.getState();
+  const element = selected.length === 1 ? elements.get(selected[0] as string) : undefined;
+  const stage = getStage();
+  if (element === undefined || stage === null || !isEditable()) {
+    useStudio.getState().notify({ what: "Select one element to connect it." }, "info");
+    return;
+  }
+  const side: Side = element.outputs.length > 0 && !element.inputs.includes(port ?? "") ? "source" : "target";
+  const ports = side === "source" ? element.outputs : element.inputs;
+  const from = { element: element.id, port: port ?? ports[0] ?? "" };
+  const fits = await begin(from, side);
+  if (fits === null) {
+    end();
+    return;
+  }
+  const others = [...element.outputs, ...element.inputs].filter((name) => name !== from.port);
+  const order = { yes: 0, offer: 1, no: 2 };
+  const ends = [...fits.ports].sort((a, b) => order[stateOf(a)] - order[stateOf(b)]);
+  const right = side === "source";
+  const targets = ends.flatMap((fit) => portEntries(from, side, fit));
+  useChooser.getState().open({
+    label: `Connect ${called(from)}`,
+    placeholder: right ? "To an element, or a new one" : "From an element, or a new one",
+    at: besideOnScreen(element.id),
+    entries: [
+      ...targets.filter(({ why }) => why === undefined),
+      ...fitting(
+        fits.kinds.map(({ kind }) => kind),
+        from,
+        side,
+        () => beside(element.id, right, stage.scene()),
+      ),
+      ...others.map((name) => ({
+        id: `port ${name}`,
+        family: "Begin at another port",
+        title: name,
+        run: () => connectByKeys(name),
+      })),
+      ...targets.filter(({ why }) => why !== undefined),
+    ],
+    empty: "Nothing matches",
+    onLook: (entry) => useWiring.setState({ target: entry?.element ?? null }),
+    onClose: end,
+  });
+}
+
+// The entries of a port: to connect it, or to put a coupling between.
+function portEntries(from: End, side: Side, fit: FitView): ListEntry[] {
+  const { element, port, reason } = fit;
+  const title = called(fit);
+  const entry = { id: `${element} ${port}`, title, element, family: side === "source" ? "To" : "From" };
+  switch (stateOf(fit)) {
+    case "yes":
+      return [{ ...entry, note: reason, run: () => connect(between(from, side, fit)) }];
+    case "offer":
+      return fit.offers.map((offer) => {
+        const made = offerEntry("Through a coupling", from, side, fit, offer);
+        return { ...made, element, title: `${title}, by ${made.title}` };
+      });
+    case "no":
+      return [{ ...entry, family: "Does not fit", why: reason }];
+  }
+}
+
+// The path of an element, with the port where there are several.
+function called({ element, port }: End): string {
+  const found = useStudio.getState().elements.get(element);
+  const ports = found?.outputs.includes(port) === true ? found.outputs : (found?.inputs ?? []);
+  return ports.length > 1 ? `${found?.path ?? ""}.${port}` : (found?.path ?? "");
+}
+
+function besideOnScreen(element: string): Point | null {
+  const box = getStage()?.around.querySelector(
+    `.react-flow__node[data-id="${CSS.escape(element)}"], [data-element="${CSS.escape(element)}"]`,
+  );
+  const rect = box?.getBoundingClientRect();
+  return rect === undefined ? null : { x: rect.right + 16, y: rect.top };
+}

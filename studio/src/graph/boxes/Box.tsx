@@ -1,0 +1,138 @@
+// An element on the canvas: its name, its kind, its live values, its ports.
+
+import { Handle, Position, type NodeProps } from "@xyflow/react";
+import { memo, useMemo, useRef } from "react";
+import { Sketch } from "../../build/palette/Sketch";
+import { useFitMarks } from "../../build/wiring/useFitMarks";
+import { askFits, useWiring } from "../../build/wiring/wiring";
+import { useStudio } from "../../store";
+import { BOX, dimensionsText, LIVE, liveHeight, portHeight, shownPort } from "./boxes";
+import { useHover } from "../hover";
+import { LiveBox } from "./LiveBox";
+import { Mark } from "./Mark";
+import type { BoxNode } from "../scene";
+import { useProblem, useWarning } from "../problem";
+import { useDetail } from "./useDetail";
+
+export const Box = memo(function Box({ data, height = BOX.title, isConnectable }: NodeProps<BoxNode>) {
+  const { element: id, path, name, title, family, inputs, outputs } = data;
+  const level = useDetail();
+  const selected = useStudio((state) => state.selected.includes(id));
+  const port = useStudio((state) => shownPort(state.elements.get(id), state.document?.record?.ports[id]));
+  const live = useStudio((state) => known(state.elements.get(id), liveHeight) ?? 0);
+  const problem = useProblem(id);
+  const warning = useWarning(id);
+  const holder = useRef<HTMLDivElement>(null);
+  const marked = useMemo(
+    () => [...inputs, ...outputs].map((name) => ({ element: id, port: name, handle: name })),
+    [id, inputs, outputs],
+  );
+  useFitMarks(holder, marked);
+  const reached = useWiring((state) => state.target === id);
+  const { enter, leave } = useHover.getState();
+  const ports = (side: PortsProps["side"], names: string[]) =>
+    level === "dot" ? (
+      <Anchors names={names} side={side} height={height} />
+    ) : (
+      <Ports element={id} names={names} side={side} height={height} connectable={isConnectable} />
+    );
+  return (
+    <div
+      ref={holder}
+      className="graph-box"
+      data-family={family}
+      data-reached={reached || undefined}
+      data-selected={selected || undefined}
+      data-problem={problem !== "" || undefined}
+      data-marked={problem !== "" || warning !== "" || undefined}
+      onPointerEnter={({ currentTarget }) => useWiring.getState().wiring === null && enter(id, currentTarget)}
+      onPointerLeave={leave}
+    >
+      {ports("target", inputs)}
+      <div className="graph-box-head">
+        <div className="graph-box-name one-line" title={path}>
+          {name}
+        </div>
+        <Signs title={title} kind={data.kind} dimensions={data.dimensions} />
+        <Mark element={id} />
+      </div>
+      {port !== null && level !== "dot" && (
+        <LiveBox
+          element={id}
+          port={port}
+          label={`${port} of ${path}, live`}
+          width={level === "full" ? LIVE.width : LIVE.small}
+          height={level === "full" ? live : LIVE.number}
+        />
+      )}
+      {ports("source", outputs)}
+    </div>
+  );
+});
+
+// The kind in words and as the palette draws it, and the number of dimensions.
+function Signs({ title, kind, dimensions }: Pick<BoxNode["data"], "title" | "kind" | "dimensions">) {
+  const known = useStudio((state) => state.kinds.get(kind));
+  return (
+    <div className="graph-box-kind">
+      <span className="one-line">{title}</span>
+      {known !== undefined && <Sketch kind={known} />}
+      {dimensions !== null && (
+        <span className="graph-dimensions" title={dimensionsText(dimensions)}>
+          {dimensions}-D
+        </span>
+      )}
+    </div>
+  );
+}
+
+// The name of a port is worth its place only where there are several.
+type PortsProps = {
+  element: string;
+  names: string[];
+  side: "source" | "target";
+  height: number;
+  connectable: boolean;
+};
+
+function Ports({ element, names, side, height, connectable }: PortsProps) {
+  return names.map((name, n) => {
+    const top = portHeight(height, n, names.length);
+    return (
+      <Handle
+        key={name}
+        id={name}
+        type={side}
+        isConnectable={connectable}
+        position={side === "target" ? Position.Left : Position.Right}
+        style={{ top }}
+        onPointerEnter={() => {
+          useHover.getState().close();
+          if (useWiring.getState().wiring === null) {
+            void askFits({ element, port: name });
+          }
+        }}
+        title={name}
+      >
+        {names.length > 1 && <span className={`graph-port graph-port-${side}`}>{name}</span>}
+      </Handle>
+    );
+  });
+}
+
+// The places of ports that are not shown: xyflow measures them and draws the wires to them.
+function Anchors({ names, side, height }: Pick<PortsProps, "names" | "side" | "height">) {
+  return names.map((name, n) => (
+    <div
+      key={name}
+      className={`graph-anchor ${side}`}
+      data-handleid={name === "" ? undefined : name}
+      data-handlepos={side === "target" ? Position.Left : Position.Right}
+      style={{ top: portHeight(height, n, names.length) }}
+    />
+  ));
+}
+
+function known<T, R>(value: T | undefined, of: (value: T) => R): R | null {
+  return value === undefined ? null : of(value);
+}

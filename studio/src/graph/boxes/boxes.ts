@@ -1,0 +1,76 @@
+// The box of an element: its size, its content and the positions of its ports.
+
+import type { ElementView } from "../../protocol";
+import type { Point, Size } from "../layout/layout";
+
+export const BOX = { width: 156, title: 40, port: 24, pad: 8 };
+// `small` is the width of a live picture in a box that shows its name and little else.
+export const LIVE = { width: BOX.width - 2 * BOX.pad, curve: 56, number: 20, small: 84 };
+
+// The port whose values the box shows.
+export function livePort(element: ElementView): string | null {
+  return element.outputs.includes("activation") ? "activation" : (element.outputs[0] ?? null);
+}
+
+// In a record without that port, a recorded one of the same shape takes its place.
+export function shownPort(element: ElementView | undefined, recorded?: string[]): string | null {
+  const port = element === undefined ? null : livePort(element);
+  if (element === undefined || port === null || recorded === undefined || recorded.includes(port)) {
+    return port;
+  }
+  return recorded.find((other) => same(element.axes[other], element.axes[port])) ?? port;
+}
+
+function same(one: string[] | undefined, other: string[] | undefined): boolean {
+  return one?.join() === other?.join();
+}
+
+// The number of axes of the port that the box shows; null as long as they are not known.
+export function dimensions(element: ElementView): number | null {
+  return element.axes[livePort(element) ?? ""]?.length ?? null;
+}
+
+export function dimensionsText(n: number): string {
+  return n === 1 ? "1 dimension" : `${n} dimensions`;
+}
+
+// The height of the live picture: a number needs less than a curve; an unknown content gets the full height.
+export function liveHeight(element: ElementView): number {
+  const port = livePort(element);
+  return port === null ? 0 : dimensions(element) === 0 ? LIVE.number : LIVE.curve;
+}
+
+export function boxSize(element: ElementView): Size {
+  const live = liveHeight(element);
+  const ports = Math.max(element.inputs.length, element.outputs.length);
+  return {
+    width: BOX.width,
+    height: Math.max(BOX.title + (live === 0 ? 0 : live + BOX.pad), BOX.port * (ports + 1)),
+  };
+}
+
+// The height of the n-th of `count` ports of one side.
+export function portHeight(height: number, n: number, of: number): number {
+  return Math.round((height * (n + 1)) / (of + 1));
+}
+
+// The places of boxes that the layout of a document holds; anything else in it is passed over.
+export function readBoxes(layout: Record<string, unknown>): Map<string, Point> {
+  const boxes = new Map<string, Point>();
+  const given = layout["boxes"];
+  if (typeof given === "object" && given !== null) {
+    for (const [id, box] of Object.entries(given as Record<string, unknown>)) {
+      const { x, y } = (box ?? {}) as Partial<Record<"x" | "y", unknown>>;
+      if (typeof x === "number" && typeof y === "number" && Number.isFinite(x) && Number.isFinite(y)) {
+        boxes.set(id, { x, y });
+      }
+    }
+  }
+  return boxes;
+}
+
+// The groups that the layout of a document holds folded.
+export function readFolded(layout: Record<string, unknown>): string[] {
+  const given = layout["folded"];
+  return Array.isArray(given) ? given.filter((key): key is string => typeof key === "string") : [];
+}

@@ -1,0 +1,44 @@
+// Changes of the layout, as messages to the server.
+
+import type { Answer } from "../../protocol";
+import { request } from "../../socket";
+import { useStudio } from "../../store";
+import { readBoxes } from "../boxes/boxes";
+import { foldedNow, useOpening } from "./folding";
+import type { Point } from "./layout";
+
+// Fold a group, or open it. The document keeps it, without a step of undo.
+export function fold(key: string, closed: boolean): void {
+  const others = now().filter((other) => other !== key);
+  keep(closed ? [...others, key] : others);
+}
+
+// Open several groups at once.
+export function unfold(keys: string[]): void {
+  keep(now().filter((key) => !keys.includes(key)));
+}
+
+function now(): string[] {
+  return foldedNow(useStudio.getState().document?.layout ?? {});
+}
+
+// At once on this page, also on one without a server, where no document keeps it.
+function keep(folded: string[]): void {
+  useOpening.setState({ folded });
+  void request({ type: "arrange", layout: { folded }, undoable: false });
+}
+
+// Sets the positions of boxes, as one step of undo. Those that the document has already are not sent: another
+// page may move them meanwhile.
+export function place(boxes: Map<string, Point>): Promise<Answer> {
+  const stored = readBoxes(useStudio.getState().document?.layout ?? {});
+  const moved = Object.entries(positionsOf(boxes)).filter(
+    ([id, [x, y]]) => stored.get(id)?.x !== x || stored.get(id)?.y !== y,
+  );
+  return request({ type: "place", positions: Object.fromEntries(moved) });
+}
+
+// Positions of boxes in whole pixels, as a message has them.
+export function positionsOf(boxes: Map<string, Point>): Record<string, [number, number]> {
+  return Object.fromEntries([...boxes].map(([id, { x, y }]) => [id, [Math.round(x), Math.round(y)]]));
+}

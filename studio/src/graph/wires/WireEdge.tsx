@@ -1,0 +1,71 @@
+// A connection on the canvas, with the couplings that are drawn on it.
+
+import { BaseEdge, EdgeLabelRenderer, type EdgeProps } from "@xyflow/react";
+import { memo } from "react";
+import { usePicked } from "../../build/picked";
+import { useStudio } from "../../store";
+import { Pill } from "../boxes/Pill";
+import { markOf } from "./SignMarks";
+import type { Point } from "../layout/layout";
+import type { Wire } from "../scene";
+import { type Course, direct } from "./wirePath";
+
+export const WireEdge = memo(function WireEdge(props: EdgeProps<Wire>) {
+  const { id, source, target, sourceX, sourceY, targetX, targetY, data } = props;
+  const touched = useStudio(
+    ({ selected }) =>
+      selected.includes(source) ||
+      selected.includes(target) ||
+      (data?.pills.some((p) => selected.includes(p)) ?? false),
+  );
+  const picked = usePicked((state) => state.wires.includes(id));
+  const over = usePicked((state) => state.over === id);
+  if (data === undefined) {
+    return null;
+  }
+  const { path, middle } = courseNow(data.course, { x: sourceX, y: sourceY }, { x: targetX, y: targetY });
+  const several = data.count > 1;
+  return (
+    <>
+      <BaseEdge
+        id={id}
+        path={path}
+        markerEnd={`url(#${markOf(data.sign, data.shared)})`}
+        interactionWidth={24}
+        className="graph-wire"
+        data-reads={data.reads}
+        data-sign={data.sign}
+        data-touched={touched || undefined}
+        data-picked={picked || over || undefined}
+      />
+      {(data.pills.length > 0 || several) && (
+        <EdgeLabelRenderer>
+          <div
+            className="graph-pills"
+            style={{ transform: `translate(-50%, -50%) translate(${middle.x}px, ${middle.y}px)` }}
+          >
+            {several ? (
+              <span className="graph-count" title={`${data.count} connections`}>
+                {data.count}
+              </span>
+            ) : (
+              data.pills.map((pill) => <Pill key={pill} element={pill} />)
+            )}
+          </div>
+        </EdgeLabelRenderer>
+      )}
+    </>
+  );
+});
+
+// The border of a box moves its ports by less than this.
+const MOVED = 3;
+
+// While a box is dragged, only its own wires move.
+function courseNow(known: Course | null, from: Point, to: Point): Course {
+  return known !== null && same(known.from, from) && same(known.to, to) ? known : direct(from, to);
+}
+
+function same(a: Point, b: Point): boolean {
+  return Math.abs(a.x - b.x) < MOVED && Math.abs(a.y - b.y) < MOVED;
+}

@@ -1,0 +1,167 @@
+// Drawing arrays onto canvases: nothing here depends on React, sockets or elements.
+
+import { canvasSettings } from "../../canvases";
+import type { Scale } from "./colors";
+
+export type Range = readonly [lower: number, upper: number];
+
+export type Curve = {
+  width: number;
+  height: number;
+  lower: number;
+  upper: number;
+  color: string;
+  // A line at 0, in this colour.
+  zero?: string;
+  lineWidth?: number;
+};
+
+// One image for each canvas, kept while its size stays: one putImageData for each frame is all that is paid.
+type Surface = { ctx: CanvasRenderingContext2D; image: ImageData; words: Uint32Array };
+const images = new WeakMap<HTMLCanvasElement, Surface>();
+const words = new WeakMap<Scale, Uint32Array>();
+
+// A heat map: one pixel for each sample, the canvas is stretched by its style. C order: index = ix * ny + iy;
+// x to the right, y up or down. NaN is transparent.
+export function paintHeat(
+  canvas: HTMLCanvasElement,
+  values: Float32Array,
+  nx: number,
+  ny: number,
+  range: Range,
+  scale: Scale,
+  down = false,
+): void {
+  const target = imageOf(canvas, nx, ny);
+  if (target === null) {
+    return;
+  }
+  const colors = asWords(scale);
+  const factor = range[1] > range[0] ? 255 / (range[1] - range[0]) : 0;
+  for (let iy = 0; iy < ny; iy++) {
+    const row = (down ? iy : ny - 1 - iy) * nx;
+    for (let ix = 0, at = iy; ix < nx; ix++, at += ny) {
+      const level = ((values[at] as number) - range[0]) * factor + 0.5;
+      target.words[row + ix] = Number.isNaN(level)
+        ? 0
+        : (colors[level < 0 ? 0 : level > 255 ? 255 : level | 0] as number);
+    }
+  }
+  target.ctx.putImageData(target.image, 0, 0);
+}
+
+// A picture: red, green and blue of each sample in `range`; index = (ix * ny + iy) * 3 + channel; x to the
+// right, y up or down.
+export function paintPicture(
+  canvas: HTMLCanvasElement,
+  values: Float32Array,
+  nx: number,
+  ny: number,
+  range: Range = [0, 1],
+  up = false,
+): void {
+  const target = imageOf(canvas, nx, ny);
+  if (target === null) {
+    return;
+  }
+  const bytes = target.image.data;
+  const factor = range[1] > range[0] ? 255 / (range[1] - range[0]) : 0;
+  for (let iy = 0; iy < ny; iy++) {
+    const row = (up ? ny - 1 - iy : iy) * nx;
+    for (let ix = 0; ix < nx; ix++) {
+      const from = 3 * (ix * ny + iy);
+      const to = 4 * (row + ix);
+      bytes[to] = ((values[from] as number) - range[0]) * factor;
+      bytes[to + 1] = ((values[from + 1] as number) - range[0]) * factor;
+      bytes[to + 2] = ((values[from + 2] as number) - range[0]) * factor;
+      bytes[to + 3] = 255;
+    }
+  }
+  target.ctx.putImageData(target.image, 0, 0);
+}
+
+// A curve over the whole width; samples that are not finite leave a gap. The caller clears.
+export function paintCurve(ctx: CanvasRenderingContext2D, values: ArrayLike<number>, how: Curve): void {
+  const { width, height, lower, upper, color, zero, lineWidth = 1.5 } = how;
+  const factor = upper > lower ? height / (upper - lower) : 0;
+  const place = (value: number) => height - (value - lower) * factor;
+  if (zero !== undefined && lower <= 0 && upper >= 0) {
+    const y = Math.round(place(0)) + 0.5;
+    ctx.strokeStyle = zero;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    ctx.moveTo(0, y);
+    ctx.lineTo(width, y);
+    ctx.stroke();
+  }
+  const step = values.length > 1 ? width / (values.length - 1) : 0;
+  ctx.strokeStyle = color;
+  ctx.lineWidth = lineWidth;
+  ctx.lineJoin = "round";
+  ctx.beginPath();
+  let drawing = false;
+  for (let i = 0; i < values.length; i++) {
+    const value = values[i] as number;
+    if (!Number.isFinite(value)) {
+      drawing = false;
+      continue;
+    }
+    const y = place(value);
+    if (drawing) {
+      ctx.lineTo(i * step, y);
+    } else {
+      ctx.moveTo(i * step, y);
+      drawing = true;
+    }
+  }
+  ctx.stroke();
+}
+
+// The least and the greatest value that is finite; null if there is none.
+export function extent(values: ArrayLike<number>): Range | null {
+  let lower = Infinity;
+  let upper = -Infinity;
+  for (let i = 0; i < values.length; i++) {
+    const value = values[i] as number;
+    if (value < lower && value > -Infinity) {
+      lower = value;
+    }
+    if (value > upper && value < Infinity) {
+      upper = value;
+    }
+  }
+  return lower <= upper ? [lower, upper] : null;
+}
+
+function imageOf(canvas: HTMLCanvasElement, nx: number, ny: number): Surface | null {
+  if (nx < 1 || ny < 1) {
+    return null;
+  }
+  if (canvas.width !== nx || canvas.height !== ny) {
+    canvas.width = nx;
+    canvas.height = ny;
+  }
+  const known = images.get(canvas);
+  if (known !== undefined && known.image.width === nx && known.image.height === ny) {
+    return known;
+  }
+  // Kept by the processor: pixels that come from there need not go elsewhere first.
+  const ctx = canvas.getContext("2d", canvasSettings());
+  if (ctx === null) {
+    return null;
+  }
+  const image = new ImageData(nx, ny);
+  const made = { ctx, image, words: new Uint32Array(image.data.buffer) };
+  images.set(canvas, made);
+  return made;
+}
+
+// The colours as pixels of a canvas on a little-endian machine, which every machine with a browser is.
+function asWords(scale: Scale): Uint32Array {
+  let found = words.get(scale);
+  if (found === undefined) {
+    found = new Uint32Array(scale.buffer, scale.byteOffset, 256);
+    words.set(scale, found);
+  }
+  return found;
+}

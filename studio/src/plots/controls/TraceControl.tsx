@@ -1,0 +1,96 @@
+// The choice of a time course: an element, its port, and of an array the maximum, the mean or a position.
+
+import { NumberInput, SegmentedControl, Select } from "@mantine/core";
+import type { AxisView, ElementView } from "../../protocol";
+import { useStudio } from "../../store";
+import { axisLabel, mainPort, portAxes, portsOf } from "../kinds/kinds";
+import type { TraceSetting } from "../settings";
+
+// `label` says what it is the choice of.
+type TraceChoice = { trace: TraceSetting; label: string; set: (trace: TraceSetting) => void };
+
+export function TraceControl({ trace, label, set }: TraceChoice) {
+  const document = useStudio((state) => state.document);
+  const elements = useStudio((state) => state.elements);
+  const kinds = useStudio((state) => state.kinds);
+  const { reduce } = trace;
+  const found = elements.get(trace.element);
+  const axesOf = (element: ElementView | undefined, port: string) =>
+    (document !== null && element !== undefined && portAxes(document, element, port)) || [];
+  const axes = axesOf(found, trace.port);
+  const position = (axis: AxisView, i: number) => trace.at[i] ?? (axis.lower + axis.upper) / 2;
+  const choose = (id: string, port?: string) => {
+    const element = elements.get(id);
+    const shown = port ?? (element === undefined ? "" : mainPort(element, kinds.get(element.kind)));
+    set(traceOf(id, shown, axesOf(element, shown), reduce));
+  };
+  return (
+    <>
+      <Select
+        size="xs"
+        aria-label={`Element of ${label}`}
+        searchable
+        allowDeselect={false}
+        comboboxProps={{ withinPortal: false }}
+        data={[...elements.values()].map((other) => ({ value: other.id, label: other.path }))}
+        value={trace.element}
+        onChange={(value) => value !== null && choose(value)}
+      />
+      <Select
+        size="xs"
+        aria-label={`Port of ${label}`}
+        allowDeselect={false}
+        comboboxProps={{ withinPortal: false }}
+        data={found === undefined ? [] : portsOf(found)}
+        value={trace.port}
+        onChange={(value) => value !== null && choose(trace.element, value)}
+      />
+      {axes.length > 0 && (
+        <SegmentedControl
+          size="xs"
+          fullWidth
+          aria-label={`Reduction of ${label}`}
+          data={[
+            { value: "max", label: "maximum" },
+            { value: "mean", label: "mean" },
+            { value: "at", label: "at a place" },
+          ]}
+          value={reduce}
+          onChange={(value) => set(traceOf(trace.element, trace.port, axes, value as TraceSetting["reduce"]))}
+        />
+      )}
+      {axes.length > 0 && reduce === "at" && (
+        <div className="plot-pair">
+          {axes.map((axis, i) => (
+            <NumberInput
+              key={axis.key}
+              size="xs"
+              label={axisLabel(axis)}
+              min={axis.lower}
+              max={axis.upper}
+              value={position(axis, i)}
+              onChange={(value) =>
+                typeof value === "number" &&
+                set({ ...trace, at: axes.map((other, j) => (i === j ? value : position(other, j))) })
+              }
+            />
+          ))}
+        </div>
+      )}
+    </>
+  );
+}
+
+// A time course of a port over these axes; a position is the middle at first.
+export function traceOf(
+  element: string,
+  port: string,
+  axes: AxisView[],
+  reduce: TraceSetting["reduce"],
+): TraceSetting {
+  if (axes.length === 0) {
+    return { element, port, reduce: "at", at: [] };
+  }
+  const at = reduce === "at" ? axes.map(({ lower, upper }) => (lower + upper) / 2) : [];
+  return { element, port, reduce, at };
+}
