@@ -2,7 +2,8 @@
 on a page that comes from them.
 
     python docs/evidence.py FOLDER     take the complete conditions in the folder of a
-                                       `deodar reproduce PAPER [--quick]`, then write everything
+                                       `deodar reproduce PAPER [--quick]`, keep the stored ones that it
+                                       lacks if their settings are the present ones, then write everything
     python docs/evidence.py            write claims and pages from the stored runs
     python docs/evidence.py --print    print every number and table by its name
 
@@ -122,6 +123,9 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
             f" {source}\n"
         )
     date = datetime.datetime.fromtimestamp((source / "runs.jsonl").stat().st_mtime, datetime.UTC).date()
+    folder = into / name
+    earlier, others = _earlier(folder, json.loads(json.dumps(paper.about(quick))), paper.BY_CONDITION, rows)
+    rows += others
     about = {
         "paper": name,
         "command": command,
@@ -130,8 +134,8 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
         "runs": len(rows),
         "of": len(keys),
         "made_by": made["made_by"],
+        "earlier": earlier,
     }
-    folder = into / name
     folder.mkdir(parents=True, exist_ok=True)
     content = "".join(
         json.dumps(line) + "\n" for line in [*(line for line in lines if "key" not in line), *rows]
@@ -139,6 +143,36 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     (folder / ROWS).write_bytes(lzma.compress(content.encode(), preset=9))
     (folder / ABOUT).write_text(json.dumps(about, indent=2) + "\n", encoding="utf-8")
     return read(name, folder)
+
+
+def _earlier(
+    folder: Path, design: Mapping[str, Any], by_condition: Sequence[str], rows: Sequence[Mapping[str, Any]]
+) -> tuple[list[dict[str, Any]], list[Mapping[str, Any]]]:
+    """Return what made the stored conditions that new rows lack, and the rows of these conditions; only of
+    those whose settings are the present ones.
+    """
+    if not (folder / ROWS).exists():
+        return [], []
+    stored = read(folder.name, folder)
+    if stored.quick != design["quick"]:
+        return [], []
+    new = {_condition(row["key"]) for row in rows}
+    made = stored.design[-1]
+    kept = [c for c in dict.fromkeys(map(_condition, stored.rows)) if c not in new]
+
+    def settings(design: Mapping[str, Any], condition: str) -> list[Any]:
+        return [design[k].get(condition) for k in by_condition]
+
+    same = [c for c in kept if any(settings(made, c)) and settings(made, c) == settings(design, c)]
+    before = [
+        {**entry, "conditions": [c for c in entry["conditions"] if c in same]}
+        for entry in stored.about.get("earlier", ())
+    ]
+    known = {c for entry in before for c in entry["conditions"]}
+    last = [c for c in same if c not in known]
+    about = {"made_by": stored.about["made_by"], "date": stored.about["date"], "conditions": last}
+    made_them = [entry for entry in [*before, about] if entry["conditions"]]
+    return made_them, [row for key, row in stored.rows.items() if _condition(key) in same]
 
 
 def _condition(key: str) -> str:
@@ -155,8 +189,6 @@ def numbers(evidence: Evidence, report: papers.Report) -> dict[str, str]:
     """What a page may say, by name: the numbers of the paper, and of its claims and runs."""
     required = [c for c in report.claims if c.kind == "required"]
     told = [c for c in report.claims if c.kind == "reported"]
-    made = evidence.about["made_by"]
-    versions = f"deodar {made['deodar']}, JAX {made['jax']}, NumPy {made['numpy']}, Python {made['python']}"
     return {
         **report.numbers,
         "required": _table(required),
@@ -167,8 +199,16 @@ def numbers(evidence: Evidence, report: papers.Report) -> dict[str, str]:
         "reported-count": _counted("reported sentences", told),
         "missing": _missing(evidence),
         "command": f"`{evidence.about['command']}`",
-        "made": f"{versions}, {made['machine']}, {evidence.about['date']}",
+        "made": "; ".join([_made(evidence.about), *map(_made, evidence.about.get("earlier", ()))]),
     }
+
+
+def _made(about: Mapping[str, Any]) -> str:
+    """Versions, machine and date of runs; of some conditions alone, with their names."""
+    made = about["made_by"]
+    versions = f"deodar {made['deodar']}, JAX {made['jax']}, NumPy {made['numpy']}, Python {made['python']}"
+    names = f"{', '.join(about['conditions'])}: " if "conditions" in about else ""
+    return f"{names}{versions}, {made['machine']}, {about['date']}"
 
 
 def _missing(evidence: Evidence) -> str:

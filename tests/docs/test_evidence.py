@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import lzma
 import re
 from pathlib import Path
 from typing import Any
@@ -69,7 +70,7 @@ def test_without_runs_a_page_states_settings_and_no_results() -> None:
 def test_evidence_states_versions_and_date_and_no_path(reports: dict[str, Any]) -> None:
     for name, (kept, _) in reports.items():
         assert (
-            set(kept.about) == {"paper", "command", "quick", "date", "runs", "of", "made_by"}
+            set(kept.about) - {"earlier"} == {"paper", "command", "quick", "date", "runs", "of", "made_by"}
             and kept.about["paper"] == name
         )
         assert re.fullmatch(r"20\d\d-\d\d-\d\d", kept.about["date"]) and kept.about["runs"] == len(kept.rows)
@@ -146,6 +147,34 @@ def test_a_reproduction_is_stored_and_a_changed_row_is_noticed(folder: Path, tmp
     assert "-->94 of 96<!--" in evidence.filled(whole, {"spa": evidence.numbers(again, other)})
     with pytest.raises(SystemExit, match="nothing that is called speed"):
         evidence.filled("<!-- evidence spa speed -->3<!-- end -->", known)
+
+
+def test_conditions_that_a_new_folder_lacks_are_kept_if_their_settings_are_the_present_ones(
+    folder: Path, tmp_path: Path
+) -> None:
+    into, other = tmp_path / "evidence", {**MADE, "machine": "another one"}
+    first = evidence.take(folder, into)
+    assert first.about["earlier"] == []
+    lines = (folder / "runs.jsonl").read_text().splitlines()
+    new = [json.loads(line) for line in lines if '"condition": "z/planner/low"' in line]
+    about = {"about": {**papers.paper("spa").about(False), "made_by": other}}
+    (folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in [about, *new]))
+    both = evidence.take(folder, into)
+    assert both.rows.keys() == first.rows.keys() and both.about["made_by"] == other
+    [earlier] = both.about["earlier"]
+    conditions = {key.rpartition("/")[0] for key in first.rows} - {"z/planner/low"}
+    assert earlier["made_by"] == MADE and set(earlier["conditions"]) == conditions
+    assert "another one" in evidence.numbers(both, both.report())["made"]
+    assert evidence.take(folder, into).about["earlier"] == both.about["earlier"]
+    # a condition with other settings than the present ones is not kept
+    kept = into / "spa" / evidence.ROWS
+    text = lzma.decompress(kept.read_bytes()).decode().splitlines()
+    old = json.loads(text[0])
+    gone = next(iter(conditions & old["about"]["runs"].keys()))
+    old["about"]["runs"][gone] = 1
+    kept.write_bytes(lzma.compress("\n".join([json.dumps(old), *text[1:]]).encode() + b"\n"))
+    again = evidence.take(folder, into)
+    assert {key.rpartition("/")[0] for key in first.rows.keys() - again.rows.keys()} == {gone}
 
 
 def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) -> None:
