@@ -23,8 +23,12 @@ def test_the_list_has_the_conditions_with_runs_alone() -> None:
 def test_reasons_of_unfinished_runs_are_counted_by_condition() -> None:
     unfinished = rows("arena")
     for row, letter in zip(unfinished, "RG", strict=False):
-        row |= {"reason": f"still looking for {letter} (item 2 of 2)"}
+        row |= {"reason": f"still looking for {letter} (item 2 of 2)", "length": 5000.0}
     assert "| arena | still looking | 2 |" in tables.reasons(found(arena=unfinished))
+    unfinished[0]["length"] = 500.0
+    assert "| arena | still looking, on a path of less than 1 m | 1 |" in tables.reasons(
+        found(arena=unfinished)
+    )
     assert tables.reasons(found(arena=rows("arena"))) == NOT_RUN
 
 

@@ -113,6 +113,7 @@ def reasons(found: RowsOfConditions) -> str:
             if "reason" in row:
                 # the colour and the item are those of the run
                 why = row["reason"].partition(" for ")[0].partition(" (item")[0]
+                why += ", on a path of less than 1 m" if row["length"] < 1000.0 else ""
                 counted[name, why] = counted.get((name, why), 0) + 1
     if not counted:
         return NOT_RUN
