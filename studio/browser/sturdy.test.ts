@@ -175,7 +175,7 @@ test("without a connection plots keep their picture and take no change", async (
   await shot(page, "not-connected-plot");
 });
 
-/** What is done while the mouse button is down, by what is dragged, and what the restarted server must have. */
+/** What is done while the mouse button is down, by what is dragged, and what the new server must have. */
 const GESTURES: Record<string, (studio: Studio) => Promise<void>> = {
   box: async ({ page }) => {
     await holdAndMove(page, box(page, "left"), { x: 20, y: 12 }, { x: 90, y: 70 });

@@ -25,7 +25,9 @@ def theme(scheme: str) -> dict[str, str]:
 
 def plots(scheme: str) -> dict[str, str]:
     """Return the colours of the studio's boxes and plots by name."""
-    found = re.search(r"FIELD_COLORS = \{(.*?)\n\}", (PAGE / "plots" / "colors.ts").read_text(), re.S)
+    found = re.search(
+        r"FIELD_COLORS = \{(.*?)\n\}", (PAGE / "plots" / "colors" / "colors.ts").read_text(), re.S
+    )
     assert found is not None
     part = re.search(rf"{scheme}: \{{(.*?)\}}", found[1], re.S)
     assert part is not None
@@ -61,7 +63,7 @@ def luminance(color: str) -> float:
 
 
 def test_maps_of_the_studio_and_of_figures_have_the_same_scales() -> None:
-    text = (PAGE / "plots" / "colors.ts").read_text()
+    text = (PAGE / "plots" / "colors" / "colors.ts").read_text()
     for name, colormap in (("viridis", dd.figures.SEQUENTIAL), ("diverging", dd.figures.DIVERGING)):
         found = re.search(rf"\n  {name}: \[(.*?)\]", text, re.S)
         assert found is not None

@@ -102,6 +102,6 @@ def test_a_plot_that_fits_is_sent_beside_a_broken_one(install: Install) -> None:
 
 
 def test_the_names_of_the_plots_of_deodar_are_those_of_the_page() -> None:
-    source = (ROOT / "studio" / "src" / "plots" / "kinds.ts").read_text(encoding="utf-8")
+    source = (ROOT / "studio" / "src" / "plots" / "kinds" / "kinds.ts").read_text(encoding="utf-8")
     found = re.search(r"export type OwnPlot =(.*?);", source, re.DOTALL)
     assert found is not None and re.findall(r'"(\w+)"', found[1]) == list(plots.OWN)

@@ -18,7 +18,7 @@ from deodar.experiments.jobs import Progress
 from deodar.experiments.results import run_trials
 from deodar.experiments.rows import Row
 from deodar.experiments.setup import Setup
-from deodar.model import find
+from deodar.model import find, output
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 
@@ -126,7 +126,7 @@ class ExperimentRun:
                 row = codec.parse(beside.read_text(encoding="utf-8"))
             else:
                 line = codec.line(self._again(trial, path))
-                beside.write_text(line, encoding="utf-8")
+                output.write(beside, line.encode(), durable=False)
                 row = codec.parse(line)
             if row != stored:
                 path.unlink(missing_ok=True)

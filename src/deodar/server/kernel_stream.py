@@ -7,7 +7,7 @@ from deodar.errors import ModelError
 from deodar.numerics.axes import Axes
 from deodar.numerics.kernel_shape import kernel_shape
 from deodar.numerics.kernels._base import Kernel
-from deodar.server.parameter_stream import Drawing, ParameterStream
+from deodar.server.parameter_stream import ParameterStream, PlaneDrawing
 from deodar.server.source import FrameSource
 
 
@@ -19,7 +19,7 @@ class KernelStream(ParameterStream):
             raise ModelError("has no interaction kernel")
         return tuple(element.kernels()), source.document_axes((self._element, element.convolution.of))
 
-    def draw(self, needs: tuple[tuple[Kernel, ...], Axes]) -> Drawing:
+    def draw(self, needs: tuple[tuple[Kernel, ...], Axes]) -> PlaneDrawing:
         kernels, axes = needs
         lags, weights = kernel_shape(kernels, axes)
-        return Drawing(weights, lags, axes[2:])
+        return PlaneDrawing(weights, lags, axes[2:])

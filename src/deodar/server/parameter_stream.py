@@ -19,7 +19,7 @@ from deodar.server.to_page import Announced, Lost
 
 
 @dc.dataclass(frozen=True)
-class Drawing:
+class PlaneDrawing:
     """An array over at most two axes.
 
     Attributes:
@@ -53,14 +53,14 @@ class ParameterStream:
         self._element, self._most = element, most
         self._said: Announced | Lost | None = None
         self._shown: tuple[Any, ...] | None = None
-        self._drawing = Drawing(np.zeros(0), ())
+        self._drawing = PlaneDrawing(np.zeros(0), ())
         self._due = False
 
     def needs(self, element: Element, source: FrameSource) -> tuple[Any, ...]:
         """Return all that the drawing follows from, or raise DeodarError: the element has none."""
         raise NotImplementedError
 
-    def draw(self, needs: tuple[Any, ...]) -> Drawing:
+    def draw(self, needs: tuple[Any, ...]) -> PlaneDrawing:
         """Return what follows from `needs`."""
         raise NotImplementedError
 

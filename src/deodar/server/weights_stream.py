@@ -7,7 +7,7 @@ from deodar.errors import ModelError
 from deodar.live.section import Section
 from deodar.numerics.axes import Axes, describe, shape
 from deodar.parameters import FrozenArray
-from deodar.server.parameter_stream import Drawing, ParameterStream
+from deodar.server.parameter_stream import ParameterStream, PlaneDrawing
 from deodar.server.source import FrameSource
 
 
@@ -44,9 +44,9 @@ class WeightsStream(ParameterStream):
             )
         return array, axes
 
-    def draw(self, needs: tuple[FrozenArray, Axes]) -> Drawing:
+    def draw(self, needs: tuple[FrozenArray, Axes]) -> PlaneDrawing:
         array, axes = needs
         section = self._section
         drawn, rest = section.split(axes)
         folded = tuple(a.name for a in section.folded(axes))
-        return Drawing(section.take(array.data, axes), drawn, rest, folded)
+        return PlaneDrawing(section.take(array.data, axes), drawn, rest, folded)

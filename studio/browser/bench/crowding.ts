@@ -3,8 +3,9 @@
 const SPIN_MS = 150;
 
 /**
- * The wall time of a computation over its processor time: 1 on a machine that is free. Limits in wall time are
- * multiplied by it, so that tests beside others do not fail, and fail on a free machine where they should.
+ * The wall time of a computation over its processor time: 1 on a machine that is free. Limits in wall time
+ * are multiplied by it, so that tests beside others do not fail, and fail on a free machine where they
+ * should.
  */
 export function crowding(): number {
   const [from, before] = [performance.now(), process.cpuUsage()];

@@ -413,7 +413,7 @@ def _falls(on: np.ndarray) -> np.ndarray:
     return np.flatnonzero(np.diff(on.astype(int)) == -1) + 1
 
 
-class _Step(NamedTuple):
+class _CompletedNode(NamedTuple):
     """The number of a node, and the samples at which it is switched off and at which the peak began that
     switched it off; the same sample without such a peak.
     """
@@ -423,18 +423,18 @@ class _Step(NamedTuple):
     satisfied: int
 
 
-def _completed(t: np.ndarray, nodes: np.ndarray, satisfied: np.ndarray) -> list[_Step]:
+def _completed(t: np.ndarray, nodes: np.ndarray, satisfied: np.ndarray) -> list[_CompletedNode]:
     """Return each node that the condition of satisfaction switches off, or that another one or none follows,
     in the order of time. Noise alone may switch a node off and on again while its activation rises.
     """
     begun = _rises(satisfied)
-    out: list[_Step] = []
+    out: list[_CompletedNode] = []
     for k in range(nodes.shape[1]):
         for off in _falls(nodes[:, k]).tolist():
             peaks = begun[(begun <= off) & (t[begun] >= t[off] - SOON)]
             later = np.flatnonzero(nodes[off:].any(axis=1))
             if len(peaks) or not len(later) or not nodes[off + later[0], k]:
-                out.append(_Step(k + 1, off, int(peaks[-1]) if len(peaks) else off))
+                out.append(_CompletedNode(k + 1, off, int(peaks[-1]) if len(peaks) else off))
     return sorted(out, key=lambda step: step.off)
 
 

@@ -10,7 +10,7 @@ import { bestOf, stateAt, useWiring, type Wiring } from "./wiring";
 export type MarkedPort = End & { handle: string };
 
 export function useFitMarks(holder: RefObject<HTMLElement | null>, ports: MarkedPort[]): void {
-  // also after every drawing: React made handles anew
+  // also after every drawing: React made new handles
   useLayoutEffect(() => {
     const mark = (wiring: Wiring | null) =>
       holder.current !== null && setMarks(holder.current, ports, wiring);

@@ -42,7 +42,7 @@ export class Painter {
     this.drawn.delete(owner);
   }
 
-  // While the canvas is moved boxes are drawn as seldom as they may be; afterwards the newest values are.
+  // While the canvas is moved boxes are drawn as rarely as possible; afterwards the newest values are.
   hold(held: boolean): void {
     this.held = held;
     this.ask();
