@@ -121,11 +121,11 @@ test("the cursor is linked among maps, pictures, scenes and multiples, not to a 
   expect(await reading(surface), "the same value in both").toBe(await reading(heat));
 
   for (const name of [surface, volume]) {
-    await point(plot(name).getByRole("group"), 0.5, 0.55);
+    await point(plot(name).getByRole("group", { name: /arrow keys turn/ }), 0.5, 0.55);
     await expectReading(name, /^[xyz] .*\d$/);
     await expectReading(heat, /^[xy] .*\d$/);
   }
-  await point(plot(surface).getByRole("group"), 0.45, 0.5);
+  await point(plot(surface).getByRole("group", { name: /arrow keys turn/ }), 0.45, 0.5);
   await expectReading(surface, /^x \S+ y \S+ \d+/);
   await expect.poll(async () => (await reading(heat)) === (await reading(surface))).toBe(true);
   await expectReading("Curves of line", /^x /);
@@ -160,7 +160,7 @@ test("a field over four axes is cut by sliders on the axes that are not drawn", 
   await slide(heat, "z", "End");
   await expect.poll(() => value(heat)).toBe(50);
 
-  await point(plot(volume).getByRole("group"), 0.5, 0.5);
+  await point(plot(volume).getByRole("group", { name: /arrow keys turn/ }), 0.5, 0.5);
   await expect.poll(() => value(volume)).toBeGreaterThanOrEqual(300);
   await slide(volume, "w", "Home");
   await expect.poll(() => value(volume)).toBeLessThan(100);

@@ -510,7 +510,7 @@ test("a field is a surface, and one over three axes is cut by three planes", asy
   await expect.poll(() => shades(scene)).toBeGreaterThan(20);
   expect(await chunks()).toHaveLength(1);
   const before = await drawn(scene);
-  await surface.getByRole("group").press("ArrowLeft");
+  await surface.getByRole("group", { name: /arrow keys turn/ }).press("ArrowLeft");
   await expect.poll(() => drawn(scene)).not.toBe(before);
   await observer.until(() => arranged().includes('"azimuth"'));
   const coming = page.waitForEvent("download");
