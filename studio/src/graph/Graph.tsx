@@ -125,8 +125,7 @@ function Canvas({ structure }: { structure: Structure }) {
     }
   }, [structure, kinds, flow]);
 
-  // While the canvas is moved it is one layer that the browser only shifts: live boxes are painted about once
-  // a second.
+  // While the canvas is moved it is one layer that the browser only shifts: live boxes are not painted.
   const move = useCallback(
     (moving: boolean) => {
       useHover.getState().close();
