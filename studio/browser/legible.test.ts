@@ -128,9 +128,11 @@ const behind = (page: Page): Promise<string[]> =>
   });
 
 async function readable(page: Page, least: number): Promise<void> {
-  await expect.poll(async () => (await settled(page)).length).toBeGreaterThanOrEqual(least);
-  const small = (await settled(page)).filter(({ size, height }) => Math.min(size, height) < SMALLEST);
-  expect(small, "names that are too small").toEqual([]);
+  const small = async () => {
+    const all = await settled(page);
+    return all.length < least ? null : all.filter(({ size, height }) => Math.min(size, height) < SMALLEST);
+  };
+  await expect.poll(small, { message: "names that are too small; null: too few names" }).toEqual([]);
   expect(await overlaps(page), "boxes that overlap").toEqual([]);
   expect(await behind(page), "wires behind boxes").toEqual([]);
 }
@@ -143,9 +145,13 @@ async function open(path: string, first: Locator): Promise<void> {
   await first.waitFor();
 }
 
-/** Change the width and reload: panels are arranged for the width that they find. */
+/** Longer than it takes to store an arrangement that a person changed. */
+const STORED = 1000;
+
+/** Change the width and reload: panels are arranged for the width that they find, as no person moved them. */
 async function reloaded(width: number): Promise<void> {
   await studio.page.setViewportSize({ width, height: 800 });
+  await studio.page.waitForTimeout(STORED);
   await studio.page.reload();
 }
 

@@ -15,7 +15,7 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import { live } from "../world/live";
 import { World } from "../world/World";
-import { restore, signature } from "./arrangement";
+import { isChanged, kept, type Kept, restore } from "./arrangement";
 import { Empty } from "./Empty";
 import { forgetArrangements, openFirstWorld, openTool, setDock } from "./openPlot";
 import { PanelTab } from "./PanelTab";
@@ -65,7 +65,7 @@ const SAVE_AFTER_MS = 600;
 export function Dock() {
   const [api, setApi] = useState<DockviewApi | null>(null);
   const session = useStudio((state) => state.session);
-  const saved = useRef("");
+  const saved = useRef<Kept | null>(null);
 
   const ready = ({ api: made }: DockviewReadyEvent) => {
     setDock(made);
@@ -80,13 +80,12 @@ export function Dock() {
     let timer: ReturnType<typeof setTimeout> | undefined;
     restore(api, useStudio.getState().document?.layout["panels"]);
     forgetArrangements();
-    saved.current = signature(api.toJSON());
+    saved.current = kept(api);
     const save = () => {
-      const arrangement = api.toJSON();
-      const now = signature(arrangement);
-      if (now !== saved.current) {
-        saved.current = now;
-        void request({ type: "arrange", layout: { panels: arrangement }, undoable: false });
+      const [before, now] = [saved.current, kept(api)];
+      saved.current = now;
+      if (before !== null && isChanged(before, now)) {
+        void request({ type: "arrange", layout: { panels: api.toJSON() }, undoable: false });
       }
     };
     const later = () => {

@@ -1,6 +1,6 @@
 import type { SerializedDockview } from "dockview-react";
 import { expect, it } from "vitest";
-import { isArrangement, signature } from "./arrangement";
+import { isArrangement, isChanged, signature } from "./arrangement";
 
 const arrangement = (width: number, left: number, active = "a", title = "A") =>
   ({
@@ -42,4 +42,18 @@ it("a moved border and a changed setting change the signature", () => {
   const other = arrangement(1000, 600);
   (other.panels["b"]!.params as Record<string, unknown>)["port"] = "output";
   expect(signature(other)).not.toBe(signature(arrangement(1000, 600)));
+});
+
+it("another size of the window changes no arrangement, though it gives panels other shares", () => {
+  const found = (width: number, left: number, changed = arrangement(width, left)) => ({
+    width,
+    height: 500,
+    all: signature(changed),
+    order: signature(changed, false),
+  });
+  expect(isChanged(found(1000, 600), found(1000, 500)), "a border was moved").toBe(true);
+  expect(isChanged(found(1000, 600), found(640, 240)), "the right panel keeps its width").toBe(false);
+  const other = arrangement(640, 240);
+  (other.panels["b"]!.params as Record<string, unknown>)["port"] = "output";
+  expect(isChanged(found(1000, 600), found(640, 240, other)), "a plot shows another port").toBe(true);
 });

@@ -110,26 +110,49 @@ export function isArrangement(stored: unknown): stored is SerializedDockview {
 }
 
 // What an arrangement is, apart from the size of the window, where the focus is, and titles, which follow
-// from the document.
-export function signature(arrangement: SerializedDockview): string {
+// from the document. Without `sized` the sizes of the panels do not count either.
+export function signature(arrangement: SerializedDockview, sized = true): string {
   const panels = Object.entries(arrangement.panels).map(([id, { contentComponent, params }]) => [
     id,
     contentComponent,
     params,
   ]);
-  return JSON.stringify({ ...arrangement, panels, grid: shares(arrangement.grid.root), activeGroup: null });
+  return JSON.stringify({
+    ...arrangement,
+    panels,
+    grid: shares(arrangement.grid.root, sized),
+    activeGroup: null,
+  });
+}
+
+// The arrangement that is stored, or that was found when the page was opened.
+export type Kept = { width: number; height: number; all: string; order: string };
+
+export function kept(api: DockviewApi): Kept {
+  const arrangement = api.toJSON();
+  const { width, height } = api;
+  return { width, height, all: signature(arrangement), order: signature(arrangement, false) };
+}
+
+// Whether a person changed the arrangement: another size of the window gives panels other shares, too.
+export function isChanged(before: Kept, now: Kept): boolean {
+  const resized = before.width !== now.width || before.height !== now.height;
+  return resized ? before.order !== now.order : before.all !== now.all;
 }
 
 type PanelBranch = { type: string; data: unknown; size?: number };
 
-// Sizes in percent of their container.
-function shares(node: PanelBranch): unknown {
+// Sizes in percent of their container; without them what is in it.
+function shares(node: PanelBranch, sized: boolean): unknown {
   if (!Array.isArray(node.data)) {
     return node.data;
   }
   const children = node.data as PanelBranch[];
   const all = children.reduce((sum, child) => sum + (child.size ?? 0), 0) || 1;
-  return children.map((child) => [Math.round((50 * (child.size ?? 0)) / all), shares(child)]);
+  return children.map((child) => [
+    sized ? Math.round((50 * (child.size ?? 0)) / all) : 0,
+    shares(child, sized),
+  ]);
 }
 
 function isRecord(value: unknown): value is Record<string, unknown> {
