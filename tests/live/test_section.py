@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.live.section import Section
-from deodar.live.trace import CAPACITY, Trace, TraceRequest, capacity
+from deodar.live.trace import CAPACITY, Trace, TraceRequest, capacity, extremes
 
 X, Y, Z = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyz", (4, 5, 6), strict=True))
 HUE = dd.Axis("hue", 0, 360, samples=8, periodic=True)
@@ -71,3 +71,23 @@ def test_rows_of_another_length_replace_those_before() -> None:
     trace.add(4, np.ones(3))
     assert trace.count == 5
     assert trace.since(0).tolist() == [[4, 1, 1, 1]]
+
+
+def test_a_thinned_time_course_keeps_every_extreme_in_parts_as_in_one_piece() -> None:
+    values = np.random.default_rng(1).normal(size=103)
+    values[[41, 77]] = 50.0, -50.0
+    whole = extremes(values, 0, 10)
+    assert {41, 77} <= set(whole.tolist()) and len(whole) <= 2 * 11
+    assert sorted(values[whole])[0] == values.min() and sorted(values[whole])[-1] == values.max()
+    # parts that begin at multiples of the interval
+    parts = [first + extremes(values[first:last], first, 10) for first, last in ((0, 40), (40, 103))]
+    assert np.array_equal(np.concatenate(parts), whole)
+    # an interval that lies in two parts keeps the extremes of both
+    cut = np.concatenate(
+        [first + extremes(values[first:last], first, 10) for first, last in ((0, 45), (45, 103))]
+    )
+    assert set(whole.tolist()) <= set(cut.tolist())
+    assert np.array_equal(extremes(values, 0, 1), np.arange(103)), "a short course is kept whole"
+    values[50:60] = np.nan
+    values[77] = np.nan
+    assert {41, 50} <= set(extremes(values, 0, 10).tolist()) and 77 not in extremes(values, 0, 10)

@@ -226,7 +226,7 @@ def test_a_record_neither_runs_nor_changes_and_its_model_can_be_run(root: Path) 
         await p.until(lambda: p.clock["tick"] == 3)
         assert (await p.ask("open_record_model"))["problems"]
 
-    with studio(root) as address:
+    with studio(root, root / "pulse") as address:
         play(address, scene)
 
 
@@ -287,7 +287,7 @@ def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Pat
             assert len(problems) == 1 and what in problems[0]["what"], problems
             assert p.document is None
 
-    with studio(root) as address:
+    with studio(root, root / "pulse") as address:
         play(address, scene)
 
 
@@ -476,7 +476,7 @@ def test_records_are_listed_beside_folders_and_documents(root: Path) -> None:
         await p.do("close")
         await p.until(lambda: p.said["gallery"]["recent"] == ["selection-001"])
 
-    with studio(root) as address:
+    with studio(root, root / "pulse") as address:
         play(address, scene)
 
 
@@ -654,4 +654,21 @@ def test_a_run_that_cannot_continue_from_a_moment_states_why(
         assert p.clock["tick"] == 5 and not p.clock["running"]
 
     with studio(root, root / "selection.json") as address:
+        play(address, scene)
+
+
+def test_a_peak_of_one_sample_in_a_long_record_is_in_its_time_course(root: Path) -> None:
+    model = dd.Model("pulse")
+    pulse = model.add(dd.Boost("pulse", [], amplitude=1.0, windows=[dd.Window(12345.0, 12346.0)]))
+    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"], progress=False)
+    folder.write(data, model.document, root / "pulse", "zarr")
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        await p.do("trace", stream=1, element=p.element("pulse"), port="output", reduce="max")
+        await p.until(lambda: bool(p.samples.get(1)) and p.samples[1][-1][0] == 40_000)
+        assert len(p.samples[1]) <= 8192
+        assert [t for t, value in p.samples[1] if value == 1] == [12345]
+
+    with studio(root, root / "pulse") as address:
         play(address, scene)

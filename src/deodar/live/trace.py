@@ -80,6 +80,26 @@ class Trace:
         return trace
 
 
+def extremes(values: np.ndarray, first: int, interval: int) -> np.ndarray:
+    """Return the indices of the samples that remain of a time course: the smallest and the largest one of
+    each interval, in the order of time. NaN counts only where an interval has nothing else.
+
+    Args:
+        values: consecutive samples of the course.
+        first: number of the first of them in the whole course; intervals begin at multiples of their length.
+        interval: number of samples of an interval; with 2 or less all samples remain.
+    """
+    if interval <= 2:
+        return np.arange(len(values))
+    low, high = (np.where(np.isnan(values), bad, values) for bad in (np.inf, -np.inf))
+    begins = np.arange(-(first % interval), len(values), interval)
+    found: set[int] = set()
+    for begin in np.maximum(begins, 0).tolist():
+        end = begin + interval - (first + begin) % interval
+        found |= {begin + int(low[begin:end].argmin()), begin + int(high[begin:end].argmax())}
+    return np.asarray(sorted(found), int)
+
+
 def capacity(width: int) -> int:
     """Return the number of samples of `width` values in a buffer."""
     return min(CAPACITY, max(2, MOST_VALUES // max(1, width)))

@@ -7,7 +7,7 @@ import dataclasses as dc
 import itertools
 import math
 import threading
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import DeodarError, Problem
 from deodar.live.published import PublishedState
 from deodar.live.ring import TimeSpan
-from deodar.live.trace import Trace, TraceRequest, capacity
+from deodar.live.trace import Trace, TraceRequest, capacity, extremes
 from deodar.live.track import MOST, Trail
 from deodar.numerics.axes import Axes
 from deodar.recording.record import about
@@ -31,7 +31,11 @@ from deodar.worlds._base import World
 from deodar.worlds._scene import Scene, SceneBody
 
 MOST_SAMPLES = capacity(1) // 2
-"""Largest number of samples of a time course; longer records are sampled at even intervals."""
+"""Largest number of samples of a time course.
+
+A longer record is divided into intervals, of which the smallest and the largest sample are kept, so that no
+peak is left out; rows of values over time are sampled at even intervals.
+"""
 
 PLACES = ("pose", "place")
 """Sensors whose readings are the position of the body of a world, the more complete one first."""
@@ -198,18 +202,34 @@ class RecordFrames:
             def read() -> None:
                 # the stream reports a port without frames, and the frame a chunk that cannot be read
                 with contextlib.suppress(DeodarError):
-                    axes = self.record.axes(request.place)
-                    drawn = () if request.section is None else request.section.split(axes)[0]
-                    most = min(MOST_SAMPLES, capacity(math.prod(a.samples for a in drawn)))
-                    for times, frames in self.record.samples(request.place, copy, most):
+                    for times, values in self._course(request, copy):
                         if self._traces.get(key) is not trace:
                             return
-                        for time, frame in zip(times, frames, strict=True):
-                            trace.add(float(time), request.value(frame, axes))
+                        for time, value in zip(times, values, strict=True):
+                            trace.add(float(time), value)
                         self._progress()
 
             threading.Thread(target=read, name="deodar-course", daemon=True).start()
         return self._traces[key]
+
+    def _course(
+        self, request: TraceRequest, copy: Copy
+    ) -> Iterator[tuple[np.ndarray, Sequence[float | np.ndarray]]]:
+        """Yield the times and values of a time course, chunk by chunk."""
+        record, place = self.record, request.place
+        axes = record.axes(place)
+        if request.section is not None:
+            drawn = request.section.split(axes)[0]
+            most = min(MOST_SAMPLES, capacity(math.prod(a.samples for a in drawn)))
+            for times, frames in record.samples(place, copy, most):
+                yield times, [request.value(frame, axes) for frame in frames]
+            return
+        times = record.sample_times(place)
+        interval = 2 * max(1, math.ceil(len(times) / MOST_SAMPLES)) if len(times) > MOST_SAMPLES else 1
+        for first, last in record.chunks(place):
+            values = np.asarray([request.value(f, axes) for f in record.block(place, copy, first, last)])
+            kept = extremes(values, first, interval)
+            yield times[first:last][kept], values[kept].tolist()
 
 
 def position_port(record: RecordReader) -> PortKey | None:
