@@ -8,5 +8,7 @@ export default defineConfig({
     fileParallelism: false,
     testTimeout: 180_000,
     hookTimeout: 120_000,
+    // the observer needs what node has only from version 22 on without being asked
+    execArgv: "WebSocket" in globalThis ? [] : ["--experimental-websocket"],
   },
 });
