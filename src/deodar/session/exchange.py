@@ -307,7 +307,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
                     ),
                 )
             world.require(e.element.sensor)
-            _fit(e.path, e.element.sensor, world.sensors, tuple(e.element.axes))
+            _fit(e.path, e.element.sensor, world, world.sensors, tuple(e.element.axes))
             sensors[e.id] = e.element
         if isinstance(e.element, Motor):
             name = e.element.motor
@@ -320,7 +320,7 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
             driven[name] = e.path
             if world is not None:
                 world.require_motor(name)
-                _fit(e.path, name, world.motors, tuple(e.element.axes))
+                _fit(e.path, name, world, world.motors, tuple(e.element.axes))
                 motors[e.id] = e.element
     wrong = [p for p in agreement.judge(doc, world) if p.severity == "problem"]
     if wrong:
@@ -328,9 +328,10 @@ def used(doc: Document, world: World | None) -> tuple[dict[str, Sensor], dict[st
     return sensors, motors
 
 
-def _fit(path: str, name: str, known: Mapping[str, Signal], axes: Axes) -> None:
+def _fit(path: str, name: str, world: World, known: Mapping[str, Signal], axes: Axes) -> None:
     try:
         if name in known:  # a user's world may accept any name
             fitting(name, known[name], axes)
     except WorldError as error:
-        raise WorldError(error.problems[0].what, where=path) from None
+        fix = world.alternative(name, shape(axes)) or "Give the element such axes, or choose another world"
+        raise WorldError(error.problems[0].what, where=path, fix=fix) from None

@@ -216,6 +216,10 @@ class World:
         """
         return iter(())
 
+    def alternative(self, signal: str, shape: Sequence[int]) -> str:
+        """Return what to type for a world of this kind in which a signal has a shape; empty: none known."""
+        return ""
+
     @classmethod
     def examples(cls) -> Iterator[World]:
         """Yield the worlds from which the studio takes one if the user chose none: the first in which a model

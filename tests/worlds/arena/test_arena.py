@@ -530,3 +530,20 @@ def test_an_object_far_outside_is_refused_because_its_lengths_have_another_unit(
         with pytest.raises(WorldError, match=r"m outside the arena, 0 to 1.2, 0 to 0.8 m. Give lengths in m"):
             change()
     world.place("parked", center=(-0.5, -0.5), size=(0.05, 0.05))
+
+
+def test_a_model_for_another_vehicle_names_the_vehicle_that_fits() -> None:
+    six = dd.Axis("sensor", 0, 5, samples=6)
+    model = dd.Model("distances")
+    model.add(dd.Sensor("distance", [six], sensor="infrared"))
+    arena = dd.Arena(
+        {"unit": "mm", "arena": {"x": [-300, 300], "y": [-300, 300]}}, start=(0, 0, 0), unit="mm"
+    )
+    with pytest.raises(WorldError) as caught:
+        dd.Session(model, world=arena)
+    [problem] = caught.value.problems
+    assert problem.where == "distance" and "axes of 8 samples; the model gives it [6]" in problem.what
+    assert problem.fix == "Choose another vehicle of the arena: vehicle=khepera"
+    model.set("distance.axes", [dd.Axis("sensor", 0, 6, samples=7)])
+    with pytest.raises(WorldError, match="Give the element such axes"):
+        dd.Session(model, world=arena)

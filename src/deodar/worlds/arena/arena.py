@@ -539,6 +539,13 @@ class Arena(PureWorld):
         check = BlockCheck(self.objects, self.places)
         yield from check.warnings(self.starts, self.vehicle.name, self.vehicle.radius)
 
+    def alternative(self, signal: str, shape: Sequence[int]) -> str:
+        for vehicle in VEHICLES.values():
+            known = signals(vehicle, self.unit, goal=False)
+            if signal in known and known[signal].shape == tuple(shape):
+                return f"Choose another vehicle of the arena: vehicle={vehicle.name}"
+        return ""
+
     def _picture(self, shared: Arrays, own: ArenaCopy, state: Arrays, sensor: str, axes: Axes) -> Array:
         """Return the last picture: with a period of its own the camera is where the vehicle was then."""
         camera, pose, tick = self.vehicle.camera, (state["position"], state["heading"]), state["tick"]
