@@ -15,6 +15,7 @@ import psutil
 import pytest
 
 import deodar as dd
+from deodar.batch import pool
 from deodar.elements.noise import Noise
 from deodar.recording.record import about
 from deodar.recording.repeat import repeat
@@ -210,6 +211,23 @@ def test_a_worker_that_dies_raises_a_worker_error() -> None:
     assert not children()
 
 
+def test_a_worker_that_has_worked_for_long_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    def pids(count: int) -> list[int]:
+        found: list[int] = []
+        with pool.Pool(1) as workers:
+            for k in range(count):
+                workers.give(k, os.getpid)
+                while not (done := workers.wait(1.0)):
+                    pass
+                found.append(done[0][1])
+                assert len(children()) == 1
+        return found
+
+    assert len(set(pids(3))) == 1
+    monkeypatch.setattr(pool, "LONGEST", 0.0)
+    assert len(set(pids(2))) == 2 and not children()
+
+
 def test_an_error_in_a_worker_is_raised_unchanged_in_the_caller() -> None:
     model = small()
     model["u"] >> model.add(dd.Gain(1e30, name="g")) >> model.add(dd.Gain(1e30, name="h")) >> model["u"]
@@ -289,7 +307,7 @@ def test_a_worker_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
         "import time\n"
         "from deodar.batch.pool import Pool\n"
         "with Pool(1) as pool:\n"
-        "    worker = pool._idle[0][0].pid\n"
+        "    worker = pool._idle[0].process.pid\n"
         "    pool.give(0, time.sleep, 600)\n"
         "    print(worker, flush=True)\n"
         "    pool.wait(600)\n"

@@ -18,9 +18,11 @@ import pickle
 import signal
 import sys
 import threading
+import time
 import traceback
 import types
 from collections.abc import Callable, Generator, Hashable
+from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any, Self
@@ -29,6 +31,29 @@ from deodar.errors import DeodarError, WorkerError
 
 Task = tuple[Callable[..., Any], tuple[Any, ...]]
 """A function of a module and its arguments."""
+
+
+LONGEST = 600.0
+"""Seconds of work after which a worker is replaced by a new one.
+
+The memory maps of compiled programs accumulate in a process, and Linux allows 65530: after an hour of
+programs with worlds, of several thousand maps each, XLA finds no memory and ends the process.
+"""
+
+
+@dataclass
+class _Worker:
+    """A process, its pipe, the seconds that it has worked, and when it began its task."""
+
+    process: SpawnProcess
+    pipe: Connection
+    worked: float = 0.0
+    began: float = 0.0
+
+    def end(self, now: bool = False) -> None:
+        if now:
+            self.process.kill()
+        self.pipe.close()
 
 
 class Pool:
@@ -42,8 +67,8 @@ class Pool:
 
     def __init__(self, count: int, main: bool = False, talks: bool = False) -> None:
         self._count, self._main, self._talks = count, main, talks
-        self._idle: list[tuple[SpawnProcess, Connection]] = []
-        self._busy: dict[Connection, tuple[SpawnProcess, Hashable]] = {}
+        self._idle: list[_Worker] = []
+        self._busy: dict[Connection, tuple[_Worker, Hashable]] = {}
 
     def __enter__(self) -> Self:
         with _quiet(self._main):
@@ -52,13 +77,11 @@ class Pool:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *others: object) -> None:
-        workers = [*self._idle, *((process, pipe) for pipe, (process, _) in self._busy.items())]
-        for process, pipe in workers:
-            if kind is not None:
-                process.kill()
-            pipe.close()
-        for process, _ in workers:
-            process.join()
+        workers = [*self._idle, *(worker for worker, _ in self._busy.values())]
+        for worker in workers:
+            worker.end(now=kind is not None)
+        for worker in workers:
+            worker.process.join()
 
     @property
     def idle(self) -> int:
@@ -72,11 +95,17 @@ class Pool:
 
     def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any) -> None:
         """Send a task to an idle worker; `wait` returns its result under the key."""
-        process, pipe = self._idle.pop()
-        self._busy[pipe] = process, key
+        worker = self._idle.pop()
+        if worker.worked > LONGEST:
+            worker.end()
+            worker.process.join()
+            with _quiet(self._main):
+                worker = _started(self._talks)
+        worker.began = time.monotonic()
+        self._busy[worker.pipe] = worker, key
         # `wait` reports a worker that has died
         with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-            pipe.send((function, arguments))
+            worker.pipe.send((function, arguments))
 
     def wait(self, seconds: float, heard: Callable[[Any, Any], None] | None = None) -> list[tuple[Any, Any]]:
         """Return keys and results of completed tasks, after waiting at most `seconds` for a message.
@@ -89,11 +118,11 @@ class Pool:
             WorkerError: a process has died, or a result cannot be sent between processes.
             Exception: the exception that a task has raised.
         """
-        ends = {process.sentinel: pipe for pipe, (process, _) in self._busy.items()}
+        ends = {worker.process.sentinel: pipe for pipe, (worker, _) in self._busy.items()}
         ready = multiprocessing.connection.wait([*self._busy, *ends], seconds)
         out: list[tuple[Any, Any]] = []
         for pipe in dict.fromkeys(ends.get(one, one) for one in ready):  # type: ignore[call-overload]
-            process, key = self._busy[pipe]
+            worker, key = self._busy[pipe]
             try:
                 good, result = pickle.loads(pipe.recv_bytes())
             except (EOFError, OSError):
@@ -108,18 +137,19 @@ class Pool:
             if not good:
                 raise result
             del self._busy[pipe]
-            self._idle.append((process, pipe))
+            worker.worked += time.monotonic() - worker.began
+            self._idle.append(worker)
             out.append((key, result))
         return out
 
 
-def _started(talks: bool) -> tuple[SpawnProcess, Connection]:
+def _started(talks: bool) -> _Worker:
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
     process = context.Process(target=_serve, args=(there, talks))
     process.start()
     there.close()  # so that the worker's end is the only one, and its death is detected
-    return process, here
+    return _Worker(process, here)
 
 
 @contextlib.contextmanager
