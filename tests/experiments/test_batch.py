@@ -15,6 +15,7 @@ from deodar.experiments.events import Crosses, Within
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
 from deodar.experiments.run import run_trial
+from deodar.numerics.choice import MANY
 from deodar.worlds.picture import Picture
 from tests.experiments.robots import decider, room, straight
 
@@ -45,6 +46,24 @@ def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
     assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left
     assert sizes(model)[-1] == 16 and len(sizes(model)) >= 3
     assert sum(course.outcome == "decided" for course in courses) > 8
+
+
+def test_a_smaller_batch_has_the_state_of_the_larger_one_where_kernels_differ(monkeypatch):
+    """With many copies a kernel whose strength differs between trials has a group of its own."""
+    monkeypatch.setattr(copies, "WORTH", 0)
+    model, count = decider(), 2 * MANY
+    model.add(dd.Field("v", [], tau=20, resting_level=-1, noise=3.0, kernel=[dd.Gaussian(0.5)]))
+    model.set("u.kernel", [dd.Gaussian(0.5)])
+    strengths = np.linspace(0.5, 0.6, count).tolist()
+    values = {"u.kernel.0.amplitude": strengths}
+    many = run_batch(
+        model, 600, range(count), ["u.activation"], [DECIDED], values=values, precision="float32"
+    )
+    assert {c.outcome for c in many} >= {"decided"} and len(sizes(model)) >= 3
+    for k in (0, count - 1):
+        model.set("u.kernel.0.amplitude", strengths[k])
+        one = run_trial(model, 600, trial=k, watch=["u.activation"], events=[DECIDED])
+        assert one.duration == many[k].duration
 
 
 def test_a_smaller_batch_is_compiled_only_if_it_saves_time():

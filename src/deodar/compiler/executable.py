@@ -87,11 +87,14 @@ class Batch:
         points: number of points of a sweep; None without a sweep.
         trials: number of trials; None without such an axis.
         sweep: the leaves that differ between points, for each entry of the sweep.
+        begun: number of copies with which a batch began that has fewer now; 0: those that it has. The
+            operations are those of that number, so that the state of the larger batch fits.
     """
 
     points: int | None = None
     trials: int | None = None
     sweep: tuple[tuple[Leaf, ...], ...] = ()
+    begun: int = 0
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -102,6 +105,11 @@ class Batch:
     def size(self) -> int:
         """The number of copies."""
         return math.prod(self.shape)
+
+    @property
+    def planned(self) -> int:
+        """The number of copies for which operations are chosen."""
+        return self.begun or self.size
 
 
 class ProgramArguments(NamedTuple):
@@ -154,7 +162,7 @@ class Executable:
             doc,
             lifted,
             exact or precision == "float64",
-            batch.size,
+            batch.planned,
             readings="constant" if body is None else "held" if body.holds else "changing",
             trials=batch.trials or 1,
         )
@@ -528,7 +536,7 @@ def executable(
     lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
-    strategies = () if exact else tuple(strategies_of(doc, lifted, batch.size, body is not None).items())
+    strategies = () if exact else tuple(strategies_of(doc, lifted, batch.planned, body is not None).items())
     key = (
         signature(doc),
         strategies,

@@ -159,7 +159,8 @@ class RunningCopies:
         differ.
         """
         sweep = tuple(map(tuple, self.leaves))
-        copies = Batch(len(rows), None, sweep) if sweep else Batch(None, len(rows))
+        begun = len(self.trials)
+        copies = Batch(len(rows), None, sweep, begun) if sweep else Batch(None, len(rows), begun=begun)
         program = executable(
             self.model, self.doc, self.precision, copies, body=embodied(self.doc, self.world)
         )
