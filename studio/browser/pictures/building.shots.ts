@@ -1,6 +1,6 @@
 /**
- * Write the pictures of the manual's chapter on building by mouse, light and dark, 1280 x 800, into the folder
- * that DEODAR_SHOTS names.
+ * Write the pictures of the manual's chapter on building by mouse, light and dark, 1280 x 800, into the
+ * folder that DEODAR_SHOTS names.
  */
 import type { Page } from "playwright-core";
 import { onTestFinished, test } from "vitest";

@@ -15,7 +15,7 @@ import { request } from "../socket";
 import { useStudio } from "../store";
 import { live } from "../world/live";
 import { World } from "../world/World";
-import { isChanged, kept, type Kept, restore } from "./arrangement";
+import { isChanged, found, type ArrangementFound, restore } from "./arrangement";
 import { Empty } from "./Empty";
 import { forgetArrangements, openFirstWorld, openTool, setDock } from "./openPlot";
 import { PanelTab } from "./PanelTab";
@@ -65,7 +65,7 @@ const SAVE_AFTER_MS = 600;
 export function Dock() {
   const [api, setApi] = useState<DockviewApi | null>(null);
   const session = useStudio((state) => state.session);
-  const saved = useRef<Kept | null>(null);
+  const saved = useRef<ArrangementFound | null>(null);
 
   const ready = ({ api: made }: DockviewReadyEvent) => {
     setDock(made);
@@ -80,9 +80,9 @@ export function Dock() {
     let timer: ReturnType<typeof setTimeout> | undefined;
     restore(api, useStudio.getState().document?.layout["panels"]);
     forgetArrangements();
-    saved.current = kept(api);
+    saved.current = found(api);
     const save = () => {
-      const [before, now] = [saved.current, kept(api)];
+      const [before, now] = [saved.current, found(api)];
       saved.current = now;
       if (before !== null && isChanged(before, now)) {
         void request({ type: "arrange", layout: { panels: api.toJSON() }, undoable: false });

@@ -126,16 +126,16 @@ export function signature(arrangement: SerializedDockview, sized = true): string
 }
 
 // The arrangement that is stored, or that was found when the page was opened.
-export type Kept = { width: number; height: number; all: string; order: string };
+export type ArrangementFound = { width: number; height: number; all: string; order: string };
 
-export function kept(api: DockviewApi): Kept {
+export function found(api: DockviewApi): ArrangementFound {
   const arrangement = api.toJSON();
   const { width, height } = api;
   return { width, height, all: signature(arrangement), order: signature(arrangement, false) };
 }
 
 // Whether a person changed the arrangement: another size of the window gives panels other shares, too.
-export function isChanged(before: Kept, now: Kept): boolean {
+export function isChanged(before: ArrangementFound, now: ArrangementFound): boolean {
   const resized = before.width !== now.width || before.height !== now.height;
   return resized ? before.order !== now.order : before.all !== now.all;
 }
