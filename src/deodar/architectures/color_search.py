@@ -46,6 +46,7 @@ from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids.semilinear import SemiLinear
 from deodar.numerics.sigmoids.step import Step
 
 HUES = 180
@@ -149,8 +150,13 @@ SPIN = 500.0
 Khepera.
 """
 
-TURN = {"resting level": 0.5, "self-excitation": 1.0, "trace": -2.5, "other": -3.0, "peak": -6.0}
-"""Strengths of the two nodes of looking around (ours, like the whole search)."""
+TURN = {"resting level": 0.8, "self-excitation": 0.7, "trace": -3.5, "other": -3.0, "peak": -6.0}
+"""Strengths of the two nodes of looking around (ours, like the whole search).
+
+An active node is switched off where the trace is above 0.43: after a turn, which takes 8 s, it is at 0.48.
+With -2.5 a node could stay active permanently. It is switched on again where the trace is below 0.23, after
+11 s.
+"""
 
 
 def hue_axis() -> Axis:
@@ -218,7 +224,7 @@ def color_search(
         model.connect(teaching, f"item {k}.meaning.gate")
     _changes(model, items, producing if cues == 1 else _taught_cue(model))
     searched = _colour_space(model, hue, noise)
-    turn, speed = _wheels(model, searched)
+    turn, speed = _wheels(model, searched, stops=look_around)
     if habituation:
         _habituate(model, hue)
     if look_around:
@@ -353,8 +359,11 @@ def _habituate(model: Model, hue: Axis) -> None:
         trace >> model.add(Gain(HABITUATION[target], name=f"less {target}"), group=group) >> model[target]
 
 
-def _wheels(model: Model, field: Handle) -> tuple[Handle, Handle]:
-    """Create the dynamics of heading and speed; return the inputs of both."""
+def _wheels(model: Model, field: Handle, stops: bool) -> tuple[Handle, Handle]:
+    """Create the dynamics of heading and speed; return the inputs of both.
+
+    `stops`: whether its inputs can stop the vehicle, which never drives backwards.
+    """
     column = column_axis()
     target = model.add(Project([column], reduce="max", name="columns of the peak"))
     lever = model.add(Weighting(column.points, (column,), name="offset"))  # type: ignore[arg-type]
@@ -366,7 +375,8 @@ def _wheels(model: Model, field: Handle) -> tuple[Handle, Handle]:
     near = model.add(Sigmoid(Step(-NEAR), name="near"))
     nearest = model.add(Project([], reduce="min", name="nearest"))
     distance >> nearest >> model.add(Gain(-1.0, name="nearness")) >> near
-    speed = model.add(RateNode("speed", tau=INERTIA, resting_level=CRUISE, sigmoid=Linear()))
+    forward = SemiLinear() if stops else Linear()
+    speed = model.add(RateNode("speed", tau=INERTIA, resting_level=CRUISE, sigmoid=forward))
     near >> model.add(Gain(CAUTION - CRUISE, name="caution")) >> speed
     turn = model.add(Sum(name="turn"))
     for force, strength in ((pull, ATTRACTION), (push, REPULSION)):
@@ -380,7 +390,7 @@ def _wheels(model: Model, field: Handle) -> tuple[Handle, Handle]:
     turn >> back
     for side, turning in (("left", turn), ("right", back)):
         wheel = model.add(Product(name=f"{side} speed"))
-        model.connect("speed.activation", f"{wheel.path}.input")
+        model.connect("speed.output", f"{wheel.path}.input")
         turning >> wheel
         model.connect(model["producing"], f"{wheel.path}.factor")
         wheel >> model.add(Motor(f"{side} wheel", motor=side))

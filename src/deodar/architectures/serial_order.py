@@ -75,13 +75,13 @@ EXCITATION, WIDTH, INHIBITION = 0.9, 3.0, 0.5
 The table prints 5.0 for the inhibition, with which no peak can exist.
 """
 
-READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -8.0
+READ, BOOST, PREDICT, OFF = 10.0, 0.5, 1.2, -3.0
 """c_ord; the homogeneous boost (c_ord in the table, with which the whole field would be above threshold); c_A
-(1.5 in the table); c_CoS (15 in the table).
+(1.5 in the table); c_CoS of each sample of the field above threshold (15 in the table).
 
-An active node is at 6.7, so that with 15 a single noisy sample above threshold switches it off within 6 ms:
-in 2 of 450 transitions in arenas the sample then fell below threshold again before the peak of the action
-field did. With 8 a single sample needs 18 ms, after which the peak is complete or the sample has vanished.
+An active node is at 6.7, so that with 15 a single noisy sample above threshold switches it off within 6 ms,
+and the sample may vanish before the peak of the action field does. With 3 it takes two samples; a peak has
+five or six.
 """
 
 SHOWN, SEEN = 2.0, 0.95

@@ -292,7 +292,9 @@ def _beside(text: Any, folder: Path | None, world: bool) -> Any:
     if not world and text.startswith(EXAMPLE):
         return text
     kind, sign, argument = text.partition(":") if world else ("", "", text)
-    if world and not (argument and (folder / argument).exists()):
+    # settings of a world follow the file
+    place, comma, settings = argument.partition(",") if world else (argument, "", "")
+    if world and not (place.strip() and (folder / place.strip()).exists()):
         # a name of something that deodar installs, or a file in the working folder
         return text
-    return f"{kind}{sign}{folder / argument}"
+    return f"{kind}{sign}{folder / place.strip()}{comma}{settings}"

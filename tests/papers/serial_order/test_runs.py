@@ -20,10 +20,8 @@ from deodar.papers.serial_order.runs import (
     FAR,
     Settings,
     TaughtRun,
-    distance,
     found,
     read_weights,
-    regions,
     run_many,
 )
 from deodar.papers.serial_order.targets import in_order, ordered
@@ -83,14 +81,6 @@ def test_a_block_that_is_never_in_the_middle_is_not_learned_and_the_run_ends_wit
     [(trial, produced)] = run_many([run], settings)
     assert trial.outcome == "nothing learned" and trial.times[-1] < produced + 4000.0
     assert reason(run, trial, produced) == "item 1 of 1 has learned no colour"
-
-
-def test_a_distance_is_that_of_a_block_of_the_colour_in_the_middle_of_the_picture() -> None:
-    arena = SearchArena(600.0, (Block("R", (150.0, 0.0)), Block("G", (0.0, 150.0))), (0.0, 0.0, 0.0))
-    assert distance(arena, "R", np.zeros(3)) == pytest.approx(125.0)
-    assert distance(arena, "G", np.zeros(3)) == np.inf
-    assert distance(arena, "G", np.asarray([0.0, 0.0, np.pi / 2])) == pytest.approx(125.0)
-    assert distance(arena, "R", np.asarray([0.0, 0.0, np.pi])) == np.inf
 
 
 @pytest.mark.parametrize(
@@ -198,12 +188,3 @@ def test_an_unfinished_production_states_its_reason() -> None:
     row = produced([(1, "R"), (2, "G")], "RGBV")
     # the last node is that behind the sequence, which is active without the third and fourth
     assert row["outcome"] == "unfinished" and "nodes of the sequence have been active" in row["reason"]
-
-
-def test_the_peaks_of_a_picture_are_counted() -> None:
-    columns = np.zeros(80)
-    assert regions(columns) == 0
-    columns[10:16] = columns[18:24] = 1.0
-    assert regions(columns) == 1, "noise divides a peak"
-    columns[60:63] = 1.0
-    assert regions(columns) == 2

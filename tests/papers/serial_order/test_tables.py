@@ -49,5 +49,5 @@ def test_every_condition_in_arenas_has_words() -> None:
 def test_each_value_that_differs_from_table_b1_has_a_reason() -> None:
     lines = tables.changed().splitlines()[2:]
     assert len(lines) == len(parameters.REASONS) == 10
-    assert lines[0].startswith("| h_d | -5 | -0.5 | the next node") and "| c_CoS | 15 | 8 |" in lines[2]
+    assert lines[0].startswith("| h_d | -5 | -0.5 | the next node") and "| c_CoS | 15 | 3 |" in lines[2]
     assert not any(line.endswith("|  |") for line in lines)

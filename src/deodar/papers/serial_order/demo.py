@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -20,6 +21,13 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         default=None,
         help="serial-order: draw figures 3, 8 and 12 of the paper instead, each from runs of its own",
+    )
+    which.add_argument(
+        "--experiments",
+        action="store_true",
+        default=None,
+        help="serial-order: write experiment files of ten colours, two cued sequences, a cue that changes,"
+        " and a robot that is carried elsewhere instead",
     )
     which.add_argument(
         "--sequence",
@@ -44,6 +52,8 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
 
     if args.figures:
         return _figures(args.seed, shown)
+    if args.experiments:
+        return _experiments()
     sequence = narrative.SEQUENCE if args.sequence is None else args.sequence
     result = narrative.run(sequence, args.seed, shown)
 
@@ -82,5 +92,30 @@ def _figures(seed: int, shown: Callable[[float, bool], None]) -> Demonstration:
         settings={"figures": True},
         written=", ".join(f"{name}.png" for name in drawn),
         sentence=f"Drew {len(drawn)} figures of the paper from runs of deodar.",
+        fill=fill,
+    )
+
+
+def _experiments() -> Demonstration:
+    """Write the experiment files of the cases that the paper does not have."""
+    # start-up time: these bring JAX
+    from deodar.analysis.claims import Claim
+    from deodar.experiments.experiment import Experiment
+    from deodar.papers.serial_order import experiments
+
+    with tempfile.TemporaryDirectory() as folder:
+        found = {path.name: Experiment.load(path).check() for path in experiments.write(Path(folder))}
+
+    def fill(folder: Path) -> None:
+        experiments.write(folder)
+
+    return Demonstration(
+        claims=[
+            Claim(f"{name} can be run: problems", len(problems), 0, not problems, origin="ours")
+            for name, problems in found.items()
+        ],
+        settings={"experiments": True},
+        written=f"{', '.join(found)}, each with its model and its arena",
+        sentence=f"Wrote {len(found)} experiments. Run one: deodar experiment {next(iter(found))}",
         fill=fill,
     )

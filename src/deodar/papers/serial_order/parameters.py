@@ -83,7 +83,7 @@ def _of_pairs(number: int, printed: float) -> TableParameter:
 REASONS = {
     "h_d": "the next node gets at most h_d + c_2, -4.1 as printed, and none would become active",
     "c_inh": "0.9 less 5 is below 0: no peak could sustain itself",
-    "c_CoS": "a single noisy sample above threshold would switch a node off in 6 ms, before a peak exists",
+    "c_CoS": "a single noisy sample above threshold would switch a node off, before a peak exists",
     "boost": "h_A + 10 is above 0 at every hue: the whole action field would be above threshold",
     "c_A": "the condition would be satisfied when a block fills half of the middle of the picture; with 1.2"
     " it has to fill 0.8 of it",

@@ -5,12 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from deodar.architectures.color_search import HUES, PATCH, color_search
+from deodar.architectures.color_search import HUES, color_search
 from deodar.couplings.peak_position import PeakPosition
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
@@ -22,13 +22,13 @@ from deodar.experiments.rows import Row
 from deodar.experiments.trial import Trial
 from deodar.model.model import Model
 from deodar.numerics.windows import Window
-from deodar.papers.serial_order.arenas import BLOCK, SearchArena
+from deodar.papers.serial_order.arenas import SearchArena
 from deodar.papers.serial_order.colours import FIVE, TEN, away, hue_of, letter_at, offset
 from deodar.papers.serial_order.reasons import reason, require_possible
+from deodar.papers.serial_order.sight import chosen, distance
 from deodar.papers.serial_order.teaching import Showing
 from deodar.papers.serial_order.world import world
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.khepera import KHEPERA
 
 EVERY, COARSE = 2.0, 20.0
 """Sampling intervals, ms: each step of the model, and where no times of instabilities are wanted."""
@@ -66,9 +66,6 @@ TOLERANCE = 9.0
 
 PEAKS = "columns of the peak.output"
 """Output of the colour-space field over the columns of the picture, its largest over hue."""
-
-APART = 10
-"""Samples of the columns (20 pixels) between two peaks."""
 
 SPARSE = 10
 """Samples between two poses that are judged."""
@@ -108,7 +105,8 @@ class Settings:
         limit: longest production, ms.
         clutter: share of the background rows of the picture that random colours cover.
         look_around, habituation: as in `color_search`.
-        values: parameters of the model that differ from those of the paper's set, by path.
+        varied: for each run the parameters of the model that differ from those of the paper's set, by path;
+            empty: none.
         actions: actions on each run; `looks for K` is the event that item K becomes active in production.
         coarse: whether samples are taken every 20 ms, where no times of instabilities are wanted.
         cues: number of sequences that the model holds.
@@ -120,7 +118,7 @@ class Settings:
     clutter: float = 0.0
     look_around: bool = True
     habituation: bool = False
-    values: Mapping[str, float] = field(default_factory=dict[str, float])
+    varied: Sequence[Mapping[str, float]] = ()
     actions: Sequence[Action] = ()
     coarse: bool = False
     cues: int = 1
@@ -137,8 +135,6 @@ def prepared(length: int, settings: Settings) -> Model:
         habituation=settings.habituation,
         cues=settings.cues,
     )
-    for path, value in settings.values.items():
-        model.set(path, value)
     for name in ("action", "satisfaction"):
         strongest = model.add(Project([], reduce="max", name=f"strongest {name}"))
         model.connect(f"{name}.activation", strongest)
@@ -207,10 +203,17 @@ def run_many(
         world=_world(runs, produced, settings),
         every=every,
         between=between,
+        values=_values(model, settings.varied),
         actions=settings.actions,
         tolerant=True,
     )
     return [(trial, produced) for trial in trials]
+
+
+def _values(model: Model, varied: Sequence[Mapping[str, float]]) -> dict[str, list[float]]:
+    """Return for each parameter that any run varies the value of each run."""
+    paths = dict.fromkeys(path for values in varied for path in values)
+    return {path: [values.get(path, float(model.get(path))) for values in varied] for path in paths}
 
 
 def _unlearned(length: int, times: int) -> list[Event]:
@@ -339,6 +342,11 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
     right = in_order and run.sequence.startswith(produced_) and all(d <= FAR for d in far)
     starts = [0.0, *(float(t[k]) for k in ends)]
     columns = v[PEAKS][begin:] if PEAKS in v else None
+    chosen_ = (
+        []
+        if columns is None
+        else [chosen(run.arena, letter, pose[k], columns[k]) for letter, k in zip(got, ends, strict=True)]
+    )
     outcome = "wrong" if not right else "complete" if produced_ == run.sequence else "unfinished"
     return {
         "sequence": run.sequence,
@@ -351,7 +359,7 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
         "distances": [round(d, 1) for d in far],
         "left": _left(run, got, ends, pose),
         "transitions": transitions(t, nodes, on),
-        **({} if columns is None else {"regions": [regions(columns[k]) for k in ends]}),
+        **({} if columns is None else {"chosen": chosen_}),
         "touching": round(float(v["touching.output"][begin:].mean()), 4),
         "length": round(float(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum()), 1),
     }
@@ -393,14 +401,6 @@ def _left(run: TaughtRun, letters: Sequence[str], ends: Sequence[int], pose: np.
         any(distance(run.arena, letter, row) > FAR for row in pose[begin : end + 1 : SPARSE])
         for letter, begin, end in zip(letters, begins, ends, strict=True)
     ]
-
-
-def regions(columns: np.ndarray) -> int:
-    """Return the number of separate peaks over the columns of the picture; what is less than `APART` apart is
-    one peak, which noise divides.
-    """
-    above = np.flatnonzero(columns > 0.5)
-    return int((np.diff(above) > APART).sum()) + 1 if len(above) else 0
 
 
 def _rises(on: np.ndarray) -> np.ndarray:
@@ -462,29 +462,3 @@ def _last_off(t: np.ndarray, on: np.ndarray, begin: int, end: int) -> float | No
     """Return the last time from `begin` to `end` at which something is switched off."""
     off = _falls(on[begin : end + 1])
     return float(t[begin + off[-1]]) if len(off) else None
-
-
-def distance(arena: SearchArena, letter: str, pose: np.ndarray) -> float:
-    """Return the distance, mm, of the nearest block of a colour of which a part is in the middle of the
-    picture; infinite without one.
-    """
-    x, y, heading = (float(value) for value in pose)
-    camera = KHEPERA.camera
-    assert camera is not None
-    widest = math.tan(camera.horizontal / 2) * PATCH
-    best = math.inf
-    for block in arena.blocks:
-        if block.letter != letter:
-            continue
-        corners = (
-            np.asarray([[sx, sy] for sx in (-1, 1) for sy in (-1, 1)]) * BLOCK / 2 + block.center - [x, y]
-        )
-        cos, sin = math.cos(heading), math.sin(heading)
-        ahead, left = corners @ [cos, sin], corners @ [-sin, cos]
-        if (ahead <= 0).any():
-            continue
-        slopes = left / ahead
-        if slopes.min() <= widest and slopes.max() >= -widest:
-            gap = np.maximum(np.abs(np.asarray([x, y]) - block.center) - BLOCK / 2, 0.0)
-            best = min(best, float(np.hypot(*gap)))
-    return best

@@ -73,9 +73,9 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
             f"{SOURCE}, section 6.2",
         ),
         _none(
-            "three duplicates of wanted blocks: one is chosen, and no block is found with several peaks in"
-            " the colour-space field",
-            [n != 1 for r in found["duplicates"] for n in r["regions"]],
+            "three duplicates of wanted blocks: one is chosen, and none is found while a peak in the"
+            " colour-space field lies on another",
+            [n != 1 for r in found["duplicates"] for n in r["chosen"]],
             f"{SOURCE}, section 5.2",
         ),
         _none("no error of order in any arena", [r["outcome"] == "wrong" for r in searched], SOURCE),

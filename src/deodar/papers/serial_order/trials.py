@@ -37,6 +37,9 @@ from deodar.papers.serial_order.variations import values
 BATCH = 16
 """Runs in a batch."""
 
+VARIED = 8
+"""Conditions with a varied parameter whose runs make one batch."""
+
 SECONDS = {"none": 2.0, "arena": 4.0, "ring": 3.0}
 """Approximate duration of a run by its body, s."""
 
@@ -47,11 +50,19 @@ ASIDE = math.radians(15)
 def jobs(quick: bool) -> list[Job]:
     """Return the jobs of all conditions: batches of runs whose sequences have equal length."""
     out: list[Job] = []
-    for c in conditions(quick).values():
-        for trials in batches(c):
+    found = conditions(quick).values()
+    for c in found:
+        for trials in () if c.varied else batches(c):
             keys = tuple(c.key(k) for k in trials)
             given = {"name": c.name, "quick": quick, "trials": list(trials)}
             out.append(Job(keys, run, given, SECONDS[c.body] * len(trials)))
+    varied = [c for c in found if c.varied]
+    for n in range(0, len(varied), VARIED):
+        together = varied[n : n + VARIED]
+        for trials in batches(together[0]):
+            keys = tuple(c.key(k) for c in together for k in trials)
+            given = {"names": [c.name for c in together], "trials": list(trials)}
+            out.append(Job(keys, run_varied, given, SECONDS["ring"] * len(keys)))
     return out
 
 
@@ -82,13 +93,11 @@ def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
     if isinstance(c, CuedCondition):
         return _rows(c, trials, _cued(c, trials, seed))
     runs = [TaughtRun(c.sequence(k), *taught(c, k), c.arena(k)) for k in trials]
-    length = len(runs[0].sequence)
     settings = Settings(
         limit=1000.0 * c.limit,
         clutter=c.clutter,
         look_around=c.look_around,
         habituation=c.habituation,
-        values=values(c.varied, c.factor, length + 1) if c.varied else {},
         actions=actions(c, runs[0]),
         # a batch stops at each sample while an action waits for an event
         coarse=c.body == "ring" or bool(c.duplicates) or bool(c.event),
@@ -101,6 +110,29 @@ def run(name: str, quick: bool, trials: Sequence[int]) -> Sequence[Row]:
         watch = [PEAKS] if c.duplicates else []
         done = [found(r, *made) for r, made in zip(runs, run_many(runs, settings, seed, watch), strict=True)]
     return _rows(c, trials, done)
+
+
+def run_varied(names: Sequence[str], trials: Sequence[int]) -> Sequence[Row]:
+    """Run the same runs on the ring in several conditions, each with a varied parameter, as one batch, and
+    return their rows.
+    """
+    together = [conditions(False)[name] for name in names]
+    pairs = [(c, k) for c in together for k in trials]
+    runs = [TaughtRun(c.sequence(k), *taught(c, k), c.arena(k)) for c, k in pairs]
+    nodes = len(runs[0].sequence) + 1
+    settings = Settings(
+        limit=1000.0 * together[0].limit,
+        varied=[values(c.varied, c.factor, nodes) for c, _ in pairs],
+        actions=actions(together[0], runs[0]),
+        coarse=True,
+    )
+    seed = zlib.crc32(together[0].key(trials[0]).encode()) % 2**31
+    made = run_many(runs, settings, seed)
+    return [
+        row
+        for (c, k), r, (trial, begins) in zip(pairs, runs, made, strict=True)
+        for row in _rows(c, [k], [found(r, trial, begins)])
+    ]
 
 
 def _cued(c: CuedCondition, trials: Sequence[int], seed: int) -> list[Row]:
@@ -128,7 +160,7 @@ def actions(c: SearchCondition, first: TaughtRun) -> tuple[Action, ...]:
             Place(1000.0 * BACK, name, center, (BLOCK, BLOCK), color, when="looks for 2"),
         )
     if c.event == "carried":
-        return (Move(CARRIED, "khepera", _free(first), when="looks for 2"),)
+        return (Move(CARRIED, "khepera", free(first), when="looks for 2"),)
     return ()
 
 
@@ -146,7 +178,7 @@ def _in_front(arena: SearchArena, sequence: str) -> Sequence[Action]:
     return out
 
 
-def _free(run: TaughtRun) -> tuple[float, float, float]:
+def free(run: TaughtRun) -> tuple[float, float, float]:
     """Return a place away from all blocks, and a heading."""
     rng = np.random.default_rng((5, round(run.taught)))
     while True:
