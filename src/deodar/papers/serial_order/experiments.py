@@ -4,7 +4,6 @@ opens and `deodar experiment` runs; trials differ in their noise.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from deodar import codec
@@ -20,7 +19,7 @@ from deodar.papers.serial_order.conditions import CARRIED, CuedCondition, Search
 from deodar.papers.serial_order.runs import COARSE, OVER, Settings, TaughtRun, prepared
 from deodar.papers.serial_order.teaching import Showing, brief_lesson
 from deodar.papers.serial_order.trials import free
-from deodar.papers.serial_order.world import FRAMES, NOISE, PERIOD, SIDES, placed
+from deodar.papers.serial_order.world import FRAMES, NOISE, PERIOD, SIDES, Lesson, placed
 
 CASES = ("ten", "cued", "cued-changed", "carried")
 """Conditions that have an experiment file."""
@@ -30,8 +29,6 @@ TRIALS, LONGEST = 50, 300.0
 
 SHOWN = "shown"
 """The block of a lesson; there is one at a time."""
-
-Lesson = Sequence[Showing]
 
 
 def write(folder: Path) -> list[Path]:
