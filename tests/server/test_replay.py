@@ -226,7 +226,7 @@ def test_a_record_neither_runs_nor_changes_and_its_model_can_be_run(root: Path) 
         await p.until(lambda: p.clock["tick"] == 3)
         assert (await p.ask("open_record_model"))["problems"]
 
-    with studio(root, root / "pulse") as address:
+    with studio(root) as address:
         play(address, scene)
 
 
@@ -287,7 +287,7 @@ def test_a_record_that_is_damaged_or_not_one_is_refused_with_one_error(root: Pat
             assert len(problems) == 1 and what in problems[0]["what"], problems
             assert p.document is None
 
-    with studio(root, root / "pulse") as address:
+    with studio(root) as address:
         play(address, scene)
 
 
@@ -476,7 +476,7 @@ def test_records_are_listed_beside_folders_and_documents(root: Path) -> None:
         await p.do("close")
         await p.until(lambda: p.said["gallery"]["recent"] == ["selection-001"])
 
-    with studio(root, root / "pulse") as address:
+    with studio(root) as address:
         play(address, scene)
 
 

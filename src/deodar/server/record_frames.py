@@ -225,7 +225,7 @@ class RecordFrames:
                 yield times, [request.value(frame, axes) for frame in frames]
             return
         times = record.sample_times(place)
-        interval = 2 * max(1, math.ceil(len(times) / MOST_SAMPLES)) if len(times) > MOST_SAMPLES else 1
+        interval = 2 * math.ceil(len(times) / MOST_SAMPLES) if len(times) > MOST_SAMPLES else 1
         for first, last in record.chunks(place):
             values = np.asarray([request.value(f, axes) for f in record.block(place, copy, first, last)])
             kept = extremes(values, first, interval)

@@ -16,6 +16,7 @@ from deodar.model import output
 from deodar.papers.serial_order.arenas import BLOCK, HEIGHT, SearchArena
 from deodar.papers.serial_order.colours import rgb
 from deodar.papers.serial_order.conditions import CARRIED, CuedCondition, SearchCondition, conditions
+from deodar.papers.serial_order.cued import AFTER
 from deodar.papers.serial_order.runs import COARSE, OVER, Settings, TaughtRun, prepared
 from deodar.papers.serial_order.teaching import Showing, brief_lesson
 from deodar.papers.serial_order.trials import free
@@ -41,7 +42,7 @@ def _write(name: str, folder: Path) -> Path:
     arena, layout = c.arena(0), f"{name}.arena.json"
     output.write(folder / layout, (codec.text(_layout(arena), finite=True) + "\n").encode())
     path = folder / f"{name}.json"
-    experiment(name, f"arena:{layout}{_settings(arena)}").save(path, force=True)
+    experiment(name, f"arena:{layout}{_settings()}").save(path, force=True)
     return path
 
 
@@ -117,7 +118,7 @@ def _events(c: SearchCondition, second: float, begins: float) -> list[Action]:
         cue, position = c.cue(0), c.position(0)
         out: list[Action] = [Set(second, "cue", 2.0), Set(begins, "cue", float(cue))]
         if position:
-            out.append(Set(CARRIED, "cue", float(3 - cue), when=f"looks for {position}"))
+            out.append(Set(AFTER, "cue", float(3 - cue), when=f"looks for {position}"))
         return out
     if c.event == "carried":
         run = TaughtRun(c.sequence(0), *brief_lesson(c.sequence(0)), c.arena(0))
@@ -131,7 +132,7 @@ def _layout(arena: SearchArena) -> JsonObject:
     return {**arena.layout(), "start": [x, y], "heading": heading}
 
 
-def _settings(arena: SearchArena) -> str:
+def _settings() -> str:
     """Return the settings of the world, as on the command line."""
     given = {"unit": "mm", "vehicle": "khepera", "period": PERIOD, "camera_every": FRAMES, **NOISE}
     return "".join(f", {name}={value}" for name, value in given.items())
