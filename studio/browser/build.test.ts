@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { afterEach, beforeEach, expect, test } from "vitest";
 
-import { box, button, colours, drag, slider } from "./hands";
+import { box, button, colours, drag, option, place, pull, slider } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -58,32 +58,28 @@ async function peak(): Promise<void> {
 test("an empty document becomes a field with two stimuli and a peak, by the mouse", async () => {
   const { page } = studio;
   const user = new Counter(page);
-  const place = async (across: number, down: number) => {
-    const all = await page.locator(".react-flow__pane").boundingBox();
-    if (all === null) throw new Error("The canvas is not visible.");
-    return { x: all.x + all.width * across, y: all.y + all.height * down };
-  };
-  const option = (name: string) => page.getByRole("dialog").getByRole("option", { name, exact: true });
-  const pull = async (path: string, to: { x: number; y: number }) => {
-    const port = await box(page, path).locator(".react-flow__handle[data-handleid=output]").boundingBox();
-    if (port === null) throw new Error("The port is not visible.");
-    await page.mouse.move(port.x + port.width / 2, port.y + port.height / 2);
-    await page.mouse.down();
-    await page.mouse.move(to.x, to.y, { steps: 8 });
-    await page.mouse.up();
-  };
+  const choose = (name: string) => user.does(() => option(page, name).click());
+  const connect = (path: string, to: { x: number; y: number }) =>
+    user.does(async () => {
+      await pull(page, path, to);
+      await page.mouse.up();
+    });
 
   await user.does(() => button(page, "Empty document").click());
-  const [first, second, field] = [await place(0.2, 0.25), await place(0.2, 0.65), await place(0.5, 0.4)];
+  const [first, second, field] = [
+    await place(page, 0.2, 0.25),
+    await place(page, 0.2, 0.65),
+    await place(page, 0.5, 0.4),
+  ];
   await user.does(() => page.mouse.dblclick(first.x, first.y));
-  await user.does(() => option("Gaussian stimulus").click());
-  await user.does(() => pull("gaussian_stimulus", field));
-  await user.does(() => option("Field").click());
+  await choose("Gaussian stimulus");
+  await connect("gaussian_stimulus", field);
+  await choose("Field");
   await user.does(() => page.mouse.dblclick(second.x, second.y));
-  await user.does(() => option("Gaussian stimulus").click());
+  await choose("Gaussian stimulus");
   await user.does(() => drag(page, slider(page, "center"), 0.8));
   const target = await box(page, "field").boundingBox();
-  await user.does(() => pull("gaussian_stimulus2", { x: (target?.x ?? 0) + 40, y: (target?.y ?? 0) + 40 }));
+  await connect("gaussian_stimulus2", { x: (target?.x ?? 0) + 40, y: (target?.y ?? 0) + 40 });
   await user.does(() => button(page, "Play").click());
   await peak();
   user.report("gestures of the mouse");

@@ -174,3 +174,23 @@ export function png(width: number, height: number, colour: readonly number[]): U
     piece("IEND", new Uint8Array()),
   ]);
 }
+
+/** A point of the canvas, in shares of its width and height. */
+export async function place(page: Page, across: number, down: number): Promise<{ x: number; y: number }> {
+  const all = await page.locator(".react-flow__pane").boundingBox();
+  if (all === null) throw new Error("The canvas is not visible.");
+  return { x: all.x + all.width * across, y: all.y + all.height * down };
+}
+
+/** Drag from the output of an element, and hold. */
+export async function pull(page: Page, path: string, to: { x: number; y: number }): Promise<void> {
+  const port = await box(page, path).locator(".react-flow__handle[data-handleid=output]").boundingBox();
+  if (port === null) throw new Error(`The output of ${path} is not visible.`);
+  await page.mouse.move(port.x + port.width / 2, port.y + port.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(to.x, to.y, { steps: 8 });
+}
+
+/** A line of the palette that is open. */
+export const option = (page: Page, name: string): Locator =>
+  page.getByRole("dialog").getByRole("option", { name, exact: true });

@@ -5,37 +5,13 @@
 import type { Page } from "playwright-core";
 import { onTestFinished, test } from "vitest";
 
-import { box, button, drag, openEmpty, slider } from "../hands";
+import { box, button, drag, openEmpty, option, place, pull, slider } from "../hands";
 import type { Observer } from "../observer";
 import { shot, startStudio } from "../studio";
 
 const COLOURS = ["light", "dark"] as const;
 // Until what was opened or moved is drawn.
 const DRAWN_MS = 600;
-
-async function center(page: Page, path: string, port: string): Promise<{ x: number; y: number }> {
-  const dot = await box(page, path).locator(`.react-flow__handle[data-handleid="${port}"]`).boundingBox();
-  if (dot === null) throw new Error(`The port ${path}.${port} is not visible.`);
-  return { x: dot.x + dot.width / 2, y: dot.y + dot.height / 2 };
-}
-
-/** Drag from an output, and hold. */
-async function pull(page: Page, path: string, to: { x: number; y: number }): Promise<void> {
-  const from = await center(page, path, "output");
-  await page.mouse.move(from.x, from.y);
-  await page.mouse.down();
-  await page.mouse.move(to.x, to.y, { steps: 8 });
-}
-
-/** A point of the canvas, in shares of its width and height. */
-async function place(page: Page, across: number, down: number): Promise<{ x: number; y: number }> {
-  const all = await page.locator(".react-flow__pane").boundingBox();
-  if (all === null) throw new Error("The canvas is not visible.");
-  return { x: all.x + all.width * across, y: all.y + all.height * down };
-}
-
-const option = (page: Page, name: string) =>
-  page.getByRole("dialog").getByRole("option", { name, exact: true });
 
 for (const colours of COLOURS) {
   const name = (what: string) => (colours === "dark" ? `studio-${what}-dark` : `studio-${what}`);
