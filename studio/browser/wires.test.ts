@@ -344,6 +344,9 @@ test("the keyboard connects the selected element with what is typed, and removes
   await page.keyboard.type("u");
   await page.keyboard.press("Enter");
   await observer.until(() => wires().join() === "left.output u.input");
+  // the page itself knows the connection, and no dialog takes the next key
+  await page.locator(".graph-wire").waitFor();
+  await list.waitFor({ state: "detached" });
   await box(page, "left").focus();
   await page.keyboard.press("x");
   await chooser("Remove a connection").getByRole("option", { name: "left to u" }).waitFor();

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import ParameterError, WorldError
+from deodar.errors import ParameterError, RunWarning, WorldError
 from deodar.experiments.actions import (
     Action,
     End,
@@ -268,6 +269,30 @@ def test_objects_are_changed_in_the_arena_of_each_trial(actions: list[Action]) -
     many = requires_equal(robot(), actions, [FAR, TOUCHED], WATCH, world=world, every=2)
     assert world.describe() == before
     assert len({(trial.events["touched"], trial.events["far"]) for trial in many}) > 2
+
+
+@pytest.mark.parametrize("alone", [True, False], ids=["alone", "batch"])
+def test_a_block_that_is_put_onto_another_one_during_a_run_is_named(alone: bool) -> None:
+    red: dict[str, Any] = {"name": "red", "center": [40, 20], "size": [4, 4]}
+    green: dict[str, Any] = {"name": "green", "center": [60, 20], "size": [4, 4]}
+    layout = {**ROOM, "blocks": [red, green], "start": [8, 20]}
+
+    def run(*actions: Action) -> list[str]:
+        world = dd.Arena([layout] * 2, unit="cm", goal=(80, 8))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            if alone:
+                run_trial(robot(), 40, world=world, actions=actions)
+            else:
+                run_batch(robot(), 40, [0, 1], world=world, actions=actions)
+        return [str(w.message) for w in caught if w.category is RunWarning]
+
+    each = 1 if alone else 2
+    texts = run(Move(20, "red", (61, 22)), Move(30, "red", (70, 20)))
+    assert len(texts) == each
+    assert texts[0].startswith("arena: the blocks 'red' and 'green' overlap by 3 x 2 cm")
+    assert len(run(Place(20, "blue", (62, 20), (4, 4)))) == each
+    assert run(Move(20, "red", (60, 20)), Move(20, "green", (40, 20))) == []  # they change places
 
 
 def test_a_placed_object_has_its_own_height_in_each_trial() -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import inspect
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
-from deodar.errors import ParameterError, UnknownName, WorldError, did_you_mean
+from deodar.errors import ParameterError, RunWarning, UnknownName, WorldError, did_you_mean
 from deodar.experiments.running import RunningTrial
 from deodar.family import Family
 from deodar.model import find
@@ -98,6 +99,8 @@ def _plane(action: Action, *names: str) -> Iterator[tuple[str, str]]:
 class Place(Action):
     """Put an object into the world, or replace the object of that name.
 
+    A `RunWarning` names blocks of an `Arena` that overlap from then on.
+
     Attributes:
         at: document time from which on the world contains it; with `when` the time after that event; or one
             for each trial.
@@ -138,12 +141,15 @@ class Place(Action):
         world: Any = changed(self, running.world)
         tall = {} if self.height is None else {"height": self.height}
         world.place(self.object, found.center, found.size, found.color, **tall)
+        _check(self.object, running)
 
 
 @ACTIONS.register
 @dataclass(frozen=True)
 class Move(Action):
     """Move an object of the world, or carry its vehicle.
+
+    A `RunWarning` names blocks of an `Arena` that overlap from then on.
 
     Attributes:
         at: document time of the action; with `when` the time after that event; or one for each trial.
@@ -167,6 +173,7 @@ class Move(Action):
     def apply(self, running: RunningTrial) -> None:
         found: Any = self
         changed(self, running.world).move(self.object, found.center)
+        _check(self.object, running)
 
 
 @ACTIONS.register
@@ -404,6 +411,16 @@ def targets(action: Action, doc: Document) -> None:
         find.shown(doc, path)
     if isinstance(action, Push):
         find.element(doc, action.element)
+
+
+def _check(name: str, running: RunningTrial) -> None:
+    """Warn of an object at a doubtful place, once all actions of this moment are carried out."""
+
+    def check() -> None:
+        for problem in () if running.world is None else running.world.validate_object(name):
+            warnings.warn(str(problem), RunWarning, stacklevel=2)
+
+    running.later(0, check)
 
 
 def changed(action: Action, world: World | None) -> World:

@@ -216,6 +216,10 @@ class World:
         """
         return iter(())
 
+    def validate_object(self, name: str) -> Iterator[Problem]:
+        """Yield warnings about an object that an action placed or moved, such as another one at its place."""
+        return iter(())
+
     def alternative(self, signal: str, shape: Sequence[int]) -> str:
         """Return what to type for a world of this kind in which a signal has a shape; empty: none known."""
         return ""

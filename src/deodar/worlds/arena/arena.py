@@ -539,6 +539,9 @@ class Arena(PureWorld):
         check = BlockCheck(self.objects, self.places)
         yield from check.warnings(self.starts, self.vehicle.name, self.vehicle.radius)
 
+    def validate_object(self, name: str) -> Iterator[Problem]:
+        yield from BlockCheck(self.objects, self.places).overlaps(name)
+
     def alternative(self, signal: str, shape: Sequence[int]) -> str:
         for vehicle in VEHICLES.values():
             known = signals(vehicle, self.unit, goal=False)

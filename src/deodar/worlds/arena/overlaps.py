@@ -55,7 +55,16 @@ class BlockCheck:
             if covers.any():
                 what = f"the block {s.name!r} covers the start of the {vehicle}{self._of(covers)}"
                 yield Problem("arena", f"{what}, which is pushed aside", "Move one of them", "warning")
+        yield from self.overlaps()
+
+    def overlaps(self, block: str | None = None) -> Iterator[Problem]:
+        """Yield a warning for each pair of blocks that overlap at one time; with `block` for its pairs."""
+        corners = {s.name: self._corners(s) for s in self.slots}
+        windows = {s.name: self._windows(s) for s in self.slots}
+        inside = np.asarray(self.places.border)
         for one, other in itertools.combinations([s.name for s in self.slots], 2):
+            if block not in (None, one, other):
+                continue
             lower, upper = _common(corners[one], corners[other])
             start = np.maximum(windows[one][:, 0], windows[other][:, 0])
             together = start < np.minimum(windows[one][:, 1], windows[other][:, 1])
