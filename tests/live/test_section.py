@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.live.section import Section
-from deodar.live.trace import CAPACITY, Trace, TraceRequest, capacity, extremes
+from deodar.live.trace import CAPACITY, Trace, TraceRequest, capacity, extremes, farthest
 
 X, Y, Z = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyz", (4, 5, 6), strict=True))
 HUE = dd.Axis("hue", 0, 360, samples=8, periodic=True)
@@ -91,3 +91,31 @@ def test_a_thinned_time_course_keeps_every_extreme_in_parts_as_in_one_piece() ->
     values[50:60] = np.nan
     values[77] = np.nan
     assert {41, 50} <= set(extremes(values, 0, 10).tolist()) and 77 not in extremes(values, 0, 10)
+
+
+def test_thinned_rows_keep_a_peak_and_a_trough_of_one_sample_in_parts_as_in_one_piece() -> None:
+    rows = np.random.default_rng(1).normal(size=(103, 3))
+    rows[41, 0], rows[77, 1], rows[5, 2] = 50.0, -50.0, np.nan
+    times = np.arange(103.0)
+
+    def thinned(*cuts: int) -> tuple[list[float], np.ndarray]:
+        ends = zip((0, *cuts), (*cuts, 103), strict=True)
+        parts = list(farthest(((times[a:b], rows[a:b]) for a, b in ends), 10, 0.0))
+        return [t for part, _ in parts for t in part], np.stack([r for _, part in parts for r in part])
+
+    whole_times, whole = thinned()
+    assert whole_times == list(range(0, 103, 10))
+    assert whole[4, 0] == 50 and whole[7, 1] == -50 and np.isfinite(whole).all()
+    distances = [np.nanmax(np.abs(rows[k : k + 10]), axis=0) for k in range(0, 103, 10)]
+    assert np.array_equal(np.abs(whole), distances)
+    for cuts in ((40,), (45,), (3, 4, 5, 60, 61), tuple(range(1, 103))):
+        cut_times, cut = thinned(*cuts)
+        assert cut_times == whole_times and np.array_equal(cut, whole)
+
+
+def test_a_section_of_frames_over_time_is_the_section_of_each() -> None:
+    axes = (dd.Axis("x", 0, 1, 3), dd.Axis("y", 0, 1, 4), dd.Axis("z", 0, 1, 5))
+    frames = np.random.default_rng(2).normal(size=(6, 3, 4, 5))
+    for section in (Section(("y",), most=1), Section(("z", "x")), Section(("y",), (("x", 0.9),), 1)):
+        each = np.stack([section.take(frame, axes) for frame in frames])
+        assert np.array_equal(section.take(frames, axes), each)

@@ -672,3 +672,23 @@ def test_a_peak_of_one_sample_in_a_long_record_is_in_its_time_course(root: Path)
 
     with studio(root, root / "pulse") as address:
         play(address, scene)
+
+
+def test_a_peak_of_one_sample_in_a_long_record_is_in_its_rows_over_time(root: Path) -> None:
+    model = dd.Model("pulse")
+    x = dd.Axis("x", 0, 9, 10)
+    window = [dd.Window(12345.0, 12346.0)]
+    pulse = model.add(dd.GaussianStimulus("pulse", [x], amplitude=9.0, center=3, sigma=0.5, windows=window))
+    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"], progress=False)
+    folder.write(data, model.document, root / "pulse", "zarr")
+
+    async def scene(p: Page) -> None:
+        await shows(p)
+        await p.do("rows", stream=1, element=p.element("pulse"), port="output", drawn="x")
+        await p.until(lambda: p.rows.get(1) is not None and p.rows[1][-1, 0] > 39_990)
+        rows = p.rows[1]
+        assert len(rows) <= 8192
+        assert [values[3] for values in rows[:, 1:] if max(values) > 1] == [9]
+
+    with studio(root, root / "pulse") as address:
+        play(address, scene)

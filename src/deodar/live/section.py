@@ -40,16 +40,17 @@ class Section:
         return tuple(a for a in self.split(axes)[1] if a.name not in cut)
 
     def take(self, array: np.ndarray, axes: Axes) -> np.ndarray:
-        """Return the values over the drawn axes."""
+        """Return the values over the drawn axes; `array` may have others, such as time, before them."""
         axes = distinct(axes)
         chosen, cut = self._chosen(axes), dict(self.at)
-        rest = [d for d in range(array.ndim) if d not in chosen]
-        array = array.transpose(*chosen, *rest)
+        lead = array.ndim - len(axes)
+        rest = [d for d in range(len(axes)) if d not in chosen]
+        array = array.transpose(*range(lead), *(lead + d for d in (*chosen, *rest)))
         array = array[
-            (slice(None),) * len(chosen)
+            (slice(None),) * (lead + len(chosen))
             + tuple(nearest(axes[d], cut[axes[d].name]) if axes[d].name in cut else slice(None) for d in rest)
         ]
-        over = tuple(range(len(chosen), array.ndim))
+        over = tuple(range(lead + len(chosen), array.ndim))
         return array.max(axis=over) if over else array
 
     def _chosen(self, axes: Axes) -> list[int]:

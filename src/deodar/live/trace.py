@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -98,6 +99,42 @@ def extremes(values: np.ndarray, first: int, interval: int) -> np.ndarray:
         end = begin + interval - (first + begin) % interval
         found |= {begin + int(low[begin:end].argmin()), begin + int(high[begin:end].argmax())}
     return np.asarray(sorted(found), int)
+
+
+def farthest(
+    parts: Iterable[tuple[np.ndarray, np.ndarray]], interval: int, median: float
+) -> Iterator[tuple[list[float], list[np.ndarray]]]:
+    """Thin rows over time, part by part: of each interval remain the time at which it begins and, for each
+    column, the value that is farthest from `median`. NaN counts only where an interval has nothing else.
+
+    Args:
+        parts: times and rows of consecutive parts of the course.
+        interval: number of rows of an interval.
+        median: the usual value, such as the resting level of a field.
+
+    Yields:
+        Times and rows of the intervals that end in a part, after the last part those of the last interval.
+    """
+    first = 0
+    times: list[float] = []
+    rows: list[np.ndarray] = []
+    for moments, values in parts:
+        begins = np.maximum(np.arange(-(first % interval), len(values), interval), 0)
+        low, high = (f.reduceat(values, begins, axis=0) for f in (np.fmin, np.fmax))
+        kept = list(_farther(low, high, median))
+        if rows and first % interval:  # the first of them began in the part before
+            both = np.stack([rows.pop(), kept[0]])
+            kept[0] = _farther(np.fmin.reduce(both), np.fmax.reduce(both), median)
+            begins = begins[1:]
+        times += moments[begins].tolist()
+        rows += kept
+        yield times[:-1], rows[:-1]
+        times, rows, first = times[-1:], rows[-1:], first + len(values)
+    yield times, rows
+
+
+def _farther(low: np.ndarray, high: np.ndarray, median: float) -> np.ndarray:
+    return np.where(median - low > high - median, low, high)
 
 
 def capacity(width: int) -> int:

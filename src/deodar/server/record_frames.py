@@ -18,7 +18,7 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import DeodarError, Problem
 from deodar.live.published import PublishedState
 from deodar.live.ring import TimeSpan
-from deodar.live.trace import Trace, TraceRequest, capacity, extremes
+from deodar.live.trace import Trace, TraceRequest, capacity, extremes, farthest
 from deodar.live.track import MOST, Trail
 from deodar.numerics.axes import Axes
 from deodar.recording.record import about
@@ -26,6 +26,7 @@ from deodar.recording.repeat import world_of
 from deodar.recording.replay import Copy, RecordReader
 from deodar.server.file_thread import in_file_thread
 from deodar.server.source import FoundFrame, element_of
+from deodar.server.stream import median
 from deodar.session.port_reader import PortKey
 from deodar.worlds._base import World
 from deodar.worlds._scene import Scene, SceneBody
@@ -34,8 +35,11 @@ MOST_SAMPLES = capacity(1) // 2
 """Largest number of samples of a time course.
 
 A longer record is divided into intervals, of which the smallest and the largest sample are kept, so that no
-peak is left out; rows of values over time are sampled at even intervals.
+peak is left out; of rows of values the value of each column that is farthest from the median is kept.
 """
+
+FEW = 64
+"""Number of rows from which that median is computed (a guess)."""
 
 PLACES = ("pose", "place")
 """Sensors whose readings are the position of the body of a world, the more complete one first."""
@@ -214,22 +218,29 @@ class RecordFrames:
 
     def _course(
         self, request: TraceRequest, copy: Copy
-    ) -> Iterator[tuple[np.ndarray, Sequence[float | np.ndarray]]]:
+    ) -> Iterator[tuple[Sequence[float], Sequence[float | np.ndarray]]]:
         """Yield the times and values of a time course, chunk by chunk."""
         record, place = self.record, request.place
-        axes = record.axes(place)
+        axes, times = record.axes(place), record.sample_times(place)
         if request.section is not None:
             drawn = request.section.split(axes)[0]
+            section = request.section
             most = min(MOST_SAMPLES, capacity(math.prod(a.samples for a in drawn)))
-            for times, frames in record.samples(place, copy, most):
-                yield times, [request.value(frame, axes) for frame in frames]
+            some = [section.take(frames, axes) for _, frames in record.samples(place, copy, FEW)]
+            parts = (
+                (
+                    times[first:last],
+                    section.take(record.block(place, copy, first, last), axes).reshape(last - first, -1),
+                )
+                for first, last in record.chunks(place)
+            )
+            yield from farthest(parts, math.ceil(len(times) / most), median(np.concatenate(some)))
             return
-        times = record.sample_times(place)
         interval = 2 * math.ceil(len(times) / MOST_SAMPLES) if len(times) > MOST_SAMPLES else 1
         for first, last in record.chunks(place):
             values = np.asarray([request.value(f, axes) for f in record.block(place, copy, first, last)])
             kept = extremes(values, first, interval)
-            yield times[first:last][kept], values[kept].tolist()
+            yield times[first:last][kept].tolist(), values[kept].tolist()
 
 
 def position_port(record: RecordReader) -> PortKey | None:

@@ -145,10 +145,10 @@ def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
         return array if _thinned(n, most, 1) == n else _extremes(array, _thinned(n, most, 1) // 2)
     bins = [_thinned(n, most, array.ndim) for n in array.shape[: array.ndim - channels]]
     thinned = [d for d, n in enumerate(bins) if n < array.shape[d]]
-    median = _median(array) if thinned and not channels else 0.0
+    usual = median(array) if thinned and not channels else 0.0
     for d in thinned:
         rows = np.moveaxis(array, d, 0)
-        rows = _means(rows, bins[d]) if channels else _farthest(rows, bins[d], median)
+        rows = _means(rows, bins[d]) if channels else _farthest(rows, bins[d], usual)
         array = np.moveaxis(rows, 0, d)
     return array
 
@@ -156,7 +156,7 @@ def thin(array: np.ndarray, most: int, channels: bool) -> np.ndarray:
 def thin_rows(rows: np.ndarray, most: int) -> np.ndarray:
     """Thin rows, one after another in time, to at most `most` values each, as `thin` does planes."""
     bins = _thinned(rows.shape[1], most, 2)
-    return rows if bins == rows.shape[1] else _farthest(rows.T, bins, _median(rows)).T
+    return rows if bins == rows.shape[1] else _farthest(rows.T, bins, median(rows)).T
 
 
 def _extremes(array: np.ndarray, bins: int) -> np.ndarray:
@@ -168,9 +168,9 @@ def _extremes(array: np.ndarray, bins: int) -> np.ndarray:
     return np.take_along_axis(values, order, axis=1).reshape(-1)
 
 
-def _farthest(array: np.ndarray, bins: int, median: float) -> np.ndarray:
+def _farthest(array: np.ndarray, bins: int, usual: float) -> np.ndarray:
     values = array[_bins(array.shape[0], bins)]
-    distances = np.abs(values - median)
+    distances = np.abs(values - usual)
     distances[np.isnan(distances)] = -1.0
     return np.take_along_axis(values, distances.argmax(axis=1)[:, None], axis=1)[:, 0]
 
@@ -193,7 +193,7 @@ def _bins(samples: int, bins: int) -> np.ndarray:
     return np.minimum(starts[:, None] + np.arange((ends - starts).max()), ends[:, None] - 1)
 
 
-def _median(array: np.ndarray) -> float:
+def median(array: np.ndarray) -> float:
     """Return the median of at most `MOST_MEDIAN` samples, evenly spaced."""
     flat = array.reshape(-1)
     some = flat[:: max(1, flat.size // MOST_MEDIAN)]
