@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -226,6 +228,30 @@ def test_a_worker_that_has_worked_for_long_is_replaced(monkeypatch: pytest.Monke
     assert len(set(pids(3))) == 1
     monkeypatch.setattr(pool, "LONGEST", 0.0)
     assert len(set(pids(2))) == 2 and not children()
+
+
+def page_faults(repetitions: int) -> float:
+    """Return the page faults per page of a block of 64 MB that is allocated and freed repeatedly."""
+    import resource
+
+    libc, size = ctypes.CDLL(None), 64 * 2**20
+    libc.malloc.restype = ctypes.c_void_p
+    libc.free.argtypes = [ctypes.c_void_p]
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    for _ in range(repetitions):
+        block = libc.malloc(size)
+        ctypes.memset(block, 1, size)
+        libc.free(block)
+    return (resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before) / (size / resource.getpagesize())
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="an option of the GNU C library")
+def test_a_worker_uses_the_memory_of_freed_arrays_again() -> None:
+    with pool.Pool(1) as workers:
+        workers.give(0, page_faults, 20)
+        while not (done := workers.wait(1.0)):
+            pass
+    assert 0 < done[0][1] < 0.2 * page_faults(20)
 
 
 def test_an_error_in_a_worker_is_raised_unchanged_in_the_caller() -> None:

@@ -11,10 +11,12 @@ is not read later.
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import multiprocessing
 import multiprocessing.connection
 import os
 import pickle
+import platform
 import signal
 import sys
 import threading
@@ -39,6 +41,10 @@ LONGEST = 600.0
 The memory maps of compiled programs accumulate in a process, and Linux allows 65530: after an hour of
 programs with worlds, of several thousand maps each, XLA finds no memory and ends the process.
 """
+
+
+_TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
+"""Numbers of two options of `mallopt`, from malloc.h."""
 
 
 @dataclass
@@ -180,6 +186,7 @@ def _serve(pipe: Connection, talks: bool) -> None:
     os.environ["NPROC"] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
+    _keep_freed_memory()
 
     def send(message: object) -> None:  # it waits while the parent has many unread messages
         pipe.send_bytes(pickle.dumps((None, message)))
@@ -188,6 +195,18 @@ def _serve(pipe: Connection, talks: bool) -> None:
         while True:
             function, arguments = pipe.recv()
             pipe.send_bytes(_done(function, (send, *arguments) if talks else arguments))
+
+
+def _keep_freed_memory() -> None:
+    """Let the GNU C library keep the memory of freed arrays for the next ones.
+
+    By default it returns those above 32 MB to the system, which clears each page anew. A large batch in a
+    world with a camera allocates such arrays at each step of the camera.
+    """
+    if platform.libc_ver()[0] == "glibc":
+        libc, most = ctypes.CDLL(None), 2**31 - 1
+        libc.mallopt(_TRIM_THRESHOLD, most)
+        libc.mallopt(_MMAP_THRESHOLD, most)
 
 
 def _done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
