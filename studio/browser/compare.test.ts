@@ -4,6 +4,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { button, drawn } from "./hands";
 import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
@@ -54,6 +55,7 @@ test("a record is shown beside the open one, with the first difference of each p
   const plots = () =>
     Promise.all(["one", "other"].map((name) => drawn(half(name).locator("canvas").first())));
   await expect.poll(async () => new Set(await plots()).size).toBe(2);
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "compare");
 });
 

@@ -57,6 +57,7 @@ test("an experiment opens from the list of files, runs, and shows each condition
     name: /^distance near, preshape 1: median 4\d(\.\d+)? of 25 trials$/,
   });
   await near.waitFor();
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "experiment-results");
 });
 

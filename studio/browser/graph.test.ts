@@ -3,7 +3,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { box, button, colours, panel, reopen, select } from "./hands";
+import { box, button, colours, panel, reopen, select, showEverything } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -20,7 +20,7 @@ beforeAll(async () => {
 
 // Nothing is selected, and everything is visible.
 beforeEach(async () => {
-  await button(studio.page, "Show everything").click();
+  await showEverything(studio.page);
 });
 
 afterAll(() => studio.stop());
@@ -105,7 +105,7 @@ test("boxes of the four families look different", async () => {
   for (const [i, kind] of kinds.entries())
     await observer.ask({ type: "add_element", kind, name: kind.toLowerCase(), at: [250 * i, 0] });
   await box(page, "integrator").waitFor();
-  await button(page, "Show everything").click();
+  await showEverything(page);
   const looks = await Promise.all(
     kinds.map((kind) =>
       box(page, kind.toLowerCase())
@@ -221,7 +221,7 @@ test("the canvas zooms in, out and to the whole graph; a map shows the whole gra
   const large = await zoom();
   await button(page, "Zoom out").click();
   await expect.poll(zoom).toBeLessThan(large * 0.95);
-  await button(page, "Show everything").click();
+  await showEverything(page);
   await expect.poll(zoom).toBeCloseTo(whole, 2);
   const map = page.getByRole("img", { name: "Overview of the canvas" });
   await map.waitFor();

@@ -104,6 +104,12 @@ export async function settled<T>(page: Page, measure: () => Promise<T>): Promise
   return now;
 }
 
+/** Show the whole canvas, and wait until its view no longer moves. */
+export async function showEverything(page: Page): Promise<void> {
+  await button(page, "Show everything").click();
+  await settled(page, () => page.locator(".react-flow__viewport").getAttribute("style"));
+}
+
 /** Drag a slider to a position, a share of its length, and release it. */
 export async function drag(page: Page, thumb: Locator, share: number): Promise<void> {
   const track = thumb.locator("xpath=ancestor::*[contains(@class, 'Slider-trackContainer')]");

@@ -9,7 +9,7 @@ import { ident, many } from "./bench/documents";
 import { median } from "./bench/figures";
 import { mainThread } from "./bench/frames";
 import { panned, zoomed } from "./bench/measures";
-import { box, button, panel } from "./hands";
+import { box, button, panel, showEverything } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -202,7 +202,7 @@ test("five hundred elements without groups are dots until the canvas is zoomed i
 
 test("five hundred elements whose model runs are moved and zoomed at 20 frames a second", async () => {
   const { page } = studio;
-  await button(page, "Show everything").click();
+  await showEverything(page);
   await observer.ask({ type: "play" });
   await observer.until(() => observer.time > 20);
   for (const [name, gesture] of Object.entries({ moving: panned, zooming: zoomed })) {
@@ -216,6 +216,6 @@ test("five hundred elements whose model runs are moved and zoomed at 20 frames a
     }
     expect(median(found), `processor time of a frame while ${name}`).toBeLessThan(1000 / RATE);
   }
-  await button(page, "Show everything").click();
+  await showEverything(page);
   await expect.poll(() => wires(page)).toBe(observer.document?.connections.length);
 });

@@ -4,6 +4,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, onTestFinished, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { button, drop, file, number, openExample, select, type } from "./hands";
 import type { Observer } from "./observer";
 import { python } from "./server";
@@ -149,6 +150,7 @@ test("a file with errors opens as a page that lists every problem with its path"
   expect(said).toContain("u.tau");
   expect(said).toMatch(/^left$/m);
   expect(said).toContain("GaussianStimulus");
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "problems");
 
   await button(page, "Back to the gallery").click();

@@ -4,7 +4,7 @@ import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { box, button, file, openEmpty, panel } from "./hands";
+import { box, button, file, openEmpty, panel, showEverything } from "./hands";
 import type { Observer } from "./observer";
 import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
@@ -200,7 +200,7 @@ test("a line of the palette that is dropped on a connection is inserted into it"
   await observer.ask({ type: "connect", source, target });
   await button(page, "Open panels and plots").click();
   await page.getByRole("menuitem", { name: "Elements", exact: true }).click();
-  await button(page, "Show everything").click();
+  await showEverything(page);
   const wire = page.getByRole("img", { name: "one to other", exact: true });
   await wire.waitFor();
   const at = await wire.locator(".graph-wire").evaluate((path: SVGPathElement) => {

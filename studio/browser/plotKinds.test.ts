@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { PLOT_TITLES } from "../src/plots/kinds/kinds";
 import { writeArranged, writeEveryPlot } from "./everyPlot";
 import { colours, drawn, panel, reopen, settled } from "./hands";
@@ -113,6 +114,7 @@ test("the cursor is linked among maps, pictures, scenes and multiples, not to a 
   for (const text of await cells.allTextContents()) expect(text).toMatch(/^x\s(9|10)\.\d*\s+max/);
   for (const name of ["Interaction kernel of line", "Phase plot of node"])
     expect(await reading(name), name).toBe("");
+  expect(await obstacles(studio.page)).toEqual([]);
   await shot(studio.page, "plot-linked-scenes");
 
   await point(plot(heat).locator(".u-over"), 0.25, 0.75);

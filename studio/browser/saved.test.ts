@@ -3,6 +3,7 @@ import { join } from "node:path";
 
 import { afterAll, beforeAll, expect, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { box, button, select, type } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -36,6 +37,7 @@ test("a snapshot is saved, returned to by a click, and deleted", async () => {
   expect(await row.innerText()).toMatch(/250 ms, \d+ kB, saved today at/);
   const file = join(studio.folder, "snapshots", "selection", "at 250 ms.npz");
   expect(existsSync(file)).toBe(true);
+  expect(await obstacles(page)).toEqual([]);
   await page.keyboard.press("Escape");
   await observer.ask({ type: "step", n: 30 });
   await observer.until(() => observer.moment("u", "activation") === 280);

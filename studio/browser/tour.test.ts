@@ -1,5 +1,6 @@
 import { expect, onTestFinished, test } from "vitest";
 
+import { obstacles } from "./axe";
 import { box, button, drag, select, settled, slider } from "./hands";
 import { shot, startStudio } from "./studio";
 
@@ -17,6 +18,7 @@ test("the tour is taken step by step, each by its own control", async () => {
   await tour.getByRole("heading", { name: "Run the model" }).waitFor();
   const observer = await observe();
   await observer.runs();
+  expect(await obstacles(page)).toEqual([]);
   await shot(page, "tour-first");
   await page.keyboard.press("Space");
 

@@ -4,7 +4,7 @@ import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 import { ident, many, panels } from "./bench/documents";
 import { median } from "./bench/figures";
 import { scriptTime } from "./bench/frames";
-import { box, openEmpty, panel, select } from "./hands";
+import { box, openEmpty, panel, select, showEverything } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -30,7 +30,7 @@ beforeEach(async () => {
   await add("RateNode", "node", [640, 0]);
   await observer.until(() => observer.document?.elements.length === 3);
   await box(page, "node").waitFor();
-  await page.getByRole("button", { name: "Show everything" }).click();
+  await showEverything(page);
 });
 
 afterAll(() => studio.stop());
@@ -95,7 +95,7 @@ test("of a hundred elements every port that fits lights up within 50 ms", async 
   const { page } = studio;
   await openText({ ...many(COUNT), layout: { boxes: square(), panels: panels([["graph"]]) } });
   await box(page, `u${COUNT - 1}`).waitFor();
-  await page.getByRole("button", { name: "Show everything" }).click();
+  await showEverything(page);
   await expect.poll(() => page.locator(".react-flow__handle").count()).toBeGreaterThan(2 * COUNT);
   const begin = await middle(port("u39", "output"));
   const took: number[] = [];
@@ -163,7 +163,7 @@ test("what does not fit is faint and says why: elements, their ports, and folded
     layout: { folded: ["g", "k"] },
   });
   await box(page, "u").waitFor();
-  await page.getByRole("button", { name: "Show everything" }).click();
+  await showEverything(page);
   const hint = page.locator(".wiring-hint");
   const opacity = (locator: Locator) =>
     locator.evaluate((element) => Number(getComputedStyle(element).opacity));
@@ -320,14 +320,14 @@ test("the ports of a folded group begin and end connections of the elements insi
   await observer.ask({ type: "arrange", layout: { folded: ["g"] }, undoable: false });
   const group = page.getByRole("group", { name: /^Group g, folded/ });
   await group.waitFor();
-  await page.getByRole("button", { name: "Show everything" }).click();
+  await showEverything(page);
   const inner = (title: string) => group.locator(`.react-flow__handle[title="${title}"]`);
   await pull(port("right", "output"), await middle(inner("g.u.input")));
   await page.mouse.up();
   await observer.until(() => wires().includes("right.output g.u.input"));
   await observer.ask({ type: "add_element", kind: "RateNode", name: "other", at: [640, 200] });
   await box(page, "other").waitFor();
-  await page.getByRole("button", { name: "Show everything" }).click();
+  await showEverything(page);
   await pull(inner("g.u.output"), await middle(port("other", "input")));
   await shot(page, "wires-folded");
   await page.mouse.up();

@@ -24,10 +24,9 @@ export function CostsPanel() {
           variant="default"
           leftSection={<IconStopwatch size={15} />}
           loading={measuring}
-          aria-label="Measure costs"
           onClick={() => void request({ type: "measure_costs" })}
         >
-          {again ? "Measure again" : "Measure"}
+          {again ? "Measure costs again" : "Measure costs"}
         </Button>
         {costs !== null && again && (
           <span className="numbers" role="status">

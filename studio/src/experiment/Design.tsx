@@ -10,6 +10,7 @@ import { PlaceContext } from "../inspector/place";
 import { ProblemText } from "../problems/ProblemText";
 import type { ExperimentForms, Kind } from "../protocol";
 import { useStudio } from "../store";
+import { MenuList } from "../widgets/MenuList";
 import { edit } from "./actions";
 import { add, type Group, partsOf } from "./draft";
 import { FactorCard } from "./FactorCard";
@@ -117,13 +118,13 @@ function Adding({ group, title, kinds, usual }: Omit<CardsProps, "about">) {
       <Menu.Target>
         <AddButton aria-label={`Add to ${title}`} />
       </Menu.Target>
-      <Menu.Dropdown>
+      <MenuList>
         {kinds.map((kind) => (
           <Menu.Item key={kind.name} onClick={() => insert(kind)}>
             {kind.title}
           </Menu.Item>
         ))}
-      </Menu.Dropdown>
+      </MenuList>
     </Menu>
   );
 }

@@ -82,7 +82,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const leaving = usePicked((state) => state.into === "");
   const around = useRef<HTMLDivElement>(null);
   const { now, touch } = useStart(structure, kinds, around);
-  const { nodes, onNodesChange, settle, reset } = useNodes(now);
+  const { nodes, onNodesChange, settle, forgetKeys, reset } = useNodes(now);
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
   const [searching, setSearching] = useState(false);
@@ -154,7 +154,10 @@ function Canvas({ structure }: { structure: Structure }) {
           onNodesChange={onNodesChange}
           nodesDraggable={!offline}
           nodesConnectable={!offline}
-          onNodeDragStart={() => useHover.getState().close()}
+          onNodeDragStart={() => {
+            useHover.getState().close();
+            forgetKeys();
+          }}
           onNodeDragStop={(event, { id }, dragged) => {
             if (event.altKey) {
               copyDragged(nodes);
@@ -166,6 +169,7 @@ function Canvas({ structure }: { structure: Structure }) {
             if (changed === null) {
               settle();
             } else {
+              forgetKeys();
               void changed.then((done) => !done && reset());
             }
           }}

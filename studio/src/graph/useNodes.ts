@@ -60,13 +60,17 @@ export function useNodes(scene: GraphScene) {
     [settle, flow],
   );
 
+  // Steps by arrow keys no longer become a change of their own: a drag takes them along. The last move of a
+  // drag looks like such a step, and its change must not follow during the next drag.
+  const forgetKeys = useCallback(() => window.clearTimeout(timer.current), []);
+
   // All boxes return to their positions in the document.
   const reset = useCallback(() => {
     window.clearTimeout(timer.current);
     setNodes(latest.current.scene.nodes);
   }, []);
 
-  return { nodes: shown, onNodesChange, settle, reset };
+  return { nodes: shown, onNodesChange, settle, forgetKeys, reset };
 }
 
 function moveComments(now: SceneNode[], before: SceneNode[]): void {

@@ -23,6 +23,7 @@ import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
 import { useView } from "../gallery/view";
 import { keysText } from "../shortcuts";
+import { MenuList } from "../widgets/MenuList";
 import classes from "./FileMenu.module.css";
 
 const ICON = { size: 16, stroke: 1.6 };
@@ -38,7 +39,7 @@ export function FileMenu() {
           <IconChevronDown size={13} aria-hidden="true" />
         </UnstyledButton>
       </Menu.Target>
-      <Menu.Dropdown>
+      <MenuList>
         <Menu.Item leftSection={<IconFilePlus {...ICON} />} onClick={() => void openEmpty()}>
           New
         </Menu.Item>
@@ -110,7 +111,7 @@ export function FileMenu() {
         <Menu.Item leftSection={<IconX {...ICON} />} onClick={() => void leave({ type: "close" })}>
           Close
         </Menu.Item>
-      </Menu.Dropdown>
+      </MenuList>
     </Menu>
   );
 }

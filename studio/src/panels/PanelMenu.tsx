@@ -9,10 +9,17 @@ import { TOOL_NAMES, TOOLS } from "./tools";
 
 const MOST = 60;
 
+/** What contains a search is no menu, which Mantine makes of it: the menu is the list below the search. */
+function asGroup(dropdown: HTMLElement | null): void {
+  dropdown?.setAttribute("role", "group");
+  dropdown?.removeAttribute("aria-orientation");
+}
+
 export function PanelMenu() {
   const [search, setSearch] = useState("");
   const elements = useStudio((state) => state.document?.elements);
   const wanted = search.trim().toLowerCase();
+  const tools = TOOL_NAMES.filter((tool) => TOOLS[tool].title.toLowerCase().includes(wanted));
   const found = (elements ?? []).filter((element) => element.path.toLowerCase().includes(wanted));
   return (
     <Menu position="bottom-end" width={280} shadow="md" onClose={() => setSearch("")}>
@@ -27,35 +34,37 @@ export function PanelMenu() {
           Panels
         </Button>
       </Menu.Target>
-      <Menu.Dropdown>
-        {TOOL_NAMES.map((tool) => (
-          <Menu.Item key={tool} onClick={() => openTool(tool)}>
-            {TOOLS[tool].title}
-          </Menu.Item>
-        ))}
-        <Menu.Divider />
-        <Menu.Label>Plot</Menu.Label>
+      <Menu.Dropdown ref={asGroup}>
         <Menu.Search
           size="xs"
-          placeholder="Find an element"
-          aria-label="Find an element to plot"
+          placeholder="Find a panel or an element"
+          aria-label="Find a panel, or an element to plot"
           value={search}
           onChange={(event) => setSearch(event.currentTarget.value)}
         />
-        <ScrollArea.Autosize mah={260} type="auto">
-          {found.slice(0, MOST).map((element) => (
-            <Menu.Item
-              key={element.id}
-              leftSection={<IconChartLine size={15} />}
-              title={element.path}
-              onClick={() => openPlot({ element: element.id })}
-            >
-              <span className="dock-item one-line">{element.path}</span>
+        <div role="menu" aria-label="Panels and plots">
+          {tools.map((tool) => (
+            <Menu.Item key={tool} onClick={() => openTool(tool)}>
+              {TOOLS[tool].title}
             </Menu.Item>
           ))}
-          {found.length > MOST && <Menu.Label>{found.length - MOST} more: type to find them</Menu.Label>}
-          {found.length === 0 && <Menu.Label>No element has this name.</Menu.Label>}
-        </ScrollArea.Autosize>
+          {tools.length > 0 && <Menu.Divider />}
+          <Menu.Label>Plot</Menu.Label>
+          <ScrollArea.Autosize mah={260} type="auto">
+            {found.slice(0, MOST).map((element) => (
+              <Menu.Item
+                key={element.id}
+                leftSection={<IconChartLine size={15} />}
+                title={element.path}
+                onClick={() => openPlot({ element: element.id })}
+              >
+                <span className="dock-item one-line">{element.path}</span>
+              </Menu.Item>
+            ))}
+            {found.length > MOST && <Menu.Label>{found.length - MOST} more: type to find them</Menu.Label>}
+            {found.length === 0 && <Menu.Label>No element has this name.</Menu.Label>}
+          </ScrollArea.Autosize>
+        </div>
       </Menu.Dropdown>
     </Menu>
   );

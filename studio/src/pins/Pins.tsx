@@ -10,6 +10,7 @@ import { useState } from "react";
 import { AddButton } from "../widgets/AddButton";
 import { moved } from "../inspector/parameters/part";
 import { useStudio } from "../store";
+import { MenuList } from "../widgets/MenuList";
 import { PinRow } from "./PinRow";
 import { isAt, keepPins, pinsOf, withPin } from "./pins";
 
@@ -76,13 +77,13 @@ function DocumentParameterMenu() {
       <Menu.Target>
         <AddButton>Document parameter</AddButton>
       </Menu.Target>
-      <Menu.Dropdown>
+      <MenuList>
         {rest.map(({ name }) => (
           <Menu.Item key={name} onClick={() => keepPins((all) => withPin(all, "", name))}>
             {name}
           </Menu.Item>
         ))}
-      </Menu.Dropdown>
+      </MenuList>
     </Menu>
   );
 }

@@ -15,6 +15,7 @@ import { NeedsServer, useOffline } from "../connection/NeedsServer";
 import type { ElementView, ListedProblem, SaveFigure } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
+import { MenuList } from "../widgets/MenuList";
 import type { DrawingFormat } from "./export/exportDrawing";
 import { exportCsv, type Table } from "./export/exportCsv";
 import { hasFigure, type PlotKind, portAxes, titleOf } from "./kinds/kinds";
@@ -133,7 +134,7 @@ export function PlotFrame(props: PlotFrameProps) {
               <IconDots size={15} />
             </ActionIcon>
           </Menu.Target>
-          <Menu.Dropdown>
+          <MenuList>
             {kinds.length > 1 && <Menu.Label>Show as</Menu.Label>}
             {kinds.length > 1 &&
               kinds.map((other) => (
@@ -177,7 +178,7 @@ export function PlotFrame(props: PlotFrameProps) {
                 Save as a figure file
               </Menu.Item>
             )}
-          </Menu.Dropdown>
+          </MenuList>
         </Menu>
       </header>
       <NeedsServer>{strip}</NeedsServer>

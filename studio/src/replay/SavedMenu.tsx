@@ -1,6 +1,16 @@
 // Snapshots of the run to return to, and presets: values of all parameters. Both are files below the root.
 
-import { ActionIcon, Button, CloseButton, Group, Popover, Stack, TextInput, Tooltip } from "@mantine/core";
+import {
+  ActionIcon,
+  Button,
+  CloseButton,
+  Group,
+  Popover,
+  Stack,
+  TextInput,
+  Tooltip,
+  VisuallyHidden,
+} from "@mantine/core";
 import { IconBookmark } from "@tabler/icons-react";
 import { type FormEvent, useState } from "react";
 
@@ -72,7 +82,7 @@ function Snapshots() {
           sort="snapshot"
           name={name}
           about={`${timeText(time, unit, dt)}, ${sizeText(size)}, saved ${whenText(saved, new Date())}`}
-          title={`Return to ${name}`}
+          does="Return to"
           run={() => back(name)}
         />
       ))}
@@ -98,7 +108,7 @@ function Presets() {
           sort="preset"
           name={name}
           about={`${sizeText(size)}, saved ${whenText(saved, new Date())}`}
-          title={`Apply ${name}`}
+          does="Apply"
           run={() => void applyPreset(path)}
         />
       ))}
@@ -143,15 +153,18 @@ type KeptProps = {
   sort: "snapshot" | "preset";
   name: string;
   about: string;
-  title: string;
+  does: string;
   run: () => void;
 };
 
-function Row({ sort, name, about, title, run }: KeptProps) {
+function Row({ sort, name, about, does, run }: KeptProps) {
   return (
     <div className={classes.row}>
-      <button type="button" className={classes.choice} aria-label={title} title={title} onClick={run}>
-        <span className="one-line">{name}</span>
+      <button type="button" className={classes.choice} title={`${does} ${name}`} onClick={run}>
+        <span className="one-line">
+          <VisuallyHidden>{does} </VisuallyHidden>
+          {name}
+        </span>
         <span className={`${classes.about} numbers one-line`}>{about}</span>
       </button>
       <CloseButton

@@ -125,7 +125,6 @@ function Choice() {
           })
         }
         min={0}
-        hideControls
         placeholder="every step"
         suffix={unit === "" ? "" : ` ${unit}`}
       />

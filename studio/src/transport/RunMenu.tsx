@@ -119,7 +119,6 @@ function TimeStep() {
         onChange={setValue}
         onBlur={() => void done()}
         min={0}
-        hideControls
         onKeyDown={(event) => event.key === "Enter" && void done()}
         suffix={unit === "" ? "" : ` ${unit}`}
       />
@@ -144,7 +143,6 @@ function LongestStep() {
         onChange={setValue}
         onBlur={() => void done()}
         min={0}
-        hideControls
         placeholder="dt stays"
         onKeyDown={(event) => event.key === "Enter" && void done()}
         suffix={unit === "" ? "" : ` ${unit}`}

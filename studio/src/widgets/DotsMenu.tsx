@@ -3,6 +3,7 @@
 import { ActionIcon, Menu } from "@mantine/core";
 import { IconDots } from "@tabler/icons-react";
 import type { ReactNode } from "react";
+import { MenuList } from "./MenuList";
 
 type DotsMenuProps = {
   label: string;
@@ -26,7 +27,7 @@ export function DotsMenu({ label, children, opened, onOpened }: DotsMenuProps) {
           <IconDots size={14} />
         </ActionIcon>
       </Menu.Target>
-      <Menu.Dropdown>{children}</Menu.Dropdown>
+      <MenuList>{children}</MenuList>
     </Menu>
   );
 }

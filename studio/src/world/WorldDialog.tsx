@@ -220,7 +220,6 @@ function SettingInput({ setting, set }: { setting: WorldSettingView; set: (value
       <NumberInput
         {...common}
         defaultValue={standard as number}
-        hideControls
         onChange={(value) => set(typeof value === "number" ? value : undefined)}
       />
     );

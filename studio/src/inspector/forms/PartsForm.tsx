@@ -6,6 +6,7 @@ import { useState } from "react";
 import { useStudio } from "../../store";
 import type { Values } from "../../values";
 import { AddButton } from "../../widgets/AddButton";
+import { MenuList } from "../../widgets/MenuList";
 import { moved, without, words } from "../parameters/part";
 import { usePlace } from "../place";
 import { ProblemLine } from "../../widgets/ProblemLine";
@@ -37,7 +38,7 @@ export function PartsForm({ form, path, value }: FormProps) {
           <Menu.Target>
             <AddButton aria-label={`Add to ${words(path)}`} />
           </Menu.Target>
-          <Menu.Dropdown>
+          <MenuList>
             {form.of.map((name) => (
               <Menu.Item
                 key={name}
@@ -46,7 +47,7 @@ export function PartsForm({ form, path, value }: FormProps) {
                 {kinds.get(name)?.title ?? name}
               </Menu.Item>
             ))}
-          </Menu.Dropdown>
+          </MenuList>
         </Menu>
       </ParameterRow>
       {parts.map((part, i) => (
