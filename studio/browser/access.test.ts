@@ -125,7 +125,6 @@ test("every control of an open document, also in its menus, has a name", async (
     expect(await nameless(page), name).toEqual([]);
     expect(await obstacles(page), name).toEqual([]);
     await page.keyboard.press("Escape");
-    console.log(name, await page.evaluate(() => document.activeElement?.outerHTML.slice(0, 200)));
     await page.getByRole("menu").or(page.getByRole("dialog")).first().waitFor({ state: "detached" });
   }
   await select(page, "left");

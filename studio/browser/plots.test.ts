@@ -465,7 +465,7 @@ test("a field over three axes is cut at a position, and any two axes are drawn",
   await expect.poll(() => colours(canvas)).toBeGreaterThan(5);
   const whole = await drawn(canvas);
   const thumb = map.getByRole("slider", { name: "Position on hue" });
-  const highest = map.getByRole("button", { name: "Maximum over hue" });
+  const highest = map.getByRole("button", { name: "max over hue" });
   expect(await highest.getAttribute("aria-pressed")).toBe("true");
   await thumb.press("ArrowRight");
   await expect.poll(() => highest.getAttribute("aria-pressed")).toBe("false");
@@ -557,7 +557,7 @@ test("the arrangement of panels is kept in a reload and in the file", async () =
   const original = readFileSync(join(folder, "selection.json"), "utf8");
   expect(original).not.toContain("panels");
   await button(page, "Open panels and plots").click();
-  await page.getByLabel("Find an element to plot").fill("lef");
+  await page.getByLabel("Find a panel, or an element to plot").fill("lef");
   await page.getByRole("menuitem", { name: "left", exact: true }).click();
   await plot("Curves of left").waitFor();
   await page.getByRole("tab", { name: "Sliders", exact: true }).press("Delete");

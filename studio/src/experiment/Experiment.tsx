@@ -104,11 +104,11 @@ function Head({ experiment }: { experiment: ExperimentView }) {
           <Button
             size="compact-sm"
             leftSection={<IconPlayerPlayFilled size={14} />}
-            aria-label="Run the experiment"
+            aria-label={`${present?.state === "stopped" ? "Continue" : "Run"} the experiment`}
             disabled={problems.length > 0 || repeated !== null}
             onClick={() => void run()}
           >
-            {present?.state === "stopped" ? "Continue" : present === null ? "Run" : "Run again"}
+            {present?.state === "stopped" ? "Continue" : "Run"}
           </Button>
         )}
         <Button

@@ -26,6 +26,7 @@ export function ProblemsMenu() {
           color={color}
           variant="light"
           px={7}
+          styles={{ label: { color: "var(--text)" } }}
           leftSection={<IconAlertTriangle size={15} />}
           aria-label={label}
           title={label}

@@ -30,7 +30,7 @@ export function SectionStrip({ rest, at, set }: Strip) {
             <button
               type="button"
               className="plot-chip"
-              aria-label={`Maximum over ${axis.name}`}
+              aria-label={`max over ${axis.name}`}
               aria-pressed={position === undefined}
               onClick={() => set({ at: moved(at, axis.name, position === undefined ? shown : null) })}
             >
