@@ -19,6 +19,10 @@ beforeAll(async () => {
 afterAll(() => studio.stop());
 
 const shown = () => panel(studio.page, "Experiment");
+const field = (name: string): Locator =>
+  shown()
+    .getByRole("textbox", { name, exact: true })
+    .or(shown().getByRole("combobox", { name, exact: true }));
 const status = (text: RegExp) =>
   expect.poll(() => shown().getByRole("status").innerText(), { timeout: 120_000 }).toMatch(text);
 
@@ -97,10 +101,6 @@ test("an experiment is built with the mouse, and its file is the one that Python
   const { page } = studio;
   const delay = await delayed(page);
   await choose(page, "More for the experiment", "New");
-  const field = (name: string) =>
-    shown()
-      .getByRole("textbox", { name, exact: true })
-      .or(shown().getByRole("combobox", { name, exact: true }));
   await status(/^20 trials$/);
   await fill(field("limit"), "600");
   await fill(field("trials"), "25");
@@ -168,11 +168,53 @@ test("an experiment is built with the mouse, and its file is the one that Python
   expect(written("built.json")).toBe(written("two-targets.json"));
 });
 
+test("an action is added as a card, and the bars of each condition grow while the trials run", async () => {
+  await open("two-targets.json");
+  await shown().getByText("Design", { exact: true }).click();
+  const { page } = studio;
+  await fill(field("trials"), "500");
+  await choose(page, "Add to Actions", "Push");
+  const card = shown().getByRole("region", { name: "Push 1" });
+  await fill(card.getByRole("textbox", { name: "0.at", exact: true }), "100");
+  await pick(card.getByRole("combobox", { name: "0.element", exact: true }), "u");
+  await fill(card.getByRole("textbox", { name: "0.amount", exact: true }), "-20");
+  await fill(card.getByRole("textbox", { name: "0.lasting", exact: true }), "600");
+  await status(/^2000 trials$/);
+  await card.scrollIntoViewIfNeeded();
+  await shot(page, "experiment-action");
+  await button(page, "Run the experiment").click();
+  await pick(shown().getByRole("combobox", { name: "Shown column" }), "duration");
+  const bars = shown().getByRole("figure", { name: "duration in each condition" }).getByRole("img");
+  const labels = () => bars.evaluateAll((all) => all.map((one) => one.getAttribute("aria-label") ?? ""));
+  const counted = async () =>
+    (await labels()).map((one) => Number(/ of (\d+) trials$/.exec(one)?.[1] ?? 0)).reduce((a, b) => a + b, 0);
+  await shown().evaluate((panel) => {
+    const counts = new Set<number>();
+    const look = () => {
+      const labels = [...panel.querySelectorAll(".experiment-bars [role=img]")].map((one) =>
+        Number(/ of (\d+) trials$/.exec(one.getAttribute("aria-label") ?? "")?.[1] ?? 0),
+      );
+      if (document.querySelector("[aria-label='Stop the experiment']") !== null)
+        counts.add(labels.reduce((a, b) => a + b, 0));
+    };
+    new MutationObserver(look).observe(panel, { subtree: true, attributes: true, childList: true });
+    Object.assign(window, { counts });
+  });
+  await status(/^2000 of 2000 trials, complete$/);
+  await shot(page, "experiment-bars");
+  await expect.poll(counted).toBe(2000);
+  const grown = await page.evaluate(() => [...(window as unknown as { counts: Set<number> }).counts]);
+  expect(grown.length, "the rows come in pieces of 250 trials").toBeGreaterThan(2);
+  expect([...grown].sort((a, b) => a - b)).toEqual(grown);
+  // the push keeps the field below its threshold: every trial ends at the limit
+  for (const one of await labels()) expect(one).toMatch(/: median 600 of 500 trials$/);
+});
+
 test("the panel fits a narrow window, in both colour schemes", async () => {
   const { page } = studio;
   await page.emulateMedia({ colorScheme: "dark" });
   await button(page, "Run the experiment").click();
-  await status(/^100 of 100 trials, complete$/);
+  await status(/^2000 of 2000 trials, complete$/);
   await shot(page, "experiment-dark");
   await page.setViewportSize({ width: 640, height: 800 });
   await shot(page, "experiment-narrow-dark");

@@ -78,7 +78,12 @@ function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
               onClick={() => void replay(row.trial)}
             >
               <th scope="row">
-                <UnstyledButton mih={24} miw={24} aria-label={`Replay trial ${row.trial}`} disabled={busy !== null}>
+                <UnstyledButton
+                  mih={24}
+                  miw={24}
+                  aria-label={`Replay trial ${row.trial}`}
+                  disabled={busy !== null}
+                >
                   {row.trial}
                 </UnstyledButton>
               </th>
