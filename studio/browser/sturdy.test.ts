@@ -179,10 +179,12 @@ test("without a connection plots keep their picture and take no change", async (
 const GESTURES: Record<string, (studio: Studio) => Promise<void>> = {
   box: async ({ page }) => {
     await holdAndMove(page, box(page, "left"), { x: 20, y: 12 }, { x: 90, y: 70 });
+    await page.locator(".react-flow__node.dragging").waitFor();
   },
   wire: async ({ page }) => {
     const output = box(page, "u").locator('.react-flow__handle[data-handleid="output"]');
     await holdAndMove(page, output, { x: 2, y: 2 }, { x: 60, y: 90 });
+    await page.locator(".react-flow__connection").waitFor();
   },
   slider: async ({ page }) => {
     await select(page, "u");
@@ -253,6 +255,8 @@ test("two pages that drag one box at once agree on its place", async () => {
   const agreed = [Math.round(at.x), Math.round(at.y)];
   await expect.poll(() => place(page)).toEqual(agreed);
   await expect.poll(() => place(second)).toEqual(agreed);
+  for (const one of [page, second])
+    expect((await one.getByRole("alert").allInnerTexts()).join(""), "alerts").toBe("");
 });
 
 test("live pictures follow their boxes when a bar moves them", async () => {
