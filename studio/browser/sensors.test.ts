@@ -1,3 +1,4 @@
+import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -6,13 +7,14 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { obstacles } from "./axe";
 import { button, drop, openExample, png } from "./hands";
 import type { Observer } from "./observer";
+import { python } from "./server";
 import { shot, startStudio, type Studio } from "./studio";
 
 let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
-  studio = await startStudio();
+  studio = await startStudio({ copies: ["examples/saliency.json"] });
   observer = await studio.observe();
   await openExample(studio.page, "Saliency");
   await observer.runs();
@@ -53,9 +55,47 @@ test("a picture below the folder can be chosen in the header, with a preview", a
   expect(observer.time).toBeGreaterThanOrEqual(before);
 });
 
+// A video that is green, and a record of a run whose sensor saw blue.
+const MADE = `
+import cv2
+import numpy as np
+import deodar as dd
+from deodar.recording import files
+
+writer = cv2.VideoWriter("green.avi", cv2.VideoWriter_fourcc(*"MJPG"), 10.0, (40, 40))
+for _ in range(20):
+    writer.write(np.full((40, 40, 3), (0, 255, 0), np.uint8))
+writer.release()
+blue = dd.Picture(np.full((40, 40, 3), (0, 0, 255), np.uint8))
+model = dd.load("saliency.json")
+run = dd.simulate(model, 40_000, record=["eye.output"], every=1000, world=blue, progress=False)
+files.save_record(run, "seen.zarr")
+`;
+
+test("a video and a record of another run are chosen in the header as what the sensor reads", async () => {
+  const { page, folder } = studio;
+  execFileSync(python(), ["-c", MADE], { cwd: folder, stdio: "pipe" });
+  const dialog = page.getByRole("dialog");
+  const use = async (now: string, kind: string, file: string) => {
+    await button(page, `World: ${now}; choose another one`).click();
+    await dialog.getByLabel("Kind of world").selectOption(kind);
+    await dialog.getByRole("button", { name: file }).click();
+    await dialog.getByRole("button", { name: "Use this world" }).click();
+    await dialog.waitFor({ state: "detached" });
+    await observer.until(() => observer.clock?.world === `${kind}: ${file}`);
+  };
+  await use("Picture: blue.png", "Video", "green.avi");
+  await observer.until(() => channel(0) < 0.1 && channel(1) > 0.9 && channel(2) < 0.1);
+  await button(page, "Reset").click(); // a record ends
+  await use("Video: green.avi", "Recording", "seen.zarr");
+  await observer.until(() => channel(0) === 0 && channel(1) === 0 && channel(2) === 1);
+  await shot(page, "world-recording");
+  expect(observer.running).toBe(true);
+});
+
 test("a world that lacks a sensor of the model is shown and cannot be used", async () => {
   const { page } = studio;
-  await button(page, "World: Picture: blue.png; choose another one").click();
+  await button(page, "World: Recording: seen.zarr; choose another one").click();
   const dialog = page.getByRole("dialog");
   await dialog.getByLabel("Kind of world").selectOption("Arena");
   await dialog.getByLabel("layout").selectOption("z");
@@ -66,7 +106,7 @@ test("a world that lacks a sensor of the model is shown and cannot be used", asy
   await shot(page, "world-arena-390");
   await page.setViewportSize({ width: 1280, height: 800 });
   await dialog.getByRole("button", { name: "Cancel" }).click();
-  expect(observer.clock?.world).toBe("Picture: blue.png");
+  expect(observer.clock?.world).toBe("Recording: seen.zarr");
 });
 
 test("an arena is chosen with its settings while a robot drives, and the run continues", async () => {
