@@ -200,7 +200,7 @@ def _serve(pipe: Connection, talks: bool) -> None:
 def _keep_freed_memory() -> None:
     """Let the GNU C library keep the memory of freed arrays for the next ones.
 
-    By default it returns those above 32 MB to the system, which clears each page anew. A large batch in a
+    By default it returns those above 32 MB to the system, which clears each page again. A large batch in a
     world with a camera allocates such arrays at each step of the camera.
     """
     if platform.libc_ver()[0] == "glibc":

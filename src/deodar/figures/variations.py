@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from deodar.figures._style import BLACK, COLOR, DOUBLE, MEDIUM, SMALL, THICK, THRESHOLD_LINE, style
 from deodar.figures._style import figure as sheet
@@ -99,9 +99,9 @@ def variations_figure(
         complete.set_ylim(len(parameters) - 0.4, -0.6)
         action.set_xscale("log")
         action.margins(x=0.04)
+        action.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         action.xaxis.set_major_formatter("{x:g}")
-        action.xaxis.set_minor_formatter("{x:g}")
-        action.tick_params(axis="x", which="minor", labelsize=SMALL)
+        action.xaxis.set_minor_formatter(NullFormatter())
         action.set_xlabel("median duration of an action (s)")
         if unvaried is not None:
             action.axvline(unvaried, **THRESHOLD_LINE)

@@ -1,5 +1,5 @@
-// The list of a menu. It takes the focus when it opens, also where its first entry is disabled: without a focus
-// inside, no key reaches it.
+// The list of a menu. It takes the focus when it opens, also where its first entry is disabled: without
+// a focus inside, no key reaches it.
 
 import { Menu } from "@mantine/core";
 import type { ReactNode } from "react";
