@@ -346,7 +346,7 @@ def test_an_experiment_with_actions_runs_in_one_batch() -> None:
         60,
         2,
         conditions=[FAR, TOUCHED],
-        actions=[Place(10, "box", (30, 20), (4, 4), when="far"), Set(40, "go right.amplitude", 0.0)],
+        actions=[Place(10, "box", (30, 28), (4, 4), when="far"), Set(40, "go right.amplitude", 0.0)],
         factors=[speed],
         measures=[Measure("where", "pose.output", "max")],
         world=rooms(),
