@@ -165,6 +165,7 @@ test("the groups of planning are folded, names are readable, on a wide and a nar
   await expect.poll(() => wires(page)).toBe(SPA_WIRES);
   await shot(page, "legible-spa-wide");
   await reloaded(NARROW);
+  expect(observer.document?.layout["panels"], "no person arranged the panels").toBeUndefined();
   await readable(page, 20);
   await shot(page, "legible-spa-narrow");
   await reloaded(WIDE);

@@ -103,11 +103,13 @@ export function Dock() {
     };
   }, [api, session]);
 
+  // What the page opens by itself is no arrangement of a person, and not stored.
   // A world with a view from above is shown, unless the document stores an arrangement of panels.
   const seen = useSyncExternalStore(live.listen, () => live.scene() !== null);
   useEffect(() => {
     if (api !== null && seen && useStudio.getState().document?.layout["panels"] === undefined) {
       openFirstWorld();
+      saved.current = found(api);
     }
   }, [api, session, seen]);
 
@@ -116,6 +118,7 @@ export function Dock() {
   useEffect(() => {
     if (api !== null && experiment) {
       openTool("experiment");
+      saved.current = found(api);
     }
   }, [api, session, experiment]);
 
