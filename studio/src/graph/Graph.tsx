@@ -125,7 +125,8 @@ function Canvas({ structure }: { structure: Structure }) {
     }
   }, [structure, kinds, flow]);
 
-  // While the canvas is moved it is one layer that the browser only shifts: live boxes are not painted.
+  // While the canvas is moved it is one layer that the browser only shifts: live boxes are painted about once
+  // a second.
   const move = useCallback(
     (moving: boolean) => {
       useHover.getState().close();

@@ -83,6 +83,20 @@ test("a removed picture is not drawn", () => {
   expect(drawn).toEqual([]);
 });
 
+test("what is drawn during a move is painted for the present view", () => {
+  const { layer, canvas, drawn } = stage();
+  layer.add(slot(110, 70), picture());
+  next();
+  layer.move({ x: 0, y: 0, zoom: 1 });
+  layer.move({ x: 30, y: 0, zoom: 1 });
+  drawn.splice(0);
+  layer.paint();
+  expect(drawn).toHaveLength(1);
+  expect(canvas.style.transform).toBe("");
+  layer.move({ x: 35, y: 0, zoom: 1 });
+  expect(canvas.style.transform, "from there").toBe("translate(5px, 0px) scale(1)");
+});
+
 test("a moved view moves the layer unchanged; the layer is painted again at the end of the move", () => {
   const { layer, canvas, drawn } = stage();
   layer.add(slot(110, 70), picture());

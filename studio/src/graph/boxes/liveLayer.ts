@@ -12,7 +12,9 @@ export class LiveLayer {
   private pictures = new Map<HTMLElement, HTMLCanvasElement>();
   private canvas: HTMLCanvasElement | null = null;
   private asked = false;
+  // While the view is moved: the view that the layer was painted for, and the present one.
   private from: Viewport | null = null;
+  private view: Viewport | null = null;
   private still = 0;
 
   // Adds the canvas that shows them; returns a function that removes it.
@@ -42,18 +44,21 @@ export class LiveLayer {
       this.asked = true;
       requestAnimationFrame(() => {
         this.asked = false;
-        this.paint();
+        if (this.from === null) {
+          this.paint();
+        }
       });
     }
   }
 
-  // While the view is moved the layer is only shifted, which costs nothing; null: the view is at rest,
-  // and the layer is painted.
+  // While the view is moved the layer is shifted, which costs nothing, and painted when the painter has
+  // drawn; null: the view is at rest, and the layer is painted.
   move(view: Viewport | null): void {
     if (this.canvas === null) {
       return;
     }
     window.clearTimeout(this.still);
+    this.view = view;
     if (view === null) {
       this.from = null;
       this.canvas.style.transform = "";
@@ -68,10 +73,11 @@ export class LiveLayer {
     this.canvas.style.transform = `translate(${x}px, ${y}px) scale(${scale})`;
   }
 
-  // Show everything now, unless the view is being moved.
+  // Show everything now, also while the view is moved.
   paint(): void {
-    if (this.from !== null) {
-      return;
+    if (this.from !== null && this.canvas !== null) {
+      this.from = this.view;
+      this.canvas.style.transform = "";
     }
     const base = this.canvas?.getBoundingClientRect();
     if (this.canvas === null || base === undefined || base.width === 0) {

@@ -21,16 +21,33 @@ test("only the last request of an owner is drawn", () => {
   expect(drawn).toEqual(["new"]);
 });
 
-test("nothing is drawn while the painter is held; the newest request is drawn afterwards", () => {
-  const painter = new Painter();
+test("a held painter draws those that have waited for almost a second, the others afterwards", () => {
+  const clock = vi.spyOn(performance, "now");
+  const at = (now: number) => {
+    clock.mockImplementation(() => now);
+    next(now);
+  };
+  const after = vi.fn();
+  const painter = new Painter(after);
   const drawn: number[] = [];
+  at(10_000);
   painter.wish({}, () => drawn.push(1));
   painter.hold(true);
-  next();
+  for (let now = 10_020; now <= 10_840; now += 20) {
+    at(now);
+  }
   expect(drawn).toEqual([]);
-  painter.hold(false);
-  next();
+  expect(after).not.toHaveBeenCalled();
+  at(10_880);
   expect(drawn).toEqual([1]);
+  expect(after).toHaveBeenCalledOnce();
+  painter.wish({}, () => drawn.push(2));
+  at(10_900);
+  expect(drawn).toEqual([1]);
+  painter.hold(false);
+  at(10_920);
+  expect(drawn).toEqual([1, 2]);
+  clock.mockRestore();
 });
 
 test("a removed owner is not drawn", () => {

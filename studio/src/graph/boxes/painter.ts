@@ -1,5 +1,5 @@
-// When live boxes are drawn: in turn, as many for each picture of the browser as it can keep up with, and not
-// while the canvas is moved.
+// When live boxes are drawn: in turn, as many for each picture of the browser as it can keep up with, and
+// while the canvas is moved only those that were drawn almost a second ago.
 
 type Draw = () => void;
 
@@ -13,12 +13,14 @@ const PAUSE_MS = 2000;
 const LEAST = 2;
 const MOST = 200;
 
-// A box that would wait longer than this if it missed one more picture of the browser is drawn now, whatever
-// it costs.
+// A box that would show the same drawing longer than this, if it missed one more picture of the browser, is
+// drawn now, whatever it costs.
 const LONGEST_MS = 900;
 
 export class Painter {
+  // `since`: when the owner was drawn last; before the first drawing, when it asked for it.
   private waiting = new Map<object, { draw: Draw; since: number }>();
+  private drawn = new WeakMap<object, number>();
   private held = false;
   private asked = false;
   private share = 8;
@@ -30,22 +32,24 @@ export class Painter {
 
   // Draw when there is time; a later request of the same owner replaces the former.
   wish(owner: object, draw: Draw): void {
-    this.waiting.set(owner, { draw, since: this.waiting.get(owner)?.since ?? performance.now() });
+    const since = this.waiting.get(owner)?.since ?? this.drawn.get(owner) ?? performance.now();
+    this.waiting.set(owner, { draw, since });
     this.ask();
   }
 
   forget(owner: object): void {
     this.waiting.delete(owner);
+    this.drawn.delete(owner);
   }
 
-  // While the canvas is moved nothing is drawn; afterwards the newest values are.
+  // While the canvas is moved boxes are drawn as rarely as possible; afterwards the newest values are.
   hold(held: boolean): void {
     this.held = held;
     this.ask();
   }
 
   private ask(): void {
-    if (!this.asked && !this.held && this.waiting.size > 0) {
+    if (!this.asked && this.waiting.size > 0) {
       this.asked = true;
       requestAnimationFrame((now) => this.draw(now));
     }
@@ -53,25 +57,36 @@ export class Painter {
 
   private draw(now: number): void {
     this.asked = false;
-    if (this.held) {
-      return;
-    }
     this.adapt(now - this.last);
     this.last = now;
     const begun = performance.now();
     const due = begun - LONGEST_MS + 1.5 * this.interval;
+    if (!this.held) {
+      this.drawSome(begun, due);
+    } else if ([...this.waiting.values()].some(({ since }) => since <= due)) {
+      // To show one box the whole layer is painted, so that all that wait are drawn with it.
+      this.drawSome(begun, Infinity);
+    } else {
+      this.ask();
+      return;
+    }
+    this.after();
+    this.ask();
+  }
+
+  // Draw those that were drawn before `due`, and others while there is time.
+  private drawSome(begun: number, due: number): void {
     let left = this.share;
     // A Map keeps the order in which owners came: who waited longest is drawn first.
     for (const [owner, { draw, since }] of this.waiting) {
       if (since > due && (left <= 0 || performance.now() > begun + BUDGET_MS)) {
-        break;
+        continue;
       }
       this.waiting.delete(owner);
       draw();
+      this.drawn.set(owner, begun);
       left -= 1;
     }
-    this.after();
-    this.ask();
   }
 
   // A long pause is no measure: there was nothing to draw.
