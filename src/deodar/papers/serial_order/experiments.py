@@ -25,7 +25,7 @@ from deodar.papers.serial_order.world import FRAMES, NOISE, PERIOD, SIDES, Lesso
 CASES = ("ten", "cued", "cued-changed", "carried")
 """Conditions that have an experiment file."""
 
-TRIALS, LONGEST = 50, 300.0
+TRIALS, LONGEST = 50, 600.0
 """Trials of an experiment, and longest production, s."""
 
 SHOWN = "shown"
