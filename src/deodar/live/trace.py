@@ -121,10 +121,10 @@ def farthest(
     for moments, values in parts:
         begins = np.maximum(np.arange(-(first % interval), len(values), interval), 0)
         low, high = (f.reduceat(values, begins, axis=0) for f in (np.fmin, np.fmax))
-        kept = list(_farther(low, high, median))
+        kept = list(farther(low, high, median))
         if rows and first % interval:  # the first of them began in the part before
             both = np.stack([rows.pop(), kept[0]])
-            kept[0] = _farther(np.fmin.reduce(both), np.fmax.reduce(both), median)
+            kept[0] = farther(np.fmin.reduce(both), np.fmax.reduce(both), median)
             begins = begins[1:]
         times += moments[begins].tolist()
         rows += kept
@@ -133,7 +133,8 @@ def farthest(
     yield times, rows
 
 
-def _farther(low: np.ndarray, high: np.ndarray, median: float) -> np.ndarray:
+def farther(low: np.ndarray, high: np.ndarray, median: float) -> np.ndarray:
+    """Return the smallest or the largest value, whichever is farther from `median`."""
     return np.where(median - low > high - median, low, high)
 
 

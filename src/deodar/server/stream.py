@@ -10,7 +10,7 @@ import numpy as np
 from deodar.errors import DeodarError, Problem
 from deodar.live.published import PublishedState
 from deodar.live.section import Section
-from deodar.live.trace import Trace, TraceRequest
+from deodar.live.trace import Trace, TraceRequest, farther
 from deodar.numerics.axes import Axes, Axis
 from deodar.server import converted, frames, view
 from deodar.server.source import FrameSource
@@ -169,10 +169,9 @@ def _extremes(array: np.ndarray, bins: int) -> np.ndarray:
 
 
 def _farthest(array: np.ndarray, bins: int, usual: float) -> np.ndarray:
-    values = array[_bins(array.shape[0], bins)]
-    distances = np.abs(values - usual)
-    distances[np.isnan(distances)] = -1.0
-    return np.take_along_axis(values, distances.argmax(axis=1)[:, None], axis=1)[:, 0]
+    starts = _edges(array.shape[0], bins)
+    low, high = (f.reduceat(array, starts, axis=0) for f in (np.fmin, np.fmax))
+    return farther(low, high, usual)
 
 
 def _means(array: np.ndarray, bins: int) -> np.ndarray:

@@ -5,7 +5,7 @@
 import type { Page } from "playwright-core";
 import { onTestFinished, test } from "vitest";
 
-import { box, button, drag, openEmpty, option, place, pull, slider } from "../hands";
+import { box, button, drag, openEmpty, option, place, pull, showEverything, slider } from "../hands";
 import type { Observer } from "../observer";
 import { shot, startStudio } from "../studio";
 
@@ -69,7 +69,7 @@ for (const colours of COLOURS) {
     await add("MemoryTrace", "trace", [680, 240]);
     await observer.until(() => observer.document?.elements.length === 5);
     await box(page, "trace").waitFor();
-    await page.getByRole("button", { name: "Show everything" }).click();
+    await showEverything(page);
     await page.waitForTimeout(DRAWN_MS);
     const target = await box(page, "node").boundingBox();
     await pull(page, "left", { x: (target?.x ?? 0) + 50, y: (target?.y ?? 0) + 40 });

@@ -341,12 +341,11 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
     in_order = order == list(range(1, len(order) + 1))
     right = in_order and run.sequence.startswith(produced_) and all(d <= FAR for d in far)
     starts = [0.0, *(float(t[k]) for k in ends)]
-    columns = v[PEAKS][begin:] if PEAKS in v else None
-    chosen_ = (
-        []
-        if columns is None
-        else [chosen(run.arena, letter, pose[k], columns[k]) for letter, k in zip(got, ends, strict=True)]
-    )
+    sight: Row = {}
+    if PEAKS in v:
+        columns = v[PEAKS][begin:]
+        finds = zip(got, ends, strict=True)
+        sight["chosen"] = [chosen(run.arena, letter, pose[k], columns[k]) for letter, k in finds]
     outcome = "wrong" if not right else "complete" if produced_ == run.sequence else "unfinished"
     return {
         "sequence": run.sequence,
@@ -359,7 +358,7 @@ def found(run: TaughtRun, trial: Trial, produced: float) -> Row:
         "distances": [round(d, 1) for d in far],
         "left": _left(run, got, ends, pose),
         "transitions": transitions(t, nodes, on),
-        **({} if columns is None else {"chosen": chosen_}),
+        **sight,
         "touching": round(float(v["touching.output"][begin:].mean()), 4),
         "length": round(float(np.linalg.norm(np.diff(pose[:, :2], axis=0), axis=1).sum()), 1),
     }

@@ -27,6 +27,8 @@ class BlockCheck:
         self.trials = max((max(len(s.rows), len(s.windows)) for s in self.slots), default=1)
         left, low, right, high = places.border
         self.least = LEAST * max(right - left, high - low)
+        self.corners = {s.name: self._corners(s) for s in self.slots}
+        self.windows = {s.name: self._windows(s) for s in self.slots}
 
     def warnings(self, starts: np.ndarray, vehicle: str, radius: float) -> Iterator[Problem]:
         """Yield a warning for each pair of blocks that overlap at one time, each block that lies outside the
@@ -37,9 +39,7 @@ class BlockCheck:
             vehicle: name of the vehicle.
             radius: its radius, m.
         """
-        corners = {s.name: self._corners(s) for s in self.slots}
-        windows = {s.name: self._windows(s) for s in self.slots}
-        inside = np.asarray(self.places.border)
+        corners, windows, inside = self.corners, self.windows, np.asarray(self.places.border)
         for s in self.slots:
             lower, upper = _common(corners[s.name], inside[None])
             here = windows[s.name][:, 0] < windows[s.name][:, 1]
@@ -59,9 +59,7 @@ class BlockCheck:
 
     def overlaps(self, block: str | None = None) -> Iterator[Problem]:
         """Yield a warning for each pair of blocks that overlap at one time; with `block` for its pairs."""
-        corners = {s.name: self._corners(s) for s in self.slots}
-        windows = {s.name: self._windows(s) for s in self.slots}
-        inside = np.asarray(self.places.border)
+        corners, windows, inside = self.corners, self.windows, np.asarray(self.places.border)
         for one, other in itertools.combinations([s.name for s in self.slots], 2):
             if block not in (None, one, other):
                 continue
