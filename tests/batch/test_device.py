@@ -52,6 +52,36 @@ def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPa
         assert done.stdout == "good\n", done.stderr
 
 
+ELSEWHERE = """
+import jax, numpy as np, deodar as dd
+from deodar.numerics import interaction
+jax.config.update("jax_default_device", jax.devices()[1])  # as on a machine with a graphics processor
+places, apply = set(), interaction.apply
+def seen(mixture, axes, array, *others):
+    if not isinstance(array, jax.core.Tracer):
+        places.update(array.devices())
+    return apply(mixture, axes, array, *others)
+interaction.apply = seen
+dd.phase(dd.Field("n", kernel=[dd.Gaussian(2.0)]))
+assert places == {jax.devices()[0]}, ("phase", places)
+places.clear()
+dd.isolate(dd.Field("u", [dd.Axis("x", 0, 30, samples=31)], kernel=[dd.Gaussian(2.0, 4)]))
+assert places == {jax.devices()[0]}, ("isolated", places)
+arena = dd.Arena("blocks")
+arena.reset(1)
+places = {d for leaf in jax.tree.leaves(arena._state) for d in leaf.devices()}
+assert places == {jax.devices()[0]}, ("arena", places)
+print("good")
+"""
+
+
+def test_values_outside_of_programs_are_computed_on_the_cpu(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where JAX would compute elsewhere by default, as it does with a graphics processor."""
+    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=2")
+    done = subprocess.run([sys.executable, "-c", ELSEWHERE], capture_output=True, text=True, timeout=600)
+    assert done.stdout == "good\n", done.stderr
+
+
 @pytest.mark.parametrize("name", ["gpu:99", "cpu:1000", "cpu:x", "cpu:", "quantum", "", 3])
 def test_an_unknown_device_is_an_error_that_lists_the_valid_ones(name: str) -> None:
     for call in (lambda: dd.simulate(model(), 10, device=name), lambda: dd.Session(model(), device=name)):

@@ -12,6 +12,7 @@ import threading
 import time
 from pathlib import Path
 
+import jax
 import numpy as np
 import psutil
 import pytest
@@ -252,6 +253,21 @@ def test_a_worker_uses_the_memory_of_freed_arrays_again() -> None:
         while not (done := workers.wait(1.0)):
             pass
     assert 0 < done[0][1] < 0.2 * page_faults(20)
+
+
+def platforms() -> list[str]:
+    """Return the platforms that JAX has started in this process."""
+    jax.numpy.zeros(1).block_until_ready()
+    return [str(jax.config.jax_platforms), *{device.platform for device in jax.devices()}]
+
+
+def test_a_worker_leaves_graphics_processors_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("JAX_PLATFORMS", "cuda,cpu")  # would fail here: there is no such platform
+    with pool.Pool(1) as workers:
+        workers.give(0, platforms)
+        while not (done := workers.wait(1.0)):
+            pass
+    assert done[0][1] == ["cpu", "cpu"]
 
 
 def test_an_error_in_a_worker_is_raised_unchanged_in_the_caller() -> None:

@@ -26,6 +26,7 @@ from deodar.model.model import Handle, Model
 from deodar.model.paths import display
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
+from deodar.numerics.processor import on_cpu
 from deodar.session.session import Session
 from deodar.session.snapshot import SessionSnapshot
 
@@ -247,8 +248,9 @@ def _excitation(field: Field, d: int) -> float | None:
     middle = tuple(a.samples // 2 for a in axes)
     single = np.zeros(shape(axes), np.float32)
     single[middle] = 1.0
-    mixture = interaction.mix(field.kernel, axes, interaction.prepare(field.kernel, axes, np.float32))
-    response = np.asarray(interaction.apply(mixture, axes, jnp.asarray(single)))
+    with on_cpu():
+        mixture = interaction.mix(field.kernel, axes, interaction.prepare(field.kernel, axes, np.float32))
+        response = np.asarray(interaction.apply(mixture, axes, jnp.asarray(single)))
     line = response[tuple(slice(None) if k == d else i for k, i in enumerate(middle))]
     peak, right = float(line[middle[d]]), line[middle[d] :]
     if not peak > 0:

@@ -11,6 +11,7 @@ import numpy as np
 from deodar.elements.field import Field
 from deodar.errors import AnalysisError
 from deodar.numerics import interaction
+from deodar.numerics.processor import on_cpu
 
 COARSE = 2001
 MOST_DOUBLINGS = 12
@@ -90,7 +91,7 @@ def phase(node: Field, input: float = 0.0, span: tuple[float, float] | None = No
 
 def _rate(node: Field, s: float) -> Callable[[np.ndarray], np.ndarray]:
     def rate(values: np.ndarray) -> np.ndarray:
-        with jax.enable_x64(True):
+        with on_cpu(), jax.enable_x64(True):
             u = jax.numpy.asarray(values, np.float64)
             g = node.sigmoid(u)
             change = (

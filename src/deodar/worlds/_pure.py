@@ -21,6 +21,7 @@ from deodar.errors import WorldError
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.copies import any_copy
 from deodar.numerics.noise import element_keys
+from deodar.numerics.processor import on_cpu
 from deodar.numerics.pytree import PyTree
 from deodar.worlds._base import World
 
@@ -244,7 +245,8 @@ class PureWorld(World):
             args: arguments of the function.
         """
         function = _compiled(_Program(type(self), self.structure(), name, self._dtype, self, make))
-        with jax.enable_x64(True) if self._dtype == np.float64 else contextlib.nullcontext():
+        double = jax.enable_x64(True) if self._dtype == np.float64 else contextlib.nullcontext()
+        with on_cpu(), double:
             return function(*args)
 
 
