@@ -16,7 +16,7 @@ demo: .venv/installed
 
 test: .venv/installed-test
 	$(MAKE) -j 2 lint types page
-	$(MAKE) -j 2 quick browser
+	VITEST_MAX_WORKERS=1 $(MAKE) -j 2 quick browser
 	$(MAKE) optimised
 
 # tests whose programs are compiled in a quicker way than deodar does, and those that need optimised programs
@@ -27,7 +27,8 @@ optimised: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
 
 # the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
-# time, so they run beside others
+# time, so `make test` runs them beside others, one file at a time: more than that made them fail for lack of
+# time
 browser: studio
 	$(BIN)/python studio/build.py browser firefox webkit
 
