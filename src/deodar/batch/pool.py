@@ -29,8 +29,6 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any, Self
 
-import jax
-
 from deodar.errors import DeodarError, WorkerError
 
 Task = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -185,6 +183,8 @@ def _quiet(main: bool) -> Generator[None]:
 
 def _serve(pipe: Connection, talks: bool) -> None:
     """Run tasks until the pipe is closed: on one core, without Ctrl-C, and at most until the parent ends."""
+    import jax  # start-up time of the parent
+
     os.environ["NPROC"] = "1"
     # workers are cores of the CPU; otherwise each of them would take most of a graphics processor's memory
     jax.config.update("jax_platforms", "cpu")
