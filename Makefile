@@ -27,8 +27,7 @@ optimised: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
 
 # the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
-# time, so `make test` runs them beside others, one file at a time: more than that made them fail for lack of
-# time
+# time, so `make test` runs them beside others; one file at a time there, because pytest uses two cores too
 browser: studio
 	$(BIN)/python studio/build.py browser firefox webkit
 

@@ -53,7 +53,7 @@ def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPa
 
 
 ELSEWHERE = """
-import jax, numpy as np, deodar as dd
+import jax, deodar as dd
 from deodar.numerics import interaction
 jax.config.update("jax_default_device", jax.devices()[1])  # as on a machine with a graphics processor
 places, apply = set(), interaction.apply
