@@ -40,6 +40,8 @@ const learned = (item: number) =>
   observer.max(`item ${item}.meaning`, "weights") > 0.5
     ? observer.peak(`item ${item}.meaning`, "weights")
     : Number.NaN;
+/** The robot drives for some 20 s of the model's time: minutes on a machine that others use too. */
+const drivesUntilOn = (item: number) => observer.until(() => isOn(`item ${item}.node`), 4);
 const distance = (name: string) => {
   const [body, at] = [observer.world.now.bodies[0], block(name)];
   return Math.hypot((body?.x ?? Number.NaN) - (at?.x ?? 0), (body?.y ?? 0) - (at?.y ?? 0));
@@ -84,7 +86,8 @@ test("two colours are taught with the mouse, and their blocks are visited in thi
   await dragOnto("cyan", { x: -170, y: 60 });
   await observer.until(() => block("cyan 1"));
 
-  await button(page, "Speed: 1×").click();
+  // a second try finds the speed of the first
+  await page.getByRole("button", { name: /^Speed: / }).click();
   await page.getByRole("dialog").getByRole("slider").press("End");
   await page.keyboard.press("Escape");
   const produce = panel(page, "Sliders").getByRole("switch", { name: "produce" });
@@ -92,11 +95,11 @@ test("two colours are taught with the mouse, and their blocks are visited in thi
   await expect.poll(() => produce.isChecked()).toBe(true);
   await observer.until(() => isOn("item 1.node"));
   expect(observer.document?.parameters.find(({ name }) => name === "mode")?.value).toBe(1);
-  await observer.until(() => isOn("item 2.node"));
+  await drivesUntilOn(2);
   expect(distance("cyan 1")).toBeLessThan(NEAR);
   expect(distance("yellow")).toBeGreaterThan(NEAR);
   await shot(page, "lesson-first");
-  await observer.until(() => isOn("item 3.node"));
+  await drivesUntilOn(3);
   expect(distance("yellow")).toBeLessThan(NEAR);
   await button(page, "Pause").click();
   const sliders = panel(page, "Sliders");
@@ -107,4 +110,4 @@ test("two colours are taught with the mouse, and their blocks are visited in thi
   }
   await produce.waitFor();
   await shot(page, "lesson-end");
-}, 300_000);
+}, 600_000);

@@ -19,7 +19,7 @@ import { replaced, valueAt } from "../src/values";
 import { LiveWorld } from "../src/world/live";
 
 /** Time after which a wait fails; it is not a measurement. */
-const PATIENCE = 60_000;
+const MINUTE = 60_000;
 
 interface Stream {
   number: number;
@@ -72,8 +72,8 @@ export class Observer {
     this.socket.close();
   }
 
-  /** Wait until a condition holds. It is evaluated after each message, and fails after a minute. */
-  until(condition: () => unknown): Promise<void> {
+  /** Wait until a condition holds. It is evaluated after each message, and fails after some minutes. */
+  until(condition: () => unknown, minutes = 1): Promise<void> {
     return new Promise((resolve, reject) => {
       const done = (how: () => void) => {
         clearTimeout(timer);
@@ -90,7 +90,7 @@ export class Observer {
           done(() => reject(error as Error));
         }
       };
-      const timer = setTimeout(fail, PATIENCE, "a minute went by");
+      const timer = setTimeout(fail, minutes * MINUTE, `${minutes} min went by`);
       this.waiting.add(look);
       look();
     });
