@@ -68,6 +68,7 @@ def test_limits_of_the_step_follow_from_the_roles() -> None:
     assert {kind: found for kind, found in LIMITED.items() if found} == {
         "AdaptiveWeights": {"rate": "rate"},
         "Attractor": {"tau": "time scale"},
+        "AttractorVelocity": {"tau": "time scale"},
         "Field": {"tau": "time constant"},
         "GainAdaptation": {"tau": "time scale"},
         "Hebbian": {"rate": "rate", "decay": "rate"},

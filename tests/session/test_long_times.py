@@ -143,6 +143,7 @@ def test_times_that_cannot_be_distinguished_are_refused(precision: str) -> None:
 
 MULTIPLY_THE_STEP = {
     ("Attractor", "fastest"),
+    ("AttractorVelocity", "fastest"),
     ("Integrator", "rate"),
     ("AdaptiveWeights", "rate"),
     ("Hebbian", "rate"),

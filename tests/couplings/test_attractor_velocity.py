@@ -1,0 +1,55 @@
+"""The velocity of a body towards a peak: against the sum over samples, its limit, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import DeodarError
+
+X, Y, HUE = dd.Axis("x", 0, 20, 21), dd.Axis("y", 0, 8, 17), dd.Axis("hue", 0, 360, 12, periodic=True)
+OF = [dd.Axis("of", 0, 1, 2)]
+
+
+def velocity(over: list[dd.Axis], position: list[float], **given: object) -> tuple[np.ndarray, np.ndarray]:
+    model = dd.Model("reaching")
+    at = [a.lower + 0.6 * a.range for a in over]
+    source = model.add(dd.GaussianStimulus("s", over, center=at, sigma=[a.range / 10 for a in over]))
+    here = model.add(dd.Pattern("here", OF, np.array(position)))
+    toward = model.add(dd.AttractorVelocity(name="toward", **given))  # type: ignore[arg-type]
+    source >> toward
+    here >> toward["position"]
+    record = ["toward", "s"]
+    data = dd.simulate(model, 1, dt=1.0, record=record, precision="float64")
+    return data["toward.output"].values[-1], data["s.output"].values[-1]
+
+
+def test_it_is_the_sum_over_samples_of_the_distance_times_the_input():
+    for axes, given in (([X, Y], {}), ([X, Y, HUE], {"axes": [X, Y]})):
+        v, f = velocity(axes, [3.0, 7.0], tau=50.0, **given)
+        f = f * X.step * Y.step * (HUE.step if len(axes) == 3 else 1.0)
+        f = f.reshape(21, 17, -1).sum(axis=2)
+        wanted = [((X.points[:, None] - 3.0) * f).sum(), ((Y.points[None] - 7.0) * f).sum()]
+        np.testing.assert_allclose(v, np.array(wanted) / 50.0, rtol=1e-10)
+
+
+def test_the_limit_shortens_the_vector_and_keeps_its_direction():
+    free, _ = velocity([X, Y], [3.0, 7.0])
+    slow, _ = velocity([X, Y], [3.0, 7.0], fastest=0.1)
+    assert np.hypot(*slow) == pytest.approx(0.1) and np.hypot(*free) > 0.1
+    np.testing.assert_allclose(slow / np.hypot(*slow), free / np.hypot(*free))
+    near, _ = velocity([X, Y], [3.0, 7.0], fastest=1e6)
+    np.testing.assert_allclose(near, free)
+
+
+@pytest.mark.parametrize(
+    ("axes", "position", "says"),
+    [
+        ([X, Y, HUE], [0.0, 0.0], "the axis 'hue' is periodic, and has no mean position"),
+        ([X], [0.0, 0.0], "takes one number at its port `position`"),
+    ],
+)
+def test_axes_that_have_no_position_are_refused(axes, position, says):
+    with pytest.raises(DeodarError, match=says):
+        velocity(axes, position)
