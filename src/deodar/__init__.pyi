@@ -33,6 +33,7 @@ from deodar.batch.cores import use_cores as use_cores
 from deodar.batch.resume import resume as resume
 from deodar.batch.simulate import simulate as simulate
 from deodar.couplings.adaptive_weights import AdaptiveWeights as AdaptiveWeights
+from deodar.couplings.attractor_velocity import AttractorVelocity as AttractorVelocity
 from deodar.couplings.color_histogram import ColorHistogram as ColorHistogram
 from deodar.couplings.color_space import ColorSpace as ColorSpace
 from deodar.couplings.convolve import Convolve as Convolve
@@ -43,6 +44,7 @@ from deodar.couplings.diagonal_sum import DiagonalSum as DiagonalSum
 from deodar.couplings.gain import Gain as Gain
 from deodar.couplings.gain_adaptation import GainAdaptation as GainAdaptation
 from deodar.couplings.hebbian import Hebbian as Hebbian
+from deodar.couplings.homography import Homography as Homography
 from deodar.couplings.interaction import Interaction as Interaction
 from deodar.couplings.logarithm import Logarithm as Logarithm
 from deodar.couplings.obstacle_repulsion import ObstacleRepulsion as ObstacleRepulsion
@@ -171,6 +173,7 @@ from deodar.worlds._base import World as World
 from deodar.worlds._pure import PureWorld as PureWorld
 from deodar.worlds.arena.arena import Arena as Arena
 from deodar.worlds.camera import Camera as Camera
+from deodar.worlds.mujoco.mujoco import MuJoCo as MuJoCo
 from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording
 from deodar.worlds.video import Video as Video
