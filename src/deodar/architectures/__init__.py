@@ -14,6 +14,7 @@ from deodar.architectures.feature_space import binding, feature_space
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.architectures.plan import START as PLAN_START
 from deodar.architectures.plan import plan
+from deodar.architectures.pointing import pointing
 from deodar.architectures.reference_frame import reference_frame, remapping
 from deodar.architectures.saliency import saliency
 from deodar.architectures.serial_order import lesson, lesson_end, production_start, serial_order
@@ -42,6 +43,7 @@ __all__ = [
     "lesson_end",
     "maze",
     "plan",
+    "pointing",
     "precondition",
     "production_start",
     "reference_frame",
