@@ -48,13 +48,13 @@ TABLE = ((-0.4, 0.4), (0.0, 0.6))
 """Extent of the perceptual field along x and y, m."""
 
 SAMPLES = (40, 30, 30)
-PIXELS = (160, 120)
+PIXELS = (128, 96)
 """Columns and rows of the camera's picture."""
 
-FINER = 3
+FINER = 2
 """Samples of the picture of the table for one sample of the field, along x and along y."""
 
-CORNERS = ((130.872, 32.225), (28.128, 32.225), (8.879, 102.215), (150.121, 102.215))
+CORNERS = ((104.598, 25.68), (22.402, 25.68), (7.003, 81.672), (119.997, 81.672))
 """Column and row of the four corners of the table in the picture of the camera of the scene `table`, in the
 order (left, near), (right, near), (right, far), (left, far) as the robot sees them.
 """
@@ -121,7 +121,7 @@ def pointing(
 
     Args:
         samples: samples of the perceptual field along x, y and hue.
-        corners: column and row of the corners of the table in the picture, of 160 x 120 pixels: (left, near),
+        corners: column and row of the corners of the table in the picture, of 128 x 96 pixels: (left, near),
             (right, near), (right, far), (left, far) as the robot sees them.
         camera: name of the world's sensor that is the camera.
         noise: standard deviation of the noise of fields and nodes without interaction.
@@ -168,7 +168,9 @@ def pointing(
     fine = table([FINER * samples[0], FINER * samples[1], samples[2]])[:2]
     (left, right), (near, far) = TABLE
     edges = np.array([[left, near], [right, near], [right, far], [left, far]])
-    above = model.add(Homography(list(fine), picture=np.array(corners, float), plane=edges, name="from above"))
+    above = model.add(
+        Homography(list(fine), picture=np.array(corners, float), plane=edges, name="from above")
+    )
     colours = model.add(ColorSpace([x, y, hue], sigma=15.0, name="colours"))
     blur = model.add(Convolve([Gaussian(1.0, (0.01, 0.01, 1e-3), normalized=True)], name="blur"))
     eye >> above >> colours >> blur >> strength("camera") >> perceptual

@@ -174,6 +174,7 @@ class Executable:
             body,
             copies=batch.size if self.device.platform == "cpu" else 0,
             kernels=self.kernels,
+            pictures=body is None and batch.points is None,
         )
         self.body = body
         self.traced = 0
@@ -188,7 +189,8 @@ class Executable:
                 body.world.reset(0, [0] * batch.size, precision)
             shared, state, keys = self.embodied(body.world, state, keys)
             values = {**values, "world": shared}
-        example = (values, constants, state, keys, self.blind(), *packed({"period": 1}, self.program.dtype))
+        sensed = {**self.blind(), **self.program.unseen()}
+        example = (values, constants, state, keys, sensed, *packed({"period": 1}, self.program.dtype))
         self._example = jax.tree.map(_form, example)
         self.seconds = time.process_time() - began
 
@@ -258,6 +260,24 @@ class Executable:
     def new_reader(self, ports: Sequence[Port]) -> Compiled:
         """The same, for a caller that keeps it itself."""
         return self.compile(lambda *a: self._read(ports, ProgramArguments(*a)), *self._example)[0]
+
+    def look(
+        self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
+    ) -> Arrays:
+        """Return what follows from pictures among the readings, as a further part of them."""
+        if not self.program.pictured:
+            return {}
+        if "look" not in self._known:
+            given = ProgramArguments(*self._example)
+            readings = {ident: given.sensed[ident] for ident in self.program.pictures}
+            self._known["look"] = self.compile(
+                lambda values, *rest: self.program.look(_unswept(values), *rest),
+                given.values,
+                given.constants,
+                readings,
+            )[0]
+        readings = {ident: sensed[ident] for ident in self.program.pictures}
+        return self.call(self._known["look"], values, constants, readings)
 
     def call(self, executable: Callable[..., Any], *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
@@ -492,6 +512,10 @@ class Executable:
             g, _ = self.plan.row[ident]
             out[ident] = np.zeros(shape(self.plan.groups[g].like.outs["output"]), self.program.dtype)
         return out
+
+
+def _unswept(values: ProgramValues) -> ProgramValues:
+    return {**values, "swept": ()}
 
 
 def _form(a: Array) -> jax.ShapeDtypeStruct:

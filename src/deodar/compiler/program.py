@@ -71,6 +71,13 @@ def precision_context(precision: str) -> contextlib.AbstractContextManager[None]
     return jax.enable_x64(True) if precision == "float64" else contextlib.nullcontext()
 
 
+PICTURE_SAMPLES = 4096
+"""Samples from which a reading counts as a picture."""
+
+SEEN = "seen "
+"""Begin of the keys of what follows from pictures, among those of readings."""
+
+
 class Chunk(NamedTuple):
     """The values that are constant during a chunk in one copy of a model; a JAX PyTree.
 
@@ -105,6 +112,7 @@ class Program:
 
     `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
     `kernels`: compiled kernels for parts of the step, if there are any.
+    `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
     """
 
     def __init__(
@@ -115,6 +123,7 @@ class Program:
         body: Body | None = None,
         copies: int = 1,
         kernels: Kernels | None = None,
+        pictures: bool = False,
     ) -> None:
         self.plan = plan
         self.kernels = kernels
@@ -132,6 +141,7 @@ class Program:
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
         self.still = [c for c in plan.calls if plan.groups[c.group].still]
+        self.pictured = self._pictured() if pictures else []
         self.moving = [
             c for c in plan.calls if not (plan.groups[c.group].still or plan.groups[c.group].sensory)
         ]
@@ -176,11 +186,62 @@ class Program:
         self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
     ) -> Buffers:
         """Outputs that stay the same while parameters and sensors do: evaluated once a chunk."""
-        buffers: Buffers = {}
+        known = {key: (g, port, 0) for key, (g, port) in self._keys(self.pictured).items()}
+        buffers: Buffers = {place: jnp.asarray(sensed[f"{SEEN}{key}"]) for key, place in known.items()}
         chunk = Chunk(values, constants, {}, sensed, cast("ProgramClock", {}), {})
         for call in self.still:
-            self._output(call, buffers, chunk, {}, jnp.uint32(0))
+            if call not in self.pictured:
+                self._output(call, buffers, chunk, {}, jnp.uint32(0))
         return buffers
+
+    def look(
+        self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
+    ) -> Arrays:
+        """Return the outputs that follow from pictures alone.
+
+        They are computed when a picture is new, not in each chunk: a chunk between two exchanges with a world
+        may be a single step, and a camera has a new picture only at some exchanges.
+        """
+        buffers: Buffers = {}
+        chunk = Chunk(values, self.hoist(values, constants), {}, sensed, cast("ProgramClock", {}), {})
+        sensors = [c for c in self.still if self.plan.groups[c.group].like.id in self.pictures]
+        for call in (*sensors, *self.pictured):
+            self._output(call, buffers, chunk, {}, jnp.uint32(0))
+        return {f"{SEEN}{key}": buffers[g, port, 0] for key, (g, port) in self._keys(self.pictured).items()}
+
+    def unseen(self) -> dict[str, np.ndarray]:
+        """Return the outputs of `look` before a picture is seen: zeros."""
+        groups = self.plan.groups
+        return {
+            f"{SEEN}{key}": np.zeros((groups[g].rows, *shape(groups[g].like.outs[port])), self.dtype)
+            for key, (g, port) in self._keys(self.pictured).items()
+        }
+
+    @functools.cached_property
+    def pictures(self) -> list[str]:
+        """The ids of the sensors whose readings `look` uses."""
+        pairs = [(c.group, port) for c in self.pictured for port in self.plan.groups[c.group].like.reads]
+        sources = {r.source[0] for pair in pairs for r in self.plan.reads[pair]}
+        return [ident for ident in self.plan.sensors if self.plan.row[ident][0] in sources]
+
+    def _pictured(self) -> list[Call]:
+        """Return the calls, among those that stay the same, that follow from readings alone, at least one of
+        which is as large as a picture.
+        """
+        groups, found = self.plan.groups, list[Call]()
+        for call in self.still:
+            like, before = groups[call.group].like, {c.group for c in found}
+            sources = {r.source[0] for port in like.reads for r in self.plan.reads[call.group, port]}
+            large = {
+                g
+                for g in sources
+                if groups[g].like.element.external
+                and math.prod(shape(groups[g].like.outs["output"])) >= PICTURE_SAMPLES
+            }
+            readings = {g for g in sources if groups[g].like.element.external}
+            if call.role == "output" and sources <= readings | before and sources & (large | before):
+                found.append(call)
+        return found
 
     def undrawn(self) -> Arrays:
         """The blocks before the first is drawn."""

@@ -154,7 +154,7 @@ def moment(run: Run) -> StepInputs:
     """Return the inputs of the next step of a run."""
     clock = {**run.clock.origin, "tick": run.clock.tick % 2**32, "dt": run.clock.dt, "period": 1}
     return StepInputs(
-        run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.sensed), clock
+        run.program, run.doc, run.values, run.constants, run.state, run.keys, dict(run.readings()), clock
     )
 
 

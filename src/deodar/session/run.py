@@ -13,7 +13,7 @@ import numpy as np
 from jax import Array
 from jax.stages import Compiled
 
-from deodar.compiler.arguments import ProgramState, ProgramValues
+from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
 from deodar.compiler.executable import ChunkResult, Executable
 from deodar.compiler.moment import packed
@@ -42,6 +42,22 @@ MOST_STEPS = 2**44
 
 Up to it times are exact to a sixteenth of a step (`numerics/exact.py`).
 """
+
+
+@dc.dataclass(frozen=True)
+class _Looked:
+    """What followed from pictures, and from which ones.
+
+    Attributes:
+        values, constants: those of the run then; both are new objects after a change.
+        pictures: readings by the sensor's id.
+        seen: what followed.
+    """
+
+    values: ProgramValues
+    constants: PyTree
+    pictures: Mapping[str, np.ndarray]
+    seen: Arrays
 
 
 class Run:
@@ -109,6 +125,26 @@ class Run:
         """
         self.sensed = self.program.blind()
         self.exchange.unread = True
+        self._looked: _Looked | None = None
+
+    def readings(self) -> Mapping[str, EitherArray]:
+        """Return the readings of the sensors, and what follows from pictures among them.
+
+        That is computed again where a picture or a parameter is new.
+        """
+        if not self.program.program.pictured:
+            return self.sensed
+        known, now = self._looked, self.sensed
+        if (
+            known is None
+            or known.values is not self.values
+            or known.constants is not self.constants
+            or any(not np.array_equal(known.pictures[ident], now[ident]) for ident in known.pictures)
+        ):
+            seen = self.program.look(self.values, self.constants, now)
+            pictures = {ident: now[ident] for ident in self.program.program.pictures}
+            self._looked = known = _Looked(self.values, self.constants, pictures, seen)
+        return {**now, **known.seen}
 
     @property
     def world(self) -> World | None:
@@ -210,7 +246,7 @@ class Run:
 
     def _call(self, chunk: Compiled, state: ProgramState, counts: dict[str, int]) -> ChunkResult:
         return self.program.call(
-            chunk, self._values(), self.constants, state, self.keys, self.sensed, *self._now(counts)
+            chunk, self._values(), self.constants, state, self.keys, self.readings(), *self._now(counts)
         )
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
@@ -218,7 +254,7 @@ class Run:
         self.sense()
         reader = self.program.reader(ports)
         seen = self.program.call(
-            reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now()
+            reader, self._values(), self.constants, self.state, self.keys, self.readings(), *self._now()
         )
         return [np.asarray(a) for a in seen]
 
@@ -226,7 +262,7 @@ class Run:
         """Return the values of a compiled reader in the present state."""
         self.sense()
         return self.program.call(
-            reader, self._values(), self.constants, self.state, self.keys, self.sensed, *self._now()
+            reader, self._values(), self.constants, self.state, self.keys, self.readings(), *self._now()
         )
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:

@@ -25,6 +25,9 @@ from deodar.worlds.mujoco.reach import Arm
 from deodar.worlds.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
 
 SETTINGS = ("robot", "period", "camera_every", "pixel_noise", "tool_noise", "light")
+CONTROL = 0.01
+"""Interval between two commands to the joints, s, if the time step of the scene is shorter."""
+
 GAP = 0.0005
 """Height above the plane at which a moved object is put down, m."""
 
@@ -113,6 +116,7 @@ class MuJoCo(World):
                 fix=f"For example period={1000 * model.opt.timestep * max(1, round(steps)):g}",
             )
         self._steps = round(steps)
+        self._control = max(1, round(CONTROL / model.opt.timestep))
         self._joints = [k for k in range(model.njnt) if is_scalar(model, k)]
         self._home = self.files.home(model)
         self.arm = Arm.find(model, self._home)
@@ -193,8 +197,9 @@ class MuJoCo(World):
     def act(self, motors: Mapping[str, np.ndarray], time: float) -> None:
         for k, data in enumerate(self._copies):
             commands = {name: np.asarray(values[k], float) for name, values in motors.items()}
-            for _ in range(self._steps):
-                self._command(data, commands)
+            for n in range(self._steps):
+                if n % self._control == 0:
+                    self._command(data, commands)
                 simulator().mj_step(self.model, data)
                 if self.arm is not None:
                     self.arm.limit(data)
@@ -222,7 +227,7 @@ class MuJoCo(World):
 
     @property
     def _horizon(self) -> float:
-        return 4 * float(self.model.opt.timestep)
+        return 2 * self._control * float(self.model.opt.timestep)
 
     def _require_finite(self, data: Any, time: float) -> None:
         kinds = simulator().mjtWarning
