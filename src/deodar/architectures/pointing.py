@@ -1,10 +1,10 @@
 """Pointing: a cue such as "the green object on the left" makes an arm point at this object on a table.
 
-The picture of a camera shows coloured objects. Nodes for two colours and two sides are switched on by the user
-and stay on. A perceptual field over the table and hue needs the camera's input, a colour and a side together to
-build a peak. Its peak is the attractor of the tool. A field of the condition of satisfaction (CoS) receives the
-target and the position of the tool; where they overlap, its peak switches nodes and perceptual field off, and
-so itself.
+The picture of a camera shows coloured objects. Nodes for two colours and two sides are switched on by the
+user and stay on. A perceptual field over the table and hue needs the camera's input, a colour and a side
+together to build a peak. Its peak is the attractor of the tool. A field of the condition of satisfaction
+(CoS) receives the target and the position of the tool; where they overlap, its peak switches nodes and
+perceptual field off, and so itself.
 
 Reference:
     Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied

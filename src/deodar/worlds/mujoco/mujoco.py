@@ -23,6 +23,7 @@ from deodar.worlds.mujoco import camera as pictures
 from deodar.worlds.mujoco.objects import PlacedObject
 from deodar.worlds.mujoco.reach import Arm
 from deodar.worlds.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
+from deodar.worlds.mujoco.visibility import visible
 
 SETTINGS = ("robot", "period", "camera_every", "pixel_noise", "tool_noise", "light")
 CONTROL = 0.01
@@ -356,6 +357,38 @@ class MuJoCo(World):
         mujoco = simulator()
         kinds = (mujoco.mjtObj.mjOBJ_BODY, mujoco.mjtObj.mjOBJ_GEOM, mujoco.mjtObj.mjOBJ_JOINT)
         return any(mujoco.mj_name2id(self.model, kind, name) >= 0 for kind in kinds)
+
+    def tool(self) -> tuple[float, float, float]:
+        """Return the true x, y and z of the tool of the first copy, m.
+
+        Raises:
+            WorldError: the scene has no site called `tool` and joints that move it.
+        """
+        if self.arm is None:
+            raise WorldError("has no tool", where=str(self.files.scene))
+        x, y, z = (float(v) for v in self._copies[0].site_xpos[self.arm.site])
+        return x, y, z
+
+    def visible(self, name: str, camera: str) -> float:
+        """Return the share of the top of an object that a camera of the first copy sees, 0 to 1."""
+        self._require_object(name)
+        thing, data = self.objects[name], self._copies[0]
+        return visible(self.model, data, camera, name, min(thing.size) / 2, thing.height)
+
+    def push(self, body: str, force: Sequence[float]) -> None:
+        """Push a body, such as a link of an arm, with a force along x, y and z (N) until the next call.
+
+        Raises:
+            UnknownName: the scene has no such body.
+        """
+        bodies = [self.model.body(k).name for k in range(1, self.model.nbody)]
+        if body not in bodies:
+            raise UnknownName(f"the scene has no body {body!r}", fix=did_you_mean(body, bodies))
+        numbers = [real(f) for f in force]
+        if len(numbers) != 3 or any(f is None or not math.isfinite(f) for f in numbers):
+            raise WorldError(f"the force is {show(force)}; expected three finite numbers, N", where=body)
+        for data in self._copies:
+            data.body(body).xfrc_applied[:3] = numbers
 
     def arrangement(self) -> Any:
         return [thing.to_data() for thing in self.objects.values()]

@@ -1,0 +1,112 @@
+"""Every required claim fails on a row that has its fault, and is undecided without rows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from deodar.papers.pointing import targets
+from deodar.papers.pointing.cycle import EVENTS, Cycle
+from deodar.papers.pointing.targets import claims
+from deodar.papers.pointing.trials import CASES, VARIANTS
+
+DISC = {"name": "red 1", "colour": "red", "radius": 0.04}
+EVENT_TIMES = {name: float(k) for k, name in enumerate(EVENTS)}
+CONTROL = {"peaks": 0, "highest": -1.0, "moved": 0.0}
+CYCLE: dict[str, Any] = {
+    "peaks": 1,
+    "highest": 3.0,
+    "moved": 0.2,
+    "events": EVENT_TIMES,
+    "ordered": True,
+    "two": 0.0,
+    "right": True,
+    "object": DISC,
+    "radius": 0.04,
+    "peak": [0.1, 0.2, 0.0, 0.11],
+    "miss": 0.02,
+    "miss_after": 0.01,
+}
+NOTHING = {**CONTROL, "events": {}, "ordered": False, "two": 0.0, "right": False, "peak": None}
+EXTRA = {
+    "moved": {"way": 0.1},
+    "jumped": {"way": 0.12},
+    "pushed": {"pushed": True},
+    "removed": {"gone": 0.3, "drift": 0.001, "cues on": 2},
+}
+
+
+def rows() -> dict[str, dict[str, Any]]:
+    """Return rows of 40 scenes and 50 trials of each case, without any fault."""
+    out: dict[str, dict[str, Any]] = {}
+
+    def add(condition: str, trial: int, name: str, row: dict[str, Any]) -> None:
+        key = f"{condition}/{trial} {name}".strip()
+        out[key] = {"key": key, "condition": condition, "trial": trial, **row}
+
+    for condition in ("scene", "beyond", *VARIANTS):
+        for k in range(40):
+            for name in ("camera", "red", "green", "left", "right"):
+                add(condition, k, name, CONTROL)
+            add(condition, k, "red left", {"matches": 1, "hidden": 0, **CYCLE})
+            add(condition, k, "red right", {"matches": 2, "hidden": 0, **CYCLE})
+            add(condition, k, "green left", {"matches": 0, "hidden": 0, **NOTHING})
+            add(condition, k, "green right", {"matches": 0, "hidden": 1, **CYCLE})
+    for case in CASES:
+        for k in range(50):
+            add(case, k, "", {**CYCLE, **EXTRA.get(case, {})})
+    return out
+
+
+def failing(found: dict[str, dict[str, Any]]) -> list[str]:
+    return [c.name for c in claims(found, False) if c.kind == "required" and c.holds is False]
+
+
+def test_rows_without_fault_hold_and_no_rows_decide_nothing():
+    found = [c for c in claims(rows(), False) if c.kind == "required"]
+    assert found and all(c.holds for c in found) and all(c.interval for c in found)
+    assert all(c.holds is None and c.value is None for c in claims({}, False))
+
+
+FAULTS = [
+    ("scene/{} camera", {"peaks": 1}, 3, "the camera alone"),
+    ("scene/{} left", {"peaks": 1}, 3, "one cue alone"),
+    ("scene/{} green left", {"peaks": 1, "peak": [0, 0, 0, 0.1]}, 3, "no match"),
+    ("scene/{} red left", {"right": False}, 3, "one match"),
+    ("scene/{} red left", {"ordered": False}, 3, "one match"),
+    ("scene/{} red right", {"peaks": 2}, 3, "several matches"),
+    ("scene/{} red left", {"miss": 0.05}, 3, "the tool is inside the rim at satisfaction"),
+    ("scene/{} red left", {"miss_after": None}, 3, "the tool is inside the rim 1 s later"),
+    ("scene/{} red left", {"events": {}}, 3, "everything is below threshold afterwards"),
+    ("equal/{}", {"peaks": 2}, 1, targets.WORDS["equal"]),
+    ("same/{}", {"ordered": False}, 3, targets.WORDS["same"]),
+    ("moved/{}", {"way": None}, 3, targets.WORDS["moved"]),
+    ("jumped/{}", {"miss_after": 0.12}, 3, targets.WORDS["jumped"]),
+    ("removed/{}", {"gone": None}, 3, targets.WORDS["removed"]),
+    ("removed/{}", {"drift": 0.02}, 3, targets.WORDS["removed"]),
+    ("removed/{}", {"cues on": 1}, 3, targets.WORDS["removed"]),
+    ("pushed/{}", {"pushed": False}, 3, targets.WORDS["pushed"]),
+    ("noisy/{}", {"right": False}, 3, targets.WORDS["noisy"]),
+    ("dim/{}", {"right": False}, 3, targets.WORDS["dim"]),
+    *[(name + "/{} camera", {"peaks": 1}, 5, name) for name in VARIANTS],
+    *[(name + "/{} red left", {"miss": 0.05}, 5, name) for name in VARIANTS],
+]
+
+
+@pytest.mark.parametrize(("key", "fault", "count", "name"), FAULTS)
+def test_a_fault_in_a_few_rows_fails_its_claim(key: str, fault: dict[str, Any], count: int, name: str):
+    found = rows()
+    for k in range(count):
+        found[key.format(k)] |= fault
+    assert [c for c in failing(found) if c.startswith(name)]
+
+
+@pytest.mark.parametrize("name", [name for name in EVENTS if name != "movement"])
+def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
+    assert Cycle(events=dict(EVENT_TIMES)).ordered
+    assert not Cycle(events={k: v for k, v in EVENT_TIMES.items() if k != name}).ordered
+    late = "rest" if name != "rest" else "cues"
+    swapped = {**EVENT_TIMES, name: EVENT_TIMES[late], late: EVENT_TIMES[name]}
+    assert name == "rest" or not Cycle(events=swapped).ordered
+    assert Cycle(events={k: v for k, v in EVENT_TIMES.items() if k != "movement"}).ordered

@@ -1,0 +1,48 @@
+"""One scene and special cases of the design, run: rows are complete and repeat."""
+
+from __future__ import annotations
+
+import pytest
+
+from deodar.papers import pointing
+from deodar.papers.pointing import targets, trials
+from deodar.papers.pointing.scenes import TUNING, scene
+from deodar.papers.pointing.table import Table
+
+
+def test_the_design_has_the_printed_counts_and_other_seeds_than_tuning():
+    quick, whole = pointing.jobs(True), pointing.jobs(False)
+    count = lambda jobs, name: sum(job.keys[0].startswith(f"{name}/") for job in jobs)  # noqa: E731
+    assert (count(quick, "scene"), count(whole, "scene")) == (20, 200)
+    assert all((count(quick, case), count(whole, case)) == (10, 50) for case in trials.CASES)
+    seeds = [job.arguments["seed"] for job in whole if "seed" in job.arguments]
+    assert min(seeds) > TUNING + 1000
+    keys = [key for job in whole for key in job.keys]
+    assert len(set(keys)) == len(keys)
+
+
+def test_a_scene_is_silent_or_selects_and_reaches_in_order_and_repeats():
+    found = trials.whole_scene("scene", 0, TUNING + 1)
+    assert [r["key"] for r in found[:2]] == ["scene/0 camera", "scene/0 red"]
+    assert all(r["peaks"] == 0 for r in found[:5])
+    pairs = {r["key"].partition(" ")[2]: r for r in found[5:]}
+    assert set(pairs) == {"red left", "red right", "green left", "green right"}
+    matched = [r for r in pairs.values() if r["matches"] == 1]
+    assert len(matched) >= 2 and all(targets.cycled(r) and targets.inside(r) for r in matched)
+    none = [r for r in pairs.values() if r["matches"] == 0 and not r["hidden"]]
+    assert none and all(targets.silent(r) for r in none)
+    job = next(job for job in pointing.jobs(True) if job.keys == tuple(f"removed/{k}" for k in [0]))
+    assert job.run() == job.run()
+
+
+@pytest.mark.parametrize("case", trials.CASES)
+def test_a_special_case_goes_as_it_has_to(case: str):
+    [row] = trials.special(case, 1)
+    assert targets.judged(row), row
+
+
+def test_the_same_architecture_points_with_another_arm():
+    at = Table(scene(TUNING + 1), 1, robot="four")
+    assert len(at.world.sense("joint_angles", (), 0.0)[0]) == 4
+    [row] = [r for r in trials.whole_scene("robot four", 0, TUNING + 1) if r["key"].endswith("red left")]
+    assert targets.cycled(row) and targets.inside(row)
