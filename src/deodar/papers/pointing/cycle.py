@@ -178,8 +178,10 @@ def _look(done: Cycle, at: Table, time: float, dt: float) -> None:
         done.settled = time > detected + SETTLING
 
 
-def control(at: Table, cues: Sequence[str] = ()) -> Cycle:
-    """Give no cue, or one, for a second, clear it again, and return the activation and peaks of that time."""
+def control(at: Table, cues: Sequence[str] = (), clears: bool = True) -> Cycle:
+    """Give no cue, or one, for a second, and return the activation and peaks of that time; with `clears`
+    the cue is cleared again.
+    """
     done, dt = Cycle(), at.session.dt / 1000
     start = at.world.tool()[:2]
     for k in range(QUIET):
@@ -191,7 +193,7 @@ def control(at: Table, cues: Sequence[str] = ()) -> Cycle:
             found = len(at.peaks())
             done.peaks, done.two = max(done.peaks, found), done.two + dt * COUNT * (found > 1)
     done.moved = math.dist(start, at.world.tool()[:2])
-    if cues:
+    if cues and clears:
         clear(at)
     return done
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -76,6 +76,8 @@ class Table:
         session: the session.
         discs: the objects of the scene by name.
         samples: samples of the perceptual field.
+        activation: activation of the perceptual field after the last step.
+        watch: called after each step.
     """
 
     def __init__(
@@ -103,6 +105,7 @@ class Table:
         ]
         self._reader = port_reader(self.session.program, self._places)
         self.activation = np.zeros(self.samples)
+        self.watch: Callable[[Moment], None] | None = None
 
     # ---------------------------------------------------------------------------------------------- the scene
 
@@ -142,7 +145,11 @@ class Table:
         u, c, *nodes = (np.asarray(arrays[place]) for place in self._places)
         self.activation = u
         x, y, _ = self.world.tool()
-        return Moment(session.time, float(u.max()), float(c.max()), tuple(float(n) for n in nodes), (x, y))
+        levels = tuple(float(n) for n in nodes)
+        now = Moment(session.time, float(u.max()), float(c.max()), levels, (x, y))
+        if self.watch is not None:
+            self.watch(now)
+        return now
 
     def cues_on(self) -> int:
         """Return how many cue nodes are on."""
