@@ -64,9 +64,10 @@ def kept(row: Row) -> Row:
 
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
-    """Return the claims."""
+    """Return the claims, and a table of them."""
     # start-up time: these bring JAX
     from deodar.papers._report import Report
     from deodar.papers.pointing import targets
 
-    return Report(targets.claims(rows, quick))
+    claims = targets.claims(rows, quick)
+    return Report(claims, tables={"claims": targets.table(claims)}, numbers=targets.numbers(claims))

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from deodar.errors import ParameterError
 from deodar.papers import Demonstration, Show
-from deodar.parameters import show as shown
 
 HELP = "an arm points at the green object on the left, then at the red one on the right (extra robots)"
 
@@ -57,7 +56,7 @@ def _pair(words: str) -> tuple[str, str]:
     parts = words.split()
     if len(parts) != 2 or parts[0] not in COLOURS or parts[1] not in SIDES:
         raise ParameterError(
-            f"--ask is {shown(words)}; expected a colour and a side",
+            f"--ask is {words!r}; expected a colour and a side",
             fix=f"One of {', '.join(COLOURS)}, then one of {', '.join(SIDES)}: --ask 'green left'",
         )
     return parts[0], parts[1]

@@ -10,6 +10,7 @@ from deodar.analysis import statistics
 from deodar.analysis.claims import Claim
 from deodar.architectures.pointing import CUES
 from deodar.experiments.rows import Row
+from deodar.papers._report import NOT_RUN
 from deodar.papers.pointing.trials import CASES, VARIANTS
 
 SOURCE = "Lomp et al. (2016), Front. Neurorobot. 10:14"
@@ -86,6 +87,29 @@ def _of_scenes(rows: Sequence[Row], prefix: str, quick: bool, required: bool) ->
     text = f"{prefix}distance of the tool from the middle of the object, cm: median and largest"
     value = [round(float(np.median(misses)), 2), round(max(misses), 2)] if misses else None
     return [*out, Claim(text, value, "none", None, "reported", n=len(misses), origin="none")]
+
+
+def table(found: Sequence[Claim]) -> str:
+    """Return the claims as a table in Markdown: share, number of runs, 95 % interval, target."""
+    lines = ["| claim | share | runs | 95 % interval | target |", "|---|---|---|---|---|"]
+    for claim in found:
+        if claim.interval is None and not isinstance(claim.value, float):
+            continue
+        share = "-" if claim.value is None else f"{100 * float(str(claim.value)):.1f} %"
+        between = "-" if claim.interval is None else " to ".join(f"{100 * v:.1f}" for v in claim.interval)
+        target = f"{claim.target}" if claim.kind == "required" else "reported"
+        lines.append(f"| {claim.name} | {share} | {claim.n} | {between} % | {target} |")
+    return "\n".join(lines)
+
+
+def numbers(found: Sequence[Claim]) -> dict[str, str]:
+    """Return what the manual states: the table, and the distances of the tool."""
+    out = {"claims": table(found)}
+    for claim in found:
+        if isinstance(claim.value, list) and claim.name.startswith("distance"):
+            median, largest = claim.value
+            out |= {"median": f"{median} cm", "largest": f"{largest} cm"}
+    return {"median": NOT_RUN, "largest": NOT_RUN, **out}
 
 
 def silent(row: Row) -> bool:
