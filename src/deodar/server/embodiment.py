@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import contextlib
 import dataclasses as dc
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -15,7 +16,7 @@ import numpy as np
 from deodar import registry
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.errors import Problem, WorldError, did_you_mean
+from deodar.errors import MissingExtra, Problem, WorldError, did_you_mean
 from deodar.kinds.world_settings import require_settings
 from deodar.model.document import Document
 from deodar.numerics.axes import Axis
@@ -62,7 +63,8 @@ class Embodiment:
                 return known
         for cls in registry.kinds("worlds").values():
             if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}:
-                with errors_of(cls, "examples"):
+                # a world of an extra that is not installed stands in for none
+                with contextlib.suppress(MissingExtra), errors_of(cls, "examples"):
                     return _best(cls.examples(), doc)
         return self.chosen
 

@@ -33,6 +33,17 @@ GAP = 0.0005
 """Height above the plane at which a moved object is put down, m."""
 
 
+PICTURE = Signal("picture: columns from the left, rows from the top, and red, green, blue", each=True)
+TOOL_SENSORS = {
+    "tool": Signal("x, y and z of the tool", (3,), "m", each=True),
+    "tool_plane": Signal("x and y of the tool", (2,), "m", each=True),
+}
+TOOL_MOTORS = {
+    "tool_velocity": Signal("velocity of the tool along x, y and z", (3,), "m/s", each=True),
+    "tool_plane": Signal("velocity of the tool along x and y; it keeps its height", (2,), "m/s", each=True),
+}
+
+
 @register
 class MuJoCo(World):
     r"""A scene with real physics: any file in the format of MuJoCo (MJCF), and a robot in it.
@@ -69,7 +80,13 @@ class MuJoCo(World):
         (2016), Front. Neurorobot. 10:14, section 2.5.2.
     """
 
-    stands_in = False
+    sensors: Mapping[str, Signal] = {
+        "joint_angles": Signal("position of each hinge and slide", each=True),
+        "joint_velocities": Signal("velocity of each hinge and slide", each=True),
+        "camera": PICTURE,
+        **TOOL_SENSORS,
+    }
+    motors: Mapping[str, Signal] = TOOL_MOTORS
     opens = (".xml",)
 
     def __init__(
@@ -166,11 +183,7 @@ class MuJoCo(World):
             sensors["joint_velocities"] = Signal("velocity of each hinge and slide", (joints,), each=True)
         frame = self.camera_every * float(self.period or 0) if self.camera_every > 1 else None
         for k in range(model.ncam):
-            sensors[model.camera(k).name] = Signal(
-                "picture: columns from the left, rows from the top, and red, green, blue",
-                period=frame,
-                each=True,
-            )
+            sensors[model.camera(k).name] = replace(PICTURE, period=frame)
         motors = {
             model.actuator(k).name: Signal(
                 "actuator of the scene",
@@ -182,12 +195,8 @@ class MuJoCo(World):
             if model.actuator(k).name
         }
         if self.arm is not None:
-            sensors["tool"] = Signal("x, y and z of the tool", (3,), "m", each=True)
-            sensors["tool_plane"] = Signal("x and y of the tool", (2,), "m", each=True)
-            motors["tool_velocity"] = Signal("velocity of the tool along x, y and z", (3,), "m/s", each=True)
-            motors["tool_plane"] = Signal(
-                "velocity of the tool along x and y; it keeps its height", (2,), "m/s", each=True
-            )
+            sensors |= TOOL_SENSORS
+            motors |= TOOL_MOTORS
         return sensors, motors
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
@@ -516,10 +525,16 @@ class MuJoCo(World):
 
     @classmethod
     def example(cls) -> MuJoCo:
-        """Return the table with two coloured objects."""
-        world = cls("table", pixel_noise=0.02, tool_noise=0.002)
-        world.place("red", (-0.2, 0.3), (0.08, 0.08), (0.85, 0.1, 0.1))
-        world.place("green", (0.15, 0.4), (0.07, 0.07), (0.1, 0.75, 0.1))
+        """Return the table with four coloured objects, with noise of the camera and of the tool's place."""
+        world = cls("table", pixel_noise=0.03, tool_noise=0.002)
+        red, green = (0.8, 0.12, 0.12), (0.12, 0.8, 0.12)
+        for name, place, color in (
+            ("red left", (-0.14, 0.18), red),
+            ("green left", (-0.22, 0.4), green),
+            ("red right", (0.27, 0.45), red),
+            ("green right", (0.2, 0.22), green),
+        ):
+            world.place(name, place, (0.08, 0.08), color)
         return world
 
     @staticmethod

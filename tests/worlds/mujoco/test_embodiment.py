@@ -1,0 +1,19 @@
+"""The table stands in for a model that points, where the user chose no world and the extra is installed."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+import deodar as dd
+from deodar.server.embodiment import Embodiment
+
+
+def test_a_model_that_points_gets_the_table_and_another_model_does_not(monkeypatch: pytest.MonkeyPatch):
+    document = dd.architectures.pointing().document
+    assert isinstance(Embodiment(None).world(document), dd.MuJoCo)
+    colours = dd.load("example:color_search").document
+    assert isinstance(Embodiment(None).world(colours), dd.Arena)
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    assert Embodiment(None).world(document) is None
