@@ -63,7 +63,7 @@ class Embodiment:
                 return known
         for cls in registry.kinds("worlds").values():
             if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}:
-                # a world of an extra that is not installed stands in for none
+                # without the extra of a world there is no example of it
                 with contextlib.suppress(MissingExtra), errors_of(cls, "examples"):
                     return _best(cls.examples(), doc)
         return self.chosen

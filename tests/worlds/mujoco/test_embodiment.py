@@ -1,4 +1,4 @@
-"""The table stands in for a model that points, where the user chose no world and the extra is installed."""
+"""A model that points is opened with the table, where no world was chosen and the extra is installed."""
 
 from __future__ import annotations
 
