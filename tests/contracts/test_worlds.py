@@ -57,6 +57,7 @@ def test_the_scene_lies_inside_its_border(kind):
             world.move("anything", (0.0, 0.0))
         return
     left, low, right, high = scene.border
+    assert all(type(edge) is float for edge in scene.border), "the page reads plain numbers"
     assert left < right and low < high and scene.bodies
     for body in scene.bodies:
         assert left <= body.center[0] <= right and low <= body.center[1] <= high and body.radius > 0

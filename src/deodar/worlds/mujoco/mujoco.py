@@ -189,7 +189,7 @@ class MuJoCo(World):
                 "actuator of the scene",
                 (),
                 each=True,
-                bounds=(tuple(model.actuator_ctrlrange[k]),) if model.actuator_ctrllimited[k] else None,
+                bounds=(_pair(model.actuator_ctrlrange[k]),) if model.actuator_ctrllimited[k] else None,
             )
             for k in range(model.nu)
             if model.actuator(k).name
@@ -426,9 +426,9 @@ class MuJoCo(World):
             x, y = (float(v) for v in data.xpos[1][:2])
             bodies = (SceneBody(self.model.body(1).name or "body", (x, y), 0.0, 0.05),)
             places.append([x, y])
-        low, high = self._border()
-        inside = np.array([low, high, *places])
-        return Scene("m", (*inside.min(axis=0), *inside.max(axis=0)), tuple(boxes), (), bodies)
+        inside = np.array([*self._border(), *places])
+        left, low, right, high = (float(v) for v in (*inside.min(axis=0), *inside.max(axis=0)))
+        return Scene("m", (left, low, right, high), tuple(boxes), (), bodies)
 
     def _border(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return the corners of the geom `table`, else of a square of 1 m."""
@@ -559,6 +559,11 @@ def _carry_over(before: Any, old: Any, model: Any, new: Any) -> None:
             getattr(new, name)[i : i + width] = getattr(old, name)[j : j + width]
     new.time = old.time
     mujoco.mj_forward(model, new)
+
+
+def _pair(values: Any) -> tuple[float, float]:
+    low, high = (float(v) for v in values)
+    return low, high
 
 
 def _number(name: str, given: Any, above: float | None = None) -> float:
