@@ -14,11 +14,11 @@ Reference:
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
+from deodar.architectures._noise import strength as strength_of_noise
 from deodar.couplings.attractor_velocity import AttractorVelocity
 from deodar.couplings.color_space import ColorSpace
 from deodar.couplings.convolve import Convolve
@@ -32,7 +32,7 @@ from deodar.elements.field import Field
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Handle, Model
-from deodar.numerics.axes import Axis, cell
+from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.logistic import Logistic
 
@@ -144,7 +144,7 @@ def pointing(
             sigmoid=sigmoid,
             kernel=[Gaussian(18.0, (0.03, 0.03, 18.0), normalized=True)],
             global_inhibition=26.0,
-            noise=_noise(noise, TAU, [x, y, hue]),
+            noise=strength_of_noise(noise, TAU, [x, y, hue]),
             quadrature=QUADRATURE,
         )
     )
@@ -157,7 +157,7 @@ def pointing(
             sigmoid=sigmoid,
             kernel=[Gaussian(12.0, 0.025, normalized=True)],
             global_inhibition=500.0,
-            noise=_noise(noise, TAU, plane),
+            noise=strength_of_noise(noise, TAU, plane),
             quadrature=QUADRATURE,
         )
     )
@@ -218,13 +218,8 @@ def _cue(model: Model, name: str, noise: float) -> Handle:
             resting_level=-1.2,
             sigmoid=Logistic(beta=NODE_STEEP),
             kernel=[Gaussian(2.4)],
-            noise=_noise(noise, NODE_TAU, []),
+            noise=strength_of_noise(noise, NODE_TAU, []),
         )
     )
     model.add(Boost(f"say {name}", [], 0.0)) >> node
     return node
-
-
-def _noise(still: float, tau: float, axes: Sequence[Axis]) -> float:
-    """Return the strength at which noise has a standard deviation at each sample without interaction."""
-    return still * math.sqrt(2 * tau * cell(axes))

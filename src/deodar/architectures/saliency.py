@@ -12,8 +12,7 @@ References:
 
 from __future__ import annotations
 
-import math
-
+from deodar.architectures._noise import strength as strength_of_noise
 from deodar.couplings.color_space import ColorSpace
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.gain import Gain
@@ -23,7 +22,7 @@ from deodar.elements.field import Field
 from deodar.elements.gaussian_stimulus import GaussianStimulus
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model
-from deodar.numerics.axes import Axis, cell
+from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.windows import Window
@@ -95,7 +94,7 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
             sigmoid=sigmoid,
             kernel=[Gaussian(18.0, (3.0, 3.0, 18.0), normalized=True)],
             global_inhibition=2.6e-3,
-            noise=_noise([x, y, hues]),
+            noise=strength_of_noise(STILL, TAU, [x, y, hues]),
             quadrature=QUADRATURE,
         )
     )
@@ -115,7 +114,7 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
             resting_level=-3.0,
             sigmoid=sigmoid,
             kernel=[Gaussian(4.0, 18.0, normalized=True)],
-            noise=_noise([hues]),
+            noise=strength_of_noise(STILL, TAU, [hues]),
             quadrature=QUADRATURE,
         )
     )
@@ -125,8 +124,8 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
     spatial = model.add(
         Field(
             "spatial", [x, y], tau=TAU, resting_level=-5.0, sigmoid=sigmoid,
-            kernel=[Gaussian(12.0, 2.5, normalized=True)], global_inhibition=0.05, noise=_noise([x, y]),
-            quadrature=QUADRATURE,
+            kernel=[Gaussian(12.0, 2.5, normalized=True)], global_inhibition=0.05,
+            noise=strength_of_noise(STILL, TAU, [x, y]), quadrature=QUADRATURE,
         )
     )  # fmt: skip
     (
@@ -139,8 +138,3 @@ def saliency(hue: float = 0.0, cue: float = 6.0) -> Model:
     for name, axis in (("pan", x), ("tilt", y)):
         spatial >> model.add(Attractor(name, axis, tau=20_000.0, initial=SIDE / 2))
     return model
-
-
-def _noise(axes: list[Axis]) -> float:
-    """Return the strength at which a field's noise has the standard deviation STILL at each sample."""
-    return STILL * math.sqrt(2 * TAU * cell(axes))

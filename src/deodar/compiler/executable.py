@@ -311,7 +311,7 @@ class Executable:
                 return one(values, seed, trial[0])
 
         if self.batch.points is None:
-            return many({**values, "swept": ()}, seed, trials)
+            return many(_unswept(values), seed, trials)
         return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
 
     def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> ChunkResult:
@@ -358,7 +358,7 @@ class Executable:
             # also for models without state and noise
             one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials)
         if self.batch.points is None:
-            return one({**values, "swept": ()}, constants, state, keys)
+            return one(_unswept(values), constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
         return jax.vmap(one, in_axes=(self._swept_axes(values), rebuilt, 0, 0))(
             values, constants, state, keys

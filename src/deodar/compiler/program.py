@@ -211,11 +211,7 @@ class Program:
 
     def unseen(self) -> dict[str, np.ndarray]:
         """Return the outputs of `look` before a picture is seen: zeros."""
-        groups = self.plan.groups
-        return {
-            f"{SEEN}{key}": np.zeros((groups[g].rows, *shape(groups[g].like.outs[port])), self.dtype)
-            for key, (g, port) in self._keys(self.pictured).items()
-        }
+        return {f"{SEEN}{key}": np.zeros(of, self.dtype) for key, of in self._shapes(self.pictured).items()}
 
     @functools.cached_property
     def pictures(self) -> list[str]:
@@ -268,12 +264,8 @@ class Program:
 
     def unperceived(self) -> Arrays:
         """Return what follows from readings before the first is made."""
-        keys = self._keys([call for calls in self.sensory.values() for call in calls])
-        groups = self.plan.groups
-        return {
-            key: jnp.zeros((groups[g].rows, *shape(groups[g].like.outs[port])), self.dtype)
-            for key, (g, port) in keys.items()
-        }
+        shapes = self._shapes([call for calls in self.sensory.values() for call in calls])
+        return {key: jnp.zeros(of, self.dtype) for key, of in shapes.items()}
 
     def perceive(
         self, chunk: Chunk, state: ProgramState, tick: Array, start: Array, perceived: Arrays
@@ -305,6 +297,14 @@ class Program:
         """Return the group and port of each output of sensory groups, by the key of its values."""
         slots = [(c.group, port) for c in calls for port in self.plan.groups[c.group].like.outs]
         return {array_key(g, port): (g, port) for g, port in slots}
+
+    def _shapes(self, calls: Sequence[Call]) -> dict[str, tuple[int, ...]]:
+        """Return the shape of each of these outputs, by its key."""
+        groups = self.plan.groups
+        return {
+            key: (groups[g].rows, *shape(groups[g].like.outs[port]))
+            for key, (g, port) in self._keys(calls).items()
+        }
 
     def _perceived(self, perceived: Arrays) -> Buffers:
         """Return what follows from readings as buffers."""

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from deodar.analysis import statistics
 from deodar.analysis.claims import Claim
 from deodar.architectures.pointing import CUES
 from deodar.experiments.rows import Row
 from deodar.papers._report import NOT_RUN
+from deodar.papers._shares import reported_share, required_share
 from deodar.papers.pointing.trials import CASES, VARIANTS
 
 SOURCE = "Lomp et al. (2016), Front. Neurorobot. 10:14"
@@ -42,13 +42,12 @@ def claims(rows: Mapping[str, Row], quick: bool) -> list[Claim]:
         of = [r for r in found if r["condition"] == case]
         least = 1.0 if case == "equal" else CASE
         source = FIGURE_8 if case == "equal" else FIGURE_11
-        out.append(_share(WORDS[case], [judged(r) for r in of], least, source, quick))
+        out.append(required_share(WORDS[case], [judged(r) for r in of], least, source, quick))
     for name in VARIANTS:
         of = [r for r in found if r["condition"] == name]
         if not quick:
-            out.append(
-                _share(f"{name}: {EVERYTHING}", [_good(r) for r in of if _counts(r)], RIGHT, "", quick)
-            )
+            good = [_good(r) for r in of if _counts(r)]
+            out.append(required_share(f"{name}: {EVERYTHING}", good, RIGHT, "", quick))
     beyond = [r for r in found if r["condition"] == "beyond"]
     return [*out, *(_of_scenes(beyond, "beyond the range: ", quick, required=False) if not quick else [])]
 
@@ -65,24 +64,18 @@ def _of_scenes(rows: Sequence[Row], prefix: str, quick: bool, required: bool) ->
         ("the camera alone: no peak", [r["peaks"] == 0 for r in rows if _is(r, "camera")], SILENT, FIGURE_8),
         ("one cue alone: no peak", [r["peaks"] == 0 for r in rows if _is(r, *CUES)], SILENT, FIGURE_8),
         ("no match: no peak", [silent(r) for r in pairs if _unmatched(r)], SILENT, FIGURE_8),
-        (
-            "one match: the right object, in order",
-            [cycled(r) for r in one],
-            RIGHT,
-            FIGURE_11,
-        ),
+        ("one match: the right object, in order", [cycled(r) for r in one], RIGHT, FIGURE_11),
         ("several matches: exactly one, right, in order", [single(r) for r in more], RIGHT, FIGURE_8),
-        (
-            "the tool is inside the rim at satisfaction",
-            [inside(r) for r in reached],
-            RIGHT,
-            "",
-        ),
+        ("the tool is inside the rim at satisfaction", [inside(r) for r in reached], RIGHT, ""),
         ("the tool is inside the rim 1 s later", [inside(r, "miss_after") for r in reached], RIGHT, ""),
         ("everything is below threshold afterwards", [_rests(r) for r in (*one, *more)], RIGHT, FIGURE_11),
     ]
-    make: Callable[..., Claim] = _share if required else _reported
-    out = [make(prefix + name, true, least, source, quick) for name, true, least, source in table]
+    out = [
+        required_share(prefix + name, true, least, source, quick)
+        if required
+        else reported_share(prefix + name, true, source)
+        for name, true, least, source in table
+    ]
     misses = [100 * r["miss"] for r in reached]
     text = f"{prefix}distance of the tool from the middle of the object, cm: median and largest"
     value = [round(float(np.median(misses)), 2), round(max(misses), 2)] if misses else None
@@ -170,26 +163,3 @@ def _rests(row: Row) -> bool:
 
 def _is(row: Row, *names: str) -> bool:
     return row["key"].rpartition("/")[2].partition(" ")[2] in names
-
-
-def _share(name: str, true: Sequence[bool], least: float, source: str, quick: bool) -> Claim:
-    hits, n = sum(true), len(true)
-    interval = statistics.wilson(hits, n) if n else None
-    if least == 1.0:
-        holds = None if not n else hits == n
-    else:
-        holds = statistics.decided(hits / n if n else None, interval, n, least, 1.0, quick)
-    value = round(hits / n, 4) if n else None
-    return Claim(
-        name, value, f">= {least:g}", holds, "required", source, n, _rounded(interval), origin="ours"
-    )
-
-
-def _reported(name: str, true: Sequence[bool], least: float, source: str, quick: bool) -> Claim:
-    interval = statistics.wilson(sum(true), len(true)) if true else None
-    value = round(sum(true) / len(true), 4) if true else None
-    return Claim(name, value, "none", None, "reported", source, len(true), _rounded(interval), origin="none")
-
-
-def _rounded(interval: tuple[float, float] | None) -> tuple[float, float] | None:
-    return None if interval is None else (round(interval[0], 4), round(interval[1], 4))

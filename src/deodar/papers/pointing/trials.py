@@ -11,9 +11,9 @@ import numpy as np
 from deodar.architectures.pointing import COLOURS, CUES, SIDES
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.papers.pointing.cycle import Cycle, Hook, clear, control, run_cycle
+from deodar.papers.pointing.cycle import COUNT, ON, SETTLING, Cycle, Hook, clear, control, run_cycle
 from deodar.papers.pointing.scenes import BAND, BEYOND, SERVED, TEST, Disc, equal_pair, scene
-from deodar.papers.pointing.table import Table
+from deodar.papers.pointing.table import SPEECH, Table
 
 SCENES, QUICK_SCENES = 200, 20
 EACH, QUICK_EACH = 50, 10
@@ -137,16 +137,16 @@ def _held(at: Table, pair: Sequence[str]) -> Cycle:
     at.session.set("target strength.factor", 0.0)
     done, dt = Cycle(), at.session.dt / 1000
     for k in range(round((LONG + 1.0) / dt)):
-        at.say(pair if k * dt < 0.4 else ())
+        at.say(pair if k < SPEECH else ())
         now = at.step()
         done.highest = max(done.highest, now.perceptual)
-        if now.perceptual > 1.0:
+        if now.perceptual > ON:
             done.events.setdefault("detection", k * dt)
         detected = done.events.get("detection")
-        if detected is not None and k % 5 == 0 and k * dt > detected + 0.1:
+        if detected is not None and k % COUNT == 0 and k * dt > detected + SETTLING:
             peaks = at.peaks()
             done.peaks = max(done.peaks, len(peaks))
-            done.two += 5 * dt * (len(peaks) > 1)
+            done.two += COUNT * dt * (len(peaks) > 1)
             if done.peak is None and peaks:
                 done.peak, done.object = peaks[0], at.nearest(peaks[0])
             if k * dt > detected + LONG:

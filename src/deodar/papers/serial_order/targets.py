@@ -11,6 +11,7 @@ from deodar.analysis import statistics
 from deodar.analysis.claims import Claim, ClaimKind
 from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
+from deodar.papers._shares import reported_share, required_share
 from deodar.papers.serial_order import sentences
 from deodar.papers.serial_order.conditions import BACK, CARRIED, WITHHELD, conditions
 
@@ -46,7 +47,7 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
     def share(
         name: str, rows: Sequence[Row], true: Callable[[Row], bool], least: float, source: str
     ) -> Claim:
-        return _share(name, [true(row) for row in rows], least, source, quick)
+        return required_share(name, [true(row) for row in rows], least, source, quick)
 
     return [
         share("a sequence is learned", taught, lambda r: r["right"], 0.99, f"{SOURCE}, sections 6.1 and 6.5"),
@@ -57,7 +58,9 @@ def _required(found: RowsOfConditions, quick: bool) -> list[Claim]:
             f"{SOURCE}, section 6.2",
         ),
         share("production complete within 600 s", found["arena"], _complete, 0.95, f"{SOURCE}, section 6.2"),
-        _share("all transitions in the order of section 4.4", steps, 1.0, f"{SOURCE}, section 4.4", quick),
+        required_share(
+            "all transitions in the order of section 4.4", steps, 1.0, f"{SOURCE}, section 4.4", quick
+        ),
         share("production on the ring, without search", found["ring"], _complete, 1.0, NONE),
         share(
             f"a block is taken away for {BACK:g} s: the vehicle looks for it until it is back, and completes"
@@ -178,17 +181,6 @@ def _apart(name: str) -> bool:
     return name in ("learning", "clutter", "ring") or name.startswith("vary/")
 
 
-def _share(name: str, true: Sequence[bool], least: float, source: str, quick: bool) -> Claim:
-    hits, n = sum(true), len(true)
-    interval = statistics.wilson(hits, n) if n else None
-    if least == 1.0:
-        holds = None if not n else hits == n
-    else:
-        holds = statistics.decided(hits / n if n else None, interval, n, least, 1.0, quick)
-    value = round(hits / n, 4) if n else None
-    return Claim(name, value, f">= {least:g}", holds, "required", source, n, rounded(interval), origin="ours")
-
-
 def _none(name: str, true: Sequence[bool], source: str) -> Claim:
     """Return the claim that something occurs in no run; the interval is that of its share."""
     interval = statistics.wilson(sum(true), len(true)) if true else None
@@ -200,10 +192,7 @@ def _none(name: str, true: Sequence[bool], source: str) -> Claim:
 
 def _share_only(name: str, true: Sequence[bool], section: str, source: str = SOURCE) -> Claim:
     """Return a share without a target."""
-    interval = statistics.wilson(sum(true), len(true)) if true else None
-    value = round(sum(true) / len(true), 4) if true else None
-    where = f"{source}, {section}" if section else source
-    return Claim(name, value, "none", None, "reported", where, len(true), rounded(interval), origin="none")
+    return reported_share(name, true, f"{source}, {section}" if section else source)
 
 
 def _value(name: str, value: float | None, n: int, source: str) -> Claim:

@@ -22,11 +22,12 @@ from deodar.element import Arrays
 from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
-from deodar.parameters import real, show
+from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
+from deodar.worlds._settings import number, periods
 from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.camera import picture_rays, surfaces
 from deodar.worlds.arena.contact import move
@@ -218,10 +219,10 @@ class Arena(PureWorld):
             raise WorldError(f"contact is {show(contact)}", fix=did_you_mean(str(contact), CONTACTS))
         self.unit, self.scale, self.contact = unit, UNITS[unit], contact
         self.vehicle = vehicle_of(vehicle)
-        self.period = _number("period", period, above=0.0)
-        self.reflection = _number("reflection", reflection, above=0.0)
-        self.place_every = _periods("place_every", place_every)
-        self.camera_every = _periods("camera_every", camera_every)
+        self.period = number("period", period, above=0.0)
+        self.reflection = number("reflection", reflection, above=0.0)
+        self.place_every = periods("place_every", place_every)
+        self.camera_every = periods("camera_every", camera_every)
         given = {
             "place_noise": place_noise,
             "infrared_noise": infrared_noise,
@@ -232,7 +233,7 @@ class Arena(PureWorld):
             "outliers": outliers,
             "clutter": clutter,
         }
-        self.noise = {name: _number(name, value) for name, value in given.items()}
+        self.noise = {name: number(name, value) for name, value in given.items()}
         for name in SHARES:
             if self.noise[name] > 1:
                 raise WorldError(f"{name} is {show(given[name])}; expected a share, from 0 to 1")
@@ -714,19 +715,3 @@ class Arena(PureWorld):
 def _there(own: ArenaCopy, tick: Array) -> Array:
     now = tick.astype(jnp.int32)
     return (own["windows"][:, 0] <= now) & (now < own["windows"][:, 1])
-
-
-def _periods(name: str, given: Any) -> int:
-    if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or given < 1:
-        raise WorldError(f"{name} is {show(given)}; expected a whole number of periods, at least 1")
-    return int(given)
-
-
-def _number(name: str, given: Any, above: float | None = None) -> float:
-    value = real(given)
-    if value is None or not math.isfinite(value) or value < 0 or (above is not None and value <= above):
-        raise WorldError(
-            f"{name} is {show(given)}; expected a finite number,"
-            f" {'above 0' if above is not None else '0 or above'}"
-        )
-    return float(value)

@@ -19,6 +19,7 @@ from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._scene import Scene, SceneBody, SceneBox, pair
+from deodar.worlds._settings import number, periods
 from deodar.worlds.mujoco import camera as pictures
 from deodar.worlds.mujoco.objects import PlacedObject
 from deodar.worlds.mujoco.reach import Arm
@@ -101,15 +102,11 @@ class MuJoCo(World):
     ) -> None:
         self.files = SceneFile.find(scene, robot)
         self.source = str(scene), None if robot is None else str(robot)
-        self.period = _number("period", period, above=0.0)
-        if isinstance(camera_every, bool) or not isinstance(camera_every, int) or camera_every < 1:
-            raise WorldError(
-                f"camera_every is {show(camera_every)}; expected a whole number of periods, at least 1"
-            )
-        self.camera_every = camera_every
-        self.pixel_noise = _number("pixel_noise", pixel_noise)
-        self.tool_noise = _number("tool_noise", tool_noise)
-        self.light = _number("light", light)
+        self.period = number("period", period, above=0.0)
+        self.camera_every = periods("camera_every", camera_every)
+        self.pixel_noise = number("pixel_noise", pixel_noise)
+        self.tool_noise = number("tool_noise", tool_noise)
+        self.light = number("light", light)
         self.objects: dict[str, PlacedObject] = {}
         self._seed, self._trials, self._tick = 0, (0,), 0
         self._build()
@@ -564,13 +561,3 @@ def _carry_over(before: Any, old: Any, model: Any, new: Any) -> None:
 def _pair(values: Any) -> tuple[float, float]:
     low, high = (float(v) for v in values)
     return low, high
-
-
-def _number(name: str, given: Any, above: float | None = None) -> float:
-    value = real(given)
-    if value is None or not math.isfinite(value) or value < 0 or (above is not None and value <= above):
-        raise WorldError(
-            f"{name} is {show(given)}; expected a finite number,"
-            f" {'above 0' if above is not None else '0 or above'}"
-        )
-    return float(value)
