@@ -78,6 +78,28 @@ test("what is selected is copied, pasted, cut and duplicated, with its connectio
   await observer.until(() => paths() === "a,b,b2,u");
 });
 
+test("a paste right after a copy waits for its text, however late the server answers", async () => {
+  const { page } = studio;
+  await page.keyboard.press("Escape");
+  await page.evaluate(() => navigator.clipboard.writeText("an older text"));
+  await page.evaluate(() => {
+    const send = WebSocket.prototype.send;
+    WebSocket.prototype.send = function (this: WebSocket, data: string) {
+      if (data.includes('"type":"copy"')) setTimeout(() => send.call(this, data), 1500);
+      else send.call(this, data);
+    };
+  });
+  const before = paths();
+  await select(page, "u");
+  await page.keyboard.press("Control+c");
+  await page.keyboard.press("Control+v");
+  await observer.until(() => paths() === `${before},u2`);
+  await page.keyboard.press("Control+z");
+  await observer.until(() => paths() === before);
+  await page.reload();
+  await box(page, "u").waitFor();
+});
+
 test("a copy goes to another window as text, and foreign text is refused as a whole", async () => {
   const { page, another } = studio;
   await select(page, "u");

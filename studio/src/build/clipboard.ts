@@ -17,6 +17,8 @@ const APART = 32;
 
 // The text that was copied last, where the clipboard cannot be read.
 let last = "";
+// The copy that still waits for the server: a paste right after it waits too, and pastes its text.
+let copying: Promise<boolean> | null = null;
 // Whether this module writes to the clipboard by the old command, which is an event too.
 let writing = false;
 
@@ -29,7 +31,17 @@ async function selectedText(): Promise<string> {
   return (await request({ type: "copy", elements, groups })).text ?? "";
 }
 
-export async function copy(): Promise<boolean> {
+export function copy(): Promise<boolean> {
+  const mine = copySelected().finally(() => {
+    if (copying === mine) {
+      copying = null;
+    }
+  });
+  copying = mine;
+  return mine;
+}
+
+async function copySelected(): Promise<boolean> {
   const text = await selectedText();
   if (text !== "") {
     last = text;
@@ -49,7 +61,8 @@ export async function paste(text?: string): Promise<void> {
   if (!isEditable() || stage === null) {
     return;
   }
-  const content = text ?? (await read());
+  const copied = (await copying?.catch(() => false)) ?? false;
+  const content = copied ? last : (text ?? (await read()));
   if (content.trim() === "") {
     useStudio.getState().notify({ what: "The clipboard holds no elements." }, "info");
     return;
