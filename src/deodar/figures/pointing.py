@@ -31,7 +31,7 @@ class DrawnDisc(Protocol):
     def rgb(self) -> tuple[float, float, float]: ...
 
 
-class DrawnView(Protocol):
+class DrawnTableView(Protocol):
     """A moment: the camera's picture, the maximum of the perceptual field along hue, the tool's place."""
 
     @property
@@ -58,7 +58,7 @@ class DrawnMoment(Protocol):
 
 
 def pointing_figure(
-    views: Sequence[DrawnView],
+    views: Sequence[DrawnTableView],
     moments: Sequence[DrawnMoment],
     cycles: Sequence[tuple[float, str]],
     distances: Sequence[float],

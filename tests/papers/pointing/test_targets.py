@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from deodar.papers.pointing import targets
-from deodar.papers.pointing.cycle import EVENTS, Cycle
+from deodar.papers.pointing.cycle import EVENTS, PointingCycle
 from deodar.papers.pointing.targets import claims
 from deodar.papers.pointing.trials import CASES, VARIANTS
 
@@ -104,9 +104,9 @@ def test_a_fault_in_a_few_rows_fails_its_claim(key: str, fault: dict[str, Any], 
 
 @pytest.mark.parametrize("name", [name for name in EVENTS if name != "movement"])
 def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
-    assert Cycle(events=dict(EVENT_TIMES)).ordered
-    assert not Cycle(events={k: v for k, v in EVENT_TIMES.items() if k != name}).ordered
+    assert PointingCycle(events=dict(EVENT_TIMES)).ordered
+    assert not PointingCycle(events={k: v for k, v in EVENT_TIMES.items() if k != name}).ordered
     late = "rest" if name != "rest" else "cues"
     swapped = {**EVENT_TIMES, name: EVENT_TIMES[late], late: EVENT_TIMES[name]}
-    assert name == "rest" or not Cycle(events=swapped).ordered
-    assert Cycle(events={k: v for k, v in EVENT_TIMES.items() if k != "movement"}).ordered
+    assert name == "rest" or not PointingCycle(events=swapped).ordered
+    assert PointingCycle(events={k: v for k, v in EVENT_TIMES.items() if k != "movement"}).ordered

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from deodar.architectures.pointing import CUES, USER
 from deodar.papers.pointing.scenes import Disc
-from deodar.papers.pointing.table import SPEECH, Moment, Peak, Table
+from deodar.papers.pointing.table import SPEECH, HuePeak, Moment, Table
 
 ON = 1.0
 """Activation from which a peak of a field counts as detected, above fluctuations at the threshold."""
@@ -44,7 +44,7 @@ Hook = Callable[[Table, float, Mapping[str, float]], None]
 
 
 @dataclass
-class Cycle:
+class PointingCycle:
     """What happened in a cycle; times in s from the first cue, lengths in m.
 
     Attributes:
@@ -61,7 +61,7 @@ class Cycle:
     """
 
     events: dict[str, float] = field(default_factory=dict[str, float])
-    peak: Peak | None = None
+    peak: HuePeak | None = None
     object: Disc | None = None
     two: float = 0.0
     peaks: int = 0
@@ -94,7 +94,7 @@ def run_cycle(
     longest: float = 8.0,
     no_match: float = 2.0,
     hook: Hook | None = None,
-) -> Cycle:
+) -> PointingCycle:
     """Give cues, the second `delay` s after the first, and run until the cycle is over.
 
     Args:
@@ -105,7 +105,7 @@ def run_cycle(
         no_match: s after the last cue, from which on a cycle without a peak is over.
         hook: changes the scene during the cycle.
     """
-    done, dt = Cycle(), at.session.dt / 1000
+    done, dt = PointingCycle(), at.session.dt / 1000
     nodes = [CUES.index(name) for name in cues]
     start = before = at.world.tool()[:2]
     rest_since: float | None = None
@@ -145,7 +145,7 @@ def run_cycle(
     return done
 
 
-def _note(done: Cycle, now: Moment, nodes: Sequence[int], speed: float, time: float) -> None:
+def _note(done: PointingCycle, now: Moment, nodes: Sequence[int], speed: float, time: float) -> None:
     """Store the events of a step."""
     events = done.events
     done.highest = max(done.highest, now.perceptual)
@@ -167,7 +167,7 @@ def _note(done: Cycle, now: Moment, nodes: Sequence[int], speed: float, time: fl
         events.setdefault("satisfaction off", time)
 
 
-def _look(done: Cycle, at: Table, time: float, dt: float) -> None:
+def _look(done: PointingCycle, at: Table, time: float, dt: float) -> None:
     """Count the peaks, and store the selected one."""
     peaks = at.peaks()
     done.peaks = max(done.peaks, len(peaks))
@@ -178,11 +178,11 @@ def _look(done: Cycle, at: Table, time: float, dt: float) -> None:
         done.settled = time > detected + SETTLING
 
 
-def control(at: Table, cues: Sequence[str] = (), clears: bool = True) -> Cycle:
+def control(at: Table, cues: Sequence[str] = (), clears: bool = True) -> PointingCycle:
     """Give no cue, or one, for a second, and return the activation and peaks of that time; with `clears`
     the cue is cleared again.
     """
-    done, dt = Cycle(), at.session.dt / 1000
+    done, dt = PointingCycle(), at.session.dt / 1000
     start = at.world.tool()[:2]
     for k in range(QUIET):
         at.say(cues if k < SPEECH else ())

@@ -12,7 +12,7 @@ import numpy as np
 from deodar.analysis.claims import Claim
 from deodar.architectures.pointing import table as axes_of
 from deodar.numerics.axes import Axis
-from deodar.papers.pointing.cycle import EVENTS, Cycle, clear, control, run_cycle
+from deodar.papers.pointing.cycle import EVENTS, PointingCycle, clear, control, run_cycle
 from deodar.papers.pointing.scenes import HUES, Disc
 from deodar.papers.pointing.table import CAMERA, Moment, Table
 
@@ -38,7 +38,7 @@ EVERY = 12
 
 
 @dataclass
-class View:
+class TableView:
     """A moment to draw.
 
     Attributes:
@@ -69,11 +69,11 @@ class Pointed:
     """
 
     asked: Sequence[tuple[str, str]]
-    cycles: list[Cycle] = field(default_factory=list[Cycle])
+    cycles: list[PointingCycle] = field(default_factory=list[PointingCycle])
     starts: list[float] = field(default_factory=list[float])
-    quiet: dict[str, Cycle] = field(default_factory=dict[str, Cycle])
+    quiet: dict[str, PointingCycle] = field(default_factory=dict[str, PointingCycle])
     moments: list[Moment] = field(default_factory=list[Moment])
-    views: list[View] = field(default_factory=list[View])
+    views: list[TableView] = field(default_factory=list[TableView])
     frames: list[np.ndarray] = field(default_factory=list[np.ndarray])
 
 
@@ -139,7 +139,7 @@ def claims(result: Pointed) -> list[Claim]:
     return out
 
 
-def _of_a_match(name: str, pair: tuple[str, str], done: Cycle) -> list[Claim]:
+def _of_a_match(name: str, pair: tuple[str, str], done: PointingCycle) -> list[Claim]:
     found, events = done.object, [e for e in EVENTS if e in done.events]
     right = found is not None and (found.colour, found.side) == pair
     miss = None if done.miss is None else round(100 * done.miss, 2)
@@ -168,7 +168,7 @@ def sentence(result: Pointed) -> str:
     return f"{'; '.join(parts)}."
 
 
-def _one_cue(at: Table, result: Pointed, cue: str) -> Cycle:
+def _one_cue(at: Table, result: Pointed, cue: str) -> PointingCycle:
     """Give one cue alone, draw it while the node is on, and clear it."""
     done = control(at, [cue], clears=False)
     result.views.append(_view(at, f"{cue} alone"))
@@ -176,9 +176,9 @@ def _one_cue(at: Table, result: Pointed, cue: str) -> Cycle:
     return done
 
 
-def _view(at: Table, title: str) -> View:
+def _view(at: Table, title: str) -> TableView:
     picture = at.world.sense(CAMERA, FRAME, at.session.time)[0]
-    return View(title, picture.transpose(1, 0, 2), at.activation.max(axis=2), at.world.tool()[:2])
+    return TableView(title, picture.transpose(1, 0, 2), at.activation.max(axis=2), at.world.tool()[:2])
 
 
 def _watch(at: Table, result: Pointed, now: Moment) -> None:

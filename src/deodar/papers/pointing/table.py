@@ -53,7 +53,7 @@ class Moment:
 
 
 @dataclass(frozen=True)
-class Peak:
+class HuePeak:
     """A connected region of the perceptual field above threshold.
 
     Attributes:
@@ -155,7 +155,7 @@ class Table:
         """Return how many cue nodes are on."""
         return sum(float(np.asarray(self.session.read(f"{name}.activation"))) > 0 for name in CUES)
 
-    def peaks(self) -> list[Peak]:
+    def peaks(self) -> list[HuePeak]:
         """Return the peaks of the perceptual field, the largest first."""
         if not (self.activation > 0).any():
             return []
@@ -168,7 +168,7 @@ class Table:
         ):
             if a and b and a != b:
                 labels[labels == b] = a
-        peaks: list[Peak] = []
+        peaks: list[HuePeak] = []
         for k in range(1, count + 1):
             i, j, n = np.nonzero(labels == k)
             volume = len(i) * cell(axes)
@@ -177,10 +177,10 @@ class Table:
             weight, turn = self.activation[i, j, n], np.radians(axes[2].points[n])
             hue = math.degrees(math.atan2((weight * np.sin(turn)).sum(), (weight * np.cos(turn)).sum())) % 360
             x, y = (float(np.average(axes[d].points[at], weights=weight)) for d, at in enumerate((i, j)))
-            peaks.append(Peak(x, y, hue, volume))
+            peaks.append(HuePeak(x, y, hue, volume))
         return sorted(peaks, key=lambda p: -p.volume)
 
-    def nearest(self, peak: Peak) -> Disc | None:
+    def nearest(self, peak: HuePeak) -> Disc | None:
         """Return the disc nearest to a peak."""
         return min(self.discs.values(), key=lambda d: d.distance(peak.x, peak.y), default=None)
 

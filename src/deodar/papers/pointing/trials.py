@@ -11,7 +11,7 @@ import numpy as np
 from deodar.architectures.pointing import COLOURS, CUES, SIDES
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.papers.pointing.cycle import COUNT, ON, SETTLING, Cycle, Hook, clear, control, run_cycle
+from deodar.papers.pointing.cycle import COUNT, ON, SETTLING, Hook, PointingCycle, clear, control, run_cycle
 from deodar.papers.pointing.scenes import BAND, BEYOND, SERVED, TEST, Disc, equal_pair, scene
 from deodar.papers.pointing.table import SPEECH, Table
 
@@ -132,10 +132,10 @@ def special(case: str, trial: int) -> list[Row]:
     return [{**row, **seen, **_row(done, pair, at.discs)}]
 
 
-def _held(at: Table, pair: Sequence[str]) -> Cycle:
+def _held(at: Table, pair: Sequence[str]) -> PointingCycle:
     """Hold both cues without the condition of satisfaction, so that selection is watched for a while."""
     at.session.set("target strength.factor", 0.0)
-    done, dt = Cycle(), at.session.dt / 1000
+    done, dt = PointingCycle(), at.session.dt / 1000
     for k in range(round((LONG + 1.0) / dt)):
         at.say(pair if k < SPEECH else ())
         now = at.step()
@@ -208,7 +208,7 @@ def _table(discs: Sequence[Disc], seed: int, values: Mapping[str, float] | None,
 
 
 def _row(
-    done: Cycle, pair: Sequence[str] | None = None, discs: Mapping[str, Disc] | None = None
+    done: PointingCycle, pair: Sequence[str] | None = None, discs: Mapping[str, Disc] | None = None
 ) -> dict[str, Any]:
     """Return a cycle as plain data."""
     row: dict[str, Any] = {"highest": round(done.highest, 3), "peaks": done.peaks, "moved": done.moved}
