@@ -128,24 +128,31 @@ export function smoke(name: string, launch: () => Promise<Driver>): void {
 
   test(`${name}: the palette and a dragged wire build a model, which copy and paste double`, async () => {
     await observer.ask({ type: "new", discard: true });
+    // the canvas of the document before is replaced
+    await expect.poll(() => page.evaluate(() => document.body.innerText)).toContain("no elements yet");
     const ground = await place(".react-flow__pane");
     const at = (across: number, down: number): Point => [
       ground.left + ground.width * across,
       ground.top + ground.height * down,
     ];
-    await expect
-      .poll(() => page.evaluate((path) => document.querySelectorAll(path).length, ".graph-box"))
-      .toBe(0);
+    const gone = (selector: string) =>
+      expect.poll(() => page.evaluate((path) => document.querySelectorAll(path).length, selector)).toBe(0);
+    await gone(".graph-box");
     await page.doubleClick(...at(0.2, 0.3));
     await place('[role="dialog"] input:focus');
     await type("gau");
     await page.press("Enter");
     await observer.until(() => count() === 1);
+    // the page shows it after the server has it; the palette that closes still has the focus for a moment
+    await place(box("gaussian_stimulus"));
+    await gone('[role="dialog"]');
     await page.doubleClick(...at(0.7, 0.6));
     await place('[role="dialog"] input:focus');
     await type("field");
     await page.press("Enter");
     await observer.until(() => count() === 2);
+    await place(box("field"));
+    await gone('[role="dialog"]');
 
     const [from, to] = [
       await middle(`${box("gaussian_stimulus")} .react-flow__handle[data-handleid="output"]`),
