@@ -134,12 +134,13 @@ export type AxisView = {
 // The bodies now, and the new part of their path.
 //
 // Each row of `path` has x and y of each body; `fresh`: the path starts again, and the page drops the old
-// one.
+// one. `poses` (base64 of float32) has for each solid its position and the rows of its rotation matrix.
 export type Bodies = {
   type: "bodies";
   bodies: BodyView[];
   fresh: boolean;
   path: number[][];
+  poses?: string;
 };
 
 // A round body that moves by itself; `heading` is in rad, 0 along x, counter-clockwise.
@@ -984,6 +985,16 @@ export type PreviewWorld = {
   settings?: Record<string, unknown>;
 };
 
+// Push a body of the world with a force along x, y and z, in N, until the next one; zeros end it.
+//
+// It ends too when the page disconnects.
+export type PushBody = {
+  type: "push_body";
+  request?: number;
+  body: string;
+  force: number[];
+};
+
 // Add an input to an element until `release`.
 //
 // The input is a Gaussian around `center` (axis units), or constant over the axes if that is None.
@@ -1329,6 +1340,23 @@ export type SnapshotView = {
   size: number;
 };
 
+// A rigid solid of the world in three dimensions.
+//
+// `size` has half lengths along its own axes; of a sphere the radius first; of a capsule or cylinder the
+// radius and half of the straight part, along its z; of a plane 0 for an endless one. `color` is red, green,
+// blue and opacity. `thing` is the box of the scene that it shows; empty: none. `points` (float32) and
+// `faces` (int32), as base64, are the triangles of a mesh.
+export type SolidView = {
+  body: string;
+  shape: "box" | "capsule" | "cylinder" | "ellipsoid" | "mesh" | "plane" | "sphere";
+  size: number[];
+  color: number[];
+  thing: string;
+  pushable: boolean;
+  points?: string;
+  faces?: string;
+};
+
 // Set the ratio of document time to wall time: 1 is real time, None as fast as possible.
 export type Speed = {
   type: "speed";
@@ -1401,6 +1429,7 @@ export type ToPage =
   | Costs
   | WorldScene
   | Bodies
+  | WorldSolids
   | ExperimentView
   | TrialRows
   | Announced
@@ -1482,6 +1511,7 @@ export type ToServer =
   | MoveObject
   | PlaceObject
   | RemoveObject
+  | PushBody
   | Watch
   | WatchTrace
   | WatchRows
@@ -1643,11 +1673,12 @@ export type WatchWeights = {
   at?: Record<string, number>;
 };
 
-// Start or stop sending `bodies`.
+// Start or stop sending `bodies`; `solid`: with the solids and their poses.
 export type WatchWorld = {
   type: "watch_world";
   request?: number;
   on: boolean;
+  solid?: boolean;
 };
 
 // First message on a connection: the data that do not depend on the open document.
@@ -1678,12 +1709,13 @@ export type WorldPreview = {
 // The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 //
 // `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
-// that name.
+// that name; `solid`: it can be shown in three dimensions.
 export type WorldScene = {
   type: "scene";
   scene: SceneView | null;
   note?: string;
   camera?: boolean;
+  solid?: boolean;
 };
 
 // A setting of a world; `form` is the type of its value, `file` a file that it opens.
@@ -1692,6 +1724,12 @@ export type WorldSettingView = {
   form: "file" | "flag" | "number" | "numbers" | "text";
   meaning: string;
   default: unknown;
+};
+
+// All solids of the world, sent before the first `poses` of them.
+export type WorldSolids = {
+  type: "solids";
+  solids: SolidView[];
 };
 
 // Types of the requests that are meant for the document that the page shows.

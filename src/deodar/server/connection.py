@@ -307,8 +307,8 @@ class PageConnection:
         session, note = self._hub.engine.session, self._hub.project.scene[1]
         world = None if session is None or self._hub.project.record is not None else session.world
         self._new("scene", scene.scene(state.scene, note, world), out)
-        moved = None if self.page.sent_bodies is None else self.page.sent_bodies.news(state)
-        return out if moved is None else [*out, moved]
+        sent = self.page.sent_bodies
+        return out if sent is None else [*out, *sent.news(state)]
 
     def _new(
         self,

@@ -5,10 +5,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable
 from pathlib import Path
 
 from deodar import __version__
+from deodar.errors import UnknownName, WorldError
 from deodar.live.compilation import CompileTimes
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
@@ -225,10 +226,12 @@ class Hub:
         self.engine.call(lambda: self.engine.show(places, requests))
 
     def leave(self, page: Page) -> None:
-        """Remove a page that disconnected; the run continues, and an input that the page injected ends."""
+        """Remove a page that disconnected; the run continues, and what the page injects and pushes ends."""
         self.pages.discard(page)
         if self.engine.injection is not None and page.pushes:
             self.engine.call(lambda: self.engine.inject(None))
+        if page.pushed:
+            self.engine.call(lambda: self.engine.rearrange(lambda session: _let_go(session, page.pushed)))
         self.watch()
 
     # ------------------------------------------------------------------------------------------------- ending
@@ -271,3 +274,10 @@ async def _repeat(work: Callable[[], Awaitable[None]], seconds: float) -> None:
             if repr(error) != reported:
                 logging.getLogger("deodar.studio").exception("%s failed", work.__name__)
             reported = repr(error)
+
+
+def _let_go(session: Session, bodies: Iterable[str]) -> None:
+    """End the pushes of bodies that the world still has."""
+    for body in bodies:
+        with contextlib.suppress(WorldError, UnknownName):
+            session.push(body, (0.0, 0.0, 0.0))

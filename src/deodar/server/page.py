@@ -31,6 +31,7 @@ class Page:
         number: unique among all pages of this studio, also those that have left.
         streams: the streams that the page watches, by the numbers that the page chose.
         pushes: whether this page made the present injection of input.
+        pushed: bodies of the world that this page pushes.
         sent_bodies: the bodies of the world that the page has received; None: the page does not show them.
         identity: the source of frames that `asked` and `moment` refer to.
         asked: the moment that the page asked for since the last exchange.
@@ -44,6 +45,7 @@ class Page:
         self.number = number
         self.streams: dict[int, Stream | ParameterStream] = {}
         self.pushes = False
+        self.pushed: set[str] = set()
         self.sent_bodies: SentBodies | None = None
         self.identity: object = None
         self.asked: MomentRequest | None = None

@@ -458,7 +458,7 @@ async def _use_world_content(hub: Hub, page: Page, m: to_server.UseWorldContent)
 
 @handles(to_server.WatchWorld)
 async def _watch_world(hub: Hub, page: Page, m: to_server.WatchWorld) -> None:
-    page.sent_bodies = SentBodies() if m.on else None
+    page.sent_bodies = SentBodies(m.solid) if m.on else None
 
 
 @handles(to_server.MoveObject)
@@ -475,6 +475,15 @@ async def _place_object(hub: Hub, page: Page, m: to_server.PlaceObject) -> None:
 @handles(to_server.RemoveObject)
 async def _remove_object(hub: Hub, page: Page, m: to_server.RemoveObject) -> None:
     await _rearrange(hub, page, lambda session: session.remove(m.name))
+
+
+@handles(to_server.PushBody)
+async def _push_body(hub: Hub, page: Page, m: to_server.PushBody) -> None:
+    if any(m.force):
+        page.pushed.add(m.body)
+    else:
+        page.pushed.discard(m.body)
+    await _rearrange(hub, page, lambda session: session.push(m.body, m.force))
 
 
 async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> None:

@@ -1,12 +1,24 @@
-"""The world from above, as messages: the scene, and the bodies with the new part of their path."""
+"""The world as messages: the scene from above, its solids, and the bodies with the new part of their path."""
 
 from __future__ import annotations
 
+import base64
+
 from deodar.live.published import PublishedState
 from deodar.live.track import Trail
-from deodar.server.to_page import Bodies, BodyView, BoxView, MarkView, SceneView, WorldScene
+from deodar.server.to_page import (
+    Bodies,
+    BodyView,
+    BoxView,
+    MarkView,
+    SceneView,
+    SolidView,
+    WorldScene,
+    WorldSolids,
+)
 from deodar.worlds import _scene
 from deodar.worlds._base import World
+from deodar.worlds._solids import Solid
 
 DIGITS = 6
 """Decimal digits of positions in messages: more than a screen shows."""
@@ -40,31 +52,63 @@ def scene(seen: _scene.Scene | None, note: str = "", world: World | None = None)
     ]
     marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
     plan = SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks)
-    return WorldScene(scene=plan, note=note, camera=world is not None and CAMERA in world.sensors)
+    camera = world is not None and CAMERA in world.sensors
+    return WorldScene(scene=plan, note=note, camera=camera, solid=bool(seen.solids))
 
 
 class SentBodies:
-    """The bodies and the part of their path that one page has received."""
+    """The bodies, the solids and the part of their path that one page has received.
 
-    def __init__(self) -> None:
+    Args:
+        solid: whether the page shows the solids.
+    """
+
+    def __init__(self, solid: bool = False) -> None:
+        self._solid = solid
         self._path: Trail | None = None
         self._taken = 0
         self._bodies: list[BodyView] = []
+        self._solids: tuple[Solid, ...] = ()
+        self._poses = b""
 
-    def news(self, state: PublishedState) -> Bodies | None:
-        """Return the bodies and the part of their path that the page does not have; None if nothing moved."""
+    def news(self, state: PublishedState) -> list[WorldSolids | Bodies]:
+        """Return the solids, bodies and the part of their path that the page does not have."""
         seen, path, count = state.scene, state.trail, state.passed
         bodies = [] if seen is None else [_body(b) for b in seen.bodies]
+        out: list[WorldSolids | Bodies] = []
+        shown, poses = (seen.solids, seen.poses) if seen is not None and self._solid else ((), b"")
+        if shown != self._solids:
+            self._solids = shown
+            out.append(WorldSolids(solids=[_solid(s) for s in shown]))
         fresh = path is not self._path or count < self._taken
         taken = 0 if fresh else self._taken
-        if not fresh and count == taken and bodies == self._bodies:
-            return None
-        self._path, self._taken, self._bodies = path, count, bodies
-        return Bodies(
+        if not (fresh or count != taken or bodies != self._bodies or poses != self._poses or out):
+            return []
+        self._path, self._taken, self._bodies, self._poses = path, count, bodies, poses
+        moved = Bodies(
             bodies=bodies,
             fresh=fresh,
             path=[[round(v, DIGITS) for v in place] for place in path.places[taken:count]],
+            poses=_text(poses),
         )
+        return [*out, moved]
+
+
+def _solid(solid: Solid) -> SolidView:
+    return SolidView(
+        body=solid.body,
+        shape=solid.shape,
+        size=list(solid.size),
+        color=list(solid.color),
+        thing=solid.thing,
+        pushable=solid.pushable,
+        points="" if solid.mesh is None else _text(solid.mesh.points),
+        faces="" if solid.mesh is None else _text(solid.mesh.faces),
+    )
+
+
+def _text(data: bytes) -> str:
+    return base64.b64encode(data).decode()
 
 
 def _body(body: _scene.SceneBody) -> BodyView:

@@ -597,12 +597,13 @@ class WorldScene(Message, frozen=True, tag="scene"):
     """The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 
     `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
-    that name.
+    that name; `solid`: it can be shown in three dimensions.
     """
 
     scene: SceneView | None
     note: str = ""
     camera: bool = False
+    solid: bool = False
 
 
 @MESSAGES.register
@@ -610,12 +611,39 @@ class Bodies(Message, frozen=True, tag="bodies"):
     """The bodies now, and the new part of their path.
 
     Each row of `path` has x and y of each body; `fresh`: the path starts again, and the page drops the old
-    one.
+    one. `poses` (base64 of float32) has for each solid its position and the rows of its rotation matrix.
     """
 
     bodies: list[BodyView]
     fresh: bool
     path: list[list[float]]
+    poses: str = ""
+
+
+class SolidView(Data, frozen=True):
+    """A rigid solid of the world in three dimensions.
+
+    `size` has half lengths along its own axes; of a sphere the radius first; of a capsule or cylinder the
+    radius and half of the straight part, along its z; of a plane 0 for an endless one. `color` is red, green,
+    blue and opacity. `thing` is the box of the scene that it shows; empty: none. `points` (float32) and
+    `faces` (int32), as base64, are the triangles of a mesh.
+    """
+
+    body: str
+    shape: Literal["plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"]
+    size: list[float]
+    color: list[float]
+    thing: str
+    pushable: bool
+    points: str = ""
+    faces: str = ""
+
+
+@MESSAGES.register
+class WorldSolids(Message, frozen=True, tag="solids"):
+    """All solids of the world, sent before the first `poses` of them."""
+
+    solids: list[SolidView]
 
 
 class RunView(Data, frozen=True):

@@ -679,9 +679,10 @@ class UseWorldContent(DocumentRequest, frozen=True, kw_only=True, tag="use_world
 
 @MESSAGES.register
 class WatchWorld(Request, frozen=True, kw_only=True, tag="watch_world"):
-    """Start or stop sending `bodies`."""
+    """Start or stop sending `bodies`; `solid`: with the solids and their poses."""
 
     on: bool
+    solid: bool = False
 
 
 @MESSAGES.register
@@ -713,6 +714,17 @@ class RemoveObject(Request, frozen=True, kw_only=True, tag="remove_object"):
     """Remove an object from the world."""
 
     name: Text
+
+
+@MESSAGES.register
+class PushBody(Request, frozen=True, kw_only=True, tag="push_body"):
+    """Push a body of the world with a force along x, y and z, in N, until the next one; zeros end it.
+
+    It ends too when the page disconnects.
+    """
+
+    body: Text
+    force: list[float]
 
 
 @MESSAGES.register

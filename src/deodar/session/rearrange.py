@@ -1,4 +1,4 @@
-"""Move, place and remove objects in the world of a session; each function returns a journal entry."""
+"""Move, place, remove and push objects in the world of a session; each function returns a journal entry."""
 
 from __future__ import annotations
 
@@ -58,3 +58,15 @@ def remove(world: World, scene: Scene, name: str) -> tuple[str, None]:
     with errors_of(world, "remove"):
         world.remove(name)
     return f"world.remove {name}", None
+
+
+def push(world: World, body: str, force: Sequence[float]) -> tuple[str, tuple[float, ...]]:
+    """Push a body until the next push; return the entry for the journal.
+
+    Raises:
+        UnknownName: the world has no such body.
+        WorldError: nothing in this world can be pushed, or the force is invalid.
+    """
+    with errors_of(world, "push"):
+        world.push(body, force)
+    return f"world.push {body}", tuple(force)

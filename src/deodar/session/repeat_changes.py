@@ -75,6 +75,8 @@ def repeat_change(session: Session, change: Change, tick: int) -> None:
         session.place(name, *value)
     elif verb == "world.remove":
         session.remove(name)
+    elif verb == "world.push":
+        session.push(name, value)
     elif what in ("reset", "restore"):
         raise RecordError(f"The run cannot continue from this moment: a {what} lies before it")
     else:

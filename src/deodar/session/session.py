@@ -443,6 +443,15 @@ class Session:
         """Remove an object from the world."""
         self._note(*rearrange.remove(*self._seen(), name))
 
+    def push(self, body: str, force: Sequence[float]) -> None:
+        """Push a body of the world with a force along x, y and z (N), until the next push of it.
+
+        Raises:
+            UnknownName: the world has no such body.
+            WorldError: nothing in the world can be pushed, or the force is invalid.
+        """
+        self._note(*rearrange.push(self._seen()[0], body, force))
+
     def _seen(self) -> tuple[World, Scene]:
         scene = self.scene()
         if self.world is None or scene is None:

@@ -147,6 +147,10 @@ class World:
         """Remove an object from the scene."""
         raise WorldError(f"nothing can be removed from the world {type(self).__name__}", where=name)
 
+    def push(self, body: str, force: Sequence[float]) -> None:
+        """Push a body with a force along x, y and z (N) until the next call; a force of 0 ends it."""
+        raise WorldError(f"nothing in the world {type(self).__name__} can be pushed", where=body)
+
     def arrangement(self) -> Any:
         """Return the present state of everything that `place`, `move` and `remove` change, for `arrange`.
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.parameters import real, show
+from deodar.worlds._solids import Solid
 
 TOUCH = 1e-5
 """Largest overlap that is only a touch, as a share of the border's longer side; positions are in float32."""
@@ -67,12 +68,14 @@ class SceneBody:
 
 @dataclass(frozen=True)
 class Scene:
-    """View of a world from above, at one moment.
+    """View of a world from above, at one moment; a world with bodies in three dimensions has its solids too.
 
     Attributes:
         unit: unit of all lengths.
         border: lower x, lower y, upper x, upper y.
         boxes, marks, bodies: solid objects, named positions, and bodies that move by themselves.
+        solids: what is drawn in three dimensions; the same object until something else is drawn.
+        poses: position and rotation matrix of each solid, `POSE` numbers of float32.
     """
 
     unit: str
@@ -80,6 +83,8 @@ class Scene:
     boxes: tuple[SceneBox, ...] = ()
     marks: tuple[Mark, ...] = ()
     bodies: tuple[SceneBody, ...] = ()
+    solids: tuple[Solid, ...] = ()
+    poses: bytes = b""
 
     def entry(self, name: str) -> SceneBox | Mark:
         """Return the box or mark of a name, if the user may move it.

@@ -259,3 +259,55 @@ def test_nothing_is_written_to_the_working_folder(tmp_path: Path):
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
     )
     assert list(tmp_path.iterdir()) == [] and done.stdout == done.stderr == ""
+
+
+MESH = """
+<mujoco><asset><mesh name="wedge" vertex="0 0 0  0.1 0 0  0 0.1 0  0 0 0.1"/></asset><worldbody>
+  <geom type="plane" size="0 0 1" pos="0 0 -0.2"/>
+  <geom name="hidden" type="box" size="0.1 0.1 0.1" group="3"/>
+  <geom name="glass" type="box" size="0.1 0.1 0.1" rgba="1 1 1 0"/>
+  <body name="thing" pos="0 0 1" euler="0 0 90"><freejoint/><geom type="mesh" mesh="wedge"
+    rgba="1 0 0 0.5"/></body>
+</worldbody></mujoco>
+"""
+
+
+def test_solids_are_what_the_scene_shows_and_their_poses_follow_it(tmp_path: Path):
+    file = tmp_path / "mesh.xml"
+    file.write_text(MESH)
+    world = MuJoCo(file)
+    seen = world.scene()
+    ground, thing = seen.solids
+    assert (ground.shape, ground.pushable, ground.size[:2]) == ("plane", False, (0, 0))
+    assert (thing.body, thing.shape, thing.pushable, thing.color) == ("thing", "mesh", True, (1, 0, 0, 0.5))
+    assert len(thing.mesh.points) == 4 * 3 * 4 and len(thing.mesh.faces) == 4 * 3 * 4
+    poses = np.frombuffer(seen.poses, np.float32).reshape(2, 12)
+    data = world._copies[0]
+    np.testing.assert_allclose(poses[1, :3], data.geom_xpos[3], atol=1e-6)
+    np.testing.assert_allclose(poses[1, 3:], data.geom_xmat[3], atol=1e-6)
+    world.act({}, 0.0)
+    now = world.scene()
+    assert now.solids is seen.solids and now.poses != seen.poses, "it falls"
+    world.place("block", (0.3, 0.3), (0.1, 0.1))
+    assert [s.thing for s in world.scene().solids] == ["", "", "block"]
+
+
+def test_a_push_is_part_of_the_state_and_stays_when_an_object_is_placed():
+    world = MuJoCo("table")
+
+    def moved(n: int = 20) -> float:
+        before = world.tool()
+        for k in range(n):
+            world.act({"tool_plane": np.zeros((1, 2))}, 10.0 * k)
+        return float(np.hypot(*(np.subtract(world.tool(), before)[:2])))
+
+    world.push("link 5", (60, 0, 0))
+    kept = world.keep()
+    pushed = moved()
+    assert pushed > 0.005
+    world.push("link 5", (0, 0, 0))
+    world.put(kept)
+    world.place("block", (0.3, 0.5), (0.05, 0.05))
+    assert moved() == pytest.approx(pushed, rel=0.05)
+    world.reset(0)
+    assert moved() < 1e-4

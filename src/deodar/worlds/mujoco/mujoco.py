@@ -21,6 +21,7 @@ from deodar.worlds._base import Signal, World
 from deodar.worlds._scene import Scene, SceneBody, SceneBox, pair
 from deodar.worlds._settings import number, periods
 from deodar.worlds.mujoco import camera as pictures
+from deodar.worlds.mujoco import solids
 from deodar.worlds.mujoco.objects import PlacedObject
 from deodar.worlds.mujoco.reach import Arm
 from deodar.worlds.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
@@ -136,6 +137,8 @@ class MuJoCo(World):
         self._home = self.files.home(model)
         self.arm = Arm.find(model, self._home)
         self._colors, self._shown = pictures.shades(model), simulator().MjData(model)
+        self._geoms = solids.shown(model)
+        self._solids = solids.solids(model, self._colors, self.objects)
         self._copies = [self._started() for _ in self._trials]
         self._height = 0.0 if self.arm is None else float(self._copies[0].site_xpos[self.arm.site][2])
         self._take_frames()
@@ -384,6 +387,8 @@ class MuJoCo(World):
     def push(self, body: str, force: Sequence[float]) -> None:
         """Push a body, such as a link of an arm, with a force along x, y and z (N) until the next call.
 
+        The force acts at the middle of its mass.
+
         Raises:
             UnknownName: the scene has no such body.
         """
@@ -406,7 +411,7 @@ class MuJoCo(World):
             self.move(thing.name, thing.center)
 
     def scene(self) -> Scene:
-        """Return the scene from above: the objects of the first copy, and its tool."""
+        """Return the scene of the first copy: from above its objects and its tool, and all solids."""
         data = self._copies[0]
         boxes: list[SceneBox] = []
         for thing in self.objects.values():
@@ -425,7 +430,8 @@ class MuJoCo(World):
             places.append([x, y])
         inside = np.array([*self._border(), *places])
         left, low, right, high = (float(v) for v in (*inside.min(axis=0), *inside.max(axis=0)))
-        return Scene("m", (left, low, right, high), tuple(boxes), (), bodies)
+        border = (left, low, right, high)
+        return Scene("m", border, tuple(boxes), (), bodies, self._solids, solids.poses(data, self._geoms))
 
     def _border(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return the corners of the geom `table`, else of a square of 1 m."""
@@ -446,6 +452,7 @@ class MuJoCo(World):
             "qvel": np.array([data.qvel for data in self._copies]),
             "act": np.array([data.act for data in self._copies]),
             "warmstart": np.array([data.qacc_warmstart for data in self._copies]),
+            "pushes": np.array([data.xfrc_applied for data in self._copies]),
             "frames": np.array(self._frames),
         }
 
@@ -455,6 +462,7 @@ class MuJoCo(World):
             data.time = float(kept["time"][k])
             data.qpos[:], data.qvel[:] = kept["qpos"][k], kept["qvel"][k]
             data.act[:] = kept["act"][k]
+            data.xfrc_applied[:] = kept["pushes"][k]
             simulator().mj_forward(self.model, data)
             # which `mj_forward` changes
             data.qacc_warmstart[:] = kept["warmstart"][k]
@@ -543,7 +551,7 @@ class MuJoCo(World):
 
 
 def _carry_over(before: Any, old: Any, model: Any, new: Any) -> None:
-    """Copy the state of all joints that two models share, by name."""
+    """Copy the state of all joints that two models share, and the forces on their bodies, by name."""
     mujoco = simulator()
     widths = {0: (7, 6), 1: (4, 3), 2: (1, 1), 3: (1, 1)}  # positions and velocities of each kind of joint
     for k in range(model.njnt):
@@ -554,6 +562,10 @@ def _carry_over(before: Any, old: Any, model: Any, new: Any) -> None:
         for name, width, place in (("qpos", q, "jnt_qposadr"), ("qvel", v, "jnt_dofadr")):
             i, j = int(getattr(model, place)[k]), int(getattr(before, place)[at])
             getattr(new, name)[i : i + width] = getattr(old, name)[j : j + width]
+    for k in range(1, model.nbody):
+        at = mujoco.mj_name2id(before, mujoco.mjtObj.mjOBJ_BODY, model.body(k).name)
+        if at > 0:
+            new.xfrc_applied[k] = old.xfrc_applied[at]
     new.time = old.time
     mujoco.mj_forward(model, new)
 
