@@ -129,7 +129,9 @@ export function smoke(name: string, launch: () => Promise<Driver>): void {
   test(`${name}: the palette and a dragged wire build a model, which copy and paste double`, async () => {
     await observer.ask({ type: "new", discard: true });
     // the canvas of the document before is replaced
-    await expect.poll(() => page.evaluate(() => document.body.innerText)).toContain("no elements yet");
+    await expect
+      .poll(() => page.evaluate((path) => document.querySelector(path)?.textContent, "body"))
+      .toContain("no elements yet");
     const ground = await place(".react-flow__pane");
     const at = (across: number, down: number): Point => [
       ground.left + ground.width * across,

@@ -1,5 +1,5 @@
 // Colours of blocks: a click places a block in front of the robot, or removes it where it is there; a colour
-// that is dragged onto the plan places a block there.
+// that is dragged onto the floor places a block there.
 
 import { type KeyboardEvent, type PointerEvent, type ReactNode, useRef, useState } from "react";
 import { createPortal } from "react-dom";
@@ -17,13 +17,11 @@ import {
   SWATCHES,
   type Swatch,
 } from "./blocks";
-import { inside, type PlanFrame, type PlanPoint, toWorld } from "./plan";
+import type { Ground } from "./ground";
+import type { PlanPoint } from "./plan";
 
 // Further than this a pressed pointer drags a colour, in px.
 const DRAGGED = 5;
-
-// The plan on the page, in px; null: it is not drawn.
-export type PlanOnPage = { area: DOMRect; frame: PlanFrame } | null;
 
 type PaletteProps = {
   scene: SceneView;
@@ -32,11 +30,12 @@ type PaletteProps = {
   choose: (color: number[]) => void;
   select: (name: string | null) => void;
   tell: (reason: string) => void;
-  plan: () => PlanOnPage;
+  // The floor that a colour is dragged onto; null: it is not drawn.
+  ground: () => Ground | null;
   children?: ReactNode;
 };
 
-export function BlockPalette({ scene, chosen, choose, select, tell, plan, children }: PaletteProps) {
+export function BlockPalette({ scene, chosen, choose, select, tell, ground, children }: PaletteProps) {
   const [own, setOwn] = useState("#f08020");
   const pressed = useRef<PlanPoint | null>(null);
   const dragging = useRef(false);
@@ -60,22 +59,21 @@ export function BlockPalette({ scene, chosen, choose, select, tell, plan, childr
   const carry = (swatch: Swatch, { clientX: x, clientY: y }: PointerEvent) => {
     const from = pressed.current;
     dragging.current ||= from !== null && Math.hypot(x - from.x, y - from.y) > DRAGGED;
-    const onto = dragging.current ? plan() : null;
+    const onto = dragging.current ? ground() : null;
     if (onto !== null) {
-      const side = onto.frame.scale * blockSide(scene, live.now.bodies[0]);
+      const side = onto.scale * blockSide(scene, live.now.bodies[0]);
       setCarried({ swatch, at: { x: x - side / 2, y: y - side / 2 }, side });
     }
   };
   const drop = (swatch: Swatch, { clientX: x, clientY: y }: PointerEvent) => {
-    const onto = dragging.current ? plan() : null;
+    const at = dragging.current ? (ground()?.at(x, y) ?? null) : null;
     pressed.current = null;
     setCarried(null);
-    if (onto === null || x < onto.area.left || x > onto.area.right || y < onto.area.top) {
+    if (at === null) {
       return;
     }
     const name = freeBlockName(scene, swatch);
     const side = blockSide(scene, live.now.bodies[0]);
-    const at = inside(onto.frame, toWorld(onto.frame, { x: x - onto.area.left, y: y - onto.area.top }));
     choose(swatch.color);
     select(name);
     void request({ type: "place_object", name, ...at, width: side, height: side, color: swatch.color });

@@ -15,7 +15,9 @@ import { pageLook } from "../plots/colors/look";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
+import { bytesOf } from "./base64";
 import { draw } from "./draw";
+import { NOTHING_SEEN } from "./live";
 import { frameOf } from "./plan";
 
 type SettingValues = Record<string, unknown>;
@@ -256,11 +258,11 @@ function Preview({ preview }: { preview: WorldPreview }) {
       const [w, h] = [canvas.current.clientWidth, 220];
       Object.assign(canvas.current, { width: w * devicePixelRatio, height: h * devicePixelRatio });
       ctx.scale(devicePixelRatio, devicePixelRatio);
-      const seen = { scene, note: "", bodies: [], path: [] };
+      const seen = { ...NOTHING_SEEN, scene };
       draw(ctx, frameOf(scene.border, w, h), seen, { hovered: null, selected: null, held: null }, pageLook());
     } else if (width > 0) {
       Object.assign(canvas.current, { width, height });
-      const rgb = Uint8Array.from(atob(pixels), (letter) => letter.charCodeAt(0));
+      const rgb = bytesOf(pixels);
       const image = ctx.createImageData(width, height);
       for (let i = 0; i < width * height; i++) {
         image.data.set([rgb[3 * i] ?? 0, rgb[3 * i + 1] ?? 0, rgb[3 * i + 2] ?? 0, 255], 4 * i);

@@ -1,19 +1,35 @@
-// The world as the server showed it last: its objects, the positions of its bodies, and their paths.
-// Many pictures a second pass through here, so that React renders only static parts.
+// The world as the server showed it last: its objects, the positions of its bodies, their paths, and its
+// solids. Many pictures a second pass through here, so that React renders only static parts.
 
-import type { Bodies, BodyView, WorldScene, SceneView } from "../protocol";
+import type { Bodies, BodyView, SceneView, SolidView, WorldScene, WorldSolids } from "../protocol";
+import { floatsOf } from "./base64";
 
 export type Seen = {
   scene: SceneView | null;
   note: string;
-  // Whether the world has a camera.
-  camera?: boolean;
+  // Whether the world has a camera, and whether it can be shown in three dimensions.
+  camera: boolean;
+  solid: boolean;
   bodies: BodyView[];
   path: number[][];
+  // What is drawn in three dimensions, and for each the position and the rows of the rotation matrix.
+  solids: SolidView[];
+  poses: Float32Array;
+};
+
+export const NOTHING_SEEN: Seen = {
+  scene: null,
+  note: "",
+  camera: false,
+  solid: false,
+  bodies: [],
+  path: [],
+  solids: [],
+  poses: new Float32Array(),
 };
 
 export class LiveWorld {
-  private seen: Seen = { scene: null, note: "", bodies: [], path: [] };
+  private seen = NOTHING_SEEN;
   private listeners = new Set<() => void>();
 
   get now(): Seen {
@@ -25,24 +41,34 @@ export class LiveWorld {
 
   readonly note = (): string => this.seen.note;
 
-  readonly camera = (): boolean => this.seen.camera ?? false;
+  readonly camera = (): boolean => this.seen.camera;
+
+  readonly solid = (): boolean => this.seen.solid;
 
   readonly listen = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   };
 
-  take(message: WorldScene | Bodies): void {
+  take(message: WorldScene | WorldSolids | Bodies): void {
     if (message.type === "scene") {
       this.seen = {
         ...this.seen,
         scene: message.scene,
         note: message.note ?? "",
         camera: message.camera ?? false,
+        solid: message.solid ?? false,
       };
+    } else if (message.type === "solids") {
+      this.seen = { ...this.seen, solids: message.solids };
     } else {
-      const { bodies, fresh, path } = message;
-      this.seen = { ...this.seen, bodies, path: fresh ? path : [...this.seen.path, ...path] };
+      const { bodies, fresh, path, poses } = message;
+      this.seen = {
+        ...this.seen,
+        bodies,
+        path: fresh ? path : [...this.seen.path, ...path],
+        poses: floatsOf(poses ?? ""),
+      };
     }
     this.listeners.forEach((listener) => listener());
   }

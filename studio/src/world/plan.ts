@@ -46,8 +46,13 @@ export function toWorld({ scale, left, bottom, border }: PlanFrame, { x, y }: Pl
 }
 
 // The nearest place inside the border.
-export function inside({ border }: PlanFrame, { x, y }: PlanPoint): PlanPoint {
-  return { x: Math.min(border[2], Math.max(border[0], x)), y: Math.min(border[3], Math.max(border[1], y)) };
+export function within(border: number[], { x, y }: PlanPoint): PlanPoint {
+  const [x0, y0, x1, y1] = border as [number, number, number, number];
+  return { x: Math.min(x1, Math.max(x0, x)), y: Math.min(y1, Math.max(y0, y)) };
+}
+
+export function inside({ border }: PlanFrame, place: PlanPoint): PlanPoint {
+  return within(border, place);
 }
 
 // Objects that can be picked, marks first: they lie above solid objects.

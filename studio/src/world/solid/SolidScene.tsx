@@ -1,0 +1,263 @@
+// The world in three dimensions: its solids, which move while it runs. Objects are dragged over the floor, bodies
+// of a robot are pushed, and everything else turns the view.
+
+import { Switch } from "@mantine/core";
+import { type KeyboardEvent, useEffect, useRef, useState } from "react";
+
+import type { SceneView } from "../../protocol";
+import { socket } from "../../socket";
+import type { Ground } from "../ground";
+import { live } from "../live";
+import { objects, type PlanPoint, within } from "../plan";
+import type { Hands } from "../useHands";
+import { useLatest } from "../../plots/useLatest";
+import { force, Puller, type Point3 } from "./pull";
+import type { SolidStage } from "./solidStage";
+
+const NO_WEBGL =
+  'This browser has no WebGL, which this view needs. Choose "From above", or allow WebGL in the settings of ' +
+  "the browser.";
+// Degrees of an arrow key, and how much nearer + comes.
+const TURN = 15;
+const NEARER = 1.2;
+
+type SolidSceneProps = { scene: SceneView; hands: Hands; ground: { current: Ground | null } };
+
+// What the pointer holds.
+type Held =
+  | { object: string; height: number; grip: PlanPoint }
+  | { body: string; index: number; own: Point3; pointer: Point3 };
+
+export function SolidScene({ scene, hands, ground }: SolidSceneProps) {
+  const host = useRef<HTMLDivElement>(null);
+  const stage = useRef<SolidStage | null>(null);
+  const [problem, setProblem] = useState("");
+  const [follow, setFollow] = useState(false);
+  const latest = useLatest({ scene, hands, follow });
+
+  useEffect(() => {
+    const place = host.current;
+    if (place === null) {
+      return;
+    }
+    let ended = false;
+    let end = () => {};
+    const begin = async () => {
+      if (document.createElement("canvas").getContext("webgl2") === null) {
+        setProblem(NO_WEBGL);
+        return;
+      }
+      const { SolidStage: Made } = await import("./solidStage");
+      if (!ended) {
+        end = show(place, Made, stage, ground, () => latest.current);
+      }
+    };
+    begin().catch((error: unknown) => {
+      console.error(error);
+      setProblem(error instanceof Error ? error.message : String(error));
+    });
+    return () => {
+      ended = true;
+      end();
+    };
+  }, [latest, ground]);
+  const { hovered, selected } = hands;
+  useEffect(() => {
+    stage.current?.mark(({ thing }) => thing !== "" && (thing === selected || thing === hovered));
+    host.current?.dispatchEvent(new Event("redraw"));
+  }, [hovered, selected, follow]);
+
+  const names = objects(scene).map(({ name }) => name);
+  const key = (event: KeyboardEvent) => {
+    const turn = TURNS[event.key];
+    if (hands.press(event) || turn === undefined || event.ctrlKey || event.metaKey || event.altKey) {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation(); // the arrow keys also show moments of the past
+    stage.current?.turn(...turn);
+  };
+  return (
+    <>
+      <div
+        ref={host}
+        className="world-solid"
+        tabIndex={0}
+        role="img"
+        aria-label={`The world in three dimensions: ${names.join(", ")}`}
+        onKeyDown={key}
+      />
+      {problem === "" ? (
+        <Switch
+          className="world-follow"
+          size="xs"
+          label="Follow"
+          checked={follow}
+          onChange={(event) => setFollow(event.currentTarget.checked)}
+        />
+      ) : (
+        <p className="world-none" role="alert">
+          {problem}
+        </p>
+      )}
+    </>
+  );
+}
+
+const TURNS: Record<string, [azimuth: number, elevation: number, nearer?: number]> = {
+  ArrowLeft: [-TURN, 0],
+  ArrowRight: [TURN, 0],
+  ArrowUp: [0, TURN],
+  ArrowDown: [0, -TURN],
+  "+": [0, 0, NEARER],
+  "-": [0, 0, 1 / NEARER],
+};
+
+type Now = { scene: SceneView; hands: Hands; follow: boolean };
+
+// Draw on a new canvas and listen to the pointer; return a function that ends both.
+function show(
+  host: HTMLDivElement,
+  Stage: typeof SolidStage,
+  shown: { current: SolidStage | null },
+  ground: { current: Ground | null },
+  now: () => Now,
+): () => void {
+  const canvas = document.createElement("canvas");
+  host.append(canvas);
+  let due = 0;
+  const redraw = () => {
+    due ||= requestAnimationFrame(draw);
+  };
+  const made = new Stage(canvas, redraw);
+  shown.current = made;
+  const border = now().scene.border as [number, number, number, number];
+  made.frame(border, host.clientWidth / Math.max(1, host.clientHeight));
+  const puller = new Puller(
+    async (message) => (await socket.ask(message)).answer,
+    () => now().hands.carrier.refuse(puller.refused),
+  );
+  let held: Held | null = null;
+
+  const pull = () => {
+    if (held !== null && "body" in held) {
+      const grip = made.now(held.index, held.own);
+      puller.pull(held.body, force(grip, held.pointer));
+      made.point([grip, held.pointer]);
+    }
+  };
+  function draw() {
+    due = 0;
+    const { clientWidth: width, clientHeight: height } = host;
+    if (width === 0 || height === 0) {
+      return;
+    }
+    const { solids, poses, bodies } = live.now;
+    made.show(solids);
+    made.place(poses);
+    made.follow(now().follow && bodies[0] !== undefined ? bodies[0] : null);
+    pull();
+    made.render(width, height, devicePixelRatio);
+    host.dataset["solids"] = String(solids.length);
+  }
+  const onCanvas = ({ clientX, clientY }: { clientX: number; clientY: number }): [number, number] => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return [clientX - left, clientY - top];
+  };
+  const release = () => {
+    made.controls.enabled = true;
+    if (held !== null && "body" in held) {
+      puller.release(held.body);
+      made.point(null);
+      redraw();
+    } else if (held !== null) {
+      now().hands.carrier.drop();
+    }
+    held = null;
+  };
+  // before the controls of the view, which listen on the canvas
+  const down = (event: PointerEvent) => {
+    const { scene, hands } = now();
+    const [x, y] = onCanvas(event);
+    const hit = event.button === 0 ? made.hit(x, y) : null;
+    hands.carrier.forgive();
+    const object = scene.boxes.find(({ name, fixed }) => name === hit?.solid.thing && !fixed);
+    hands.select(object?.name ?? null);
+    if (hit === null || (object === undefined && !hit.solid.pushable)) {
+      return;
+    }
+    made.controls.enabled = false;
+    host.setPointerCapture(event.pointerId);
+    const [px, py, height] = hit.point;
+    held =
+      object === undefined
+        ? {
+            body: hit.solid.body,
+            index: hit.index,
+            own: made.own(hit.index, hit.point),
+            pointer: hit.point,
+          }
+        : { object: object.name, height, grip: { x: object.x - px, y: object.y - py } };
+  };
+  const move = (event: PointerEvent) => {
+    const { scene, hands } = now();
+    const [x, y] = onCanvas(event);
+    if (held === null) {
+      if (event.buttons === 0) {
+        hands.hover(made.hit(x, y)?.solid.thing || null);
+      }
+    } else if ("body" in held) {
+      held.pointer = made.beside(x, y, made.now(held.index, held.own));
+      redraw();
+    } else {
+      const at = made.level(x, y, held.height);
+      if (at !== null) {
+        const place = { x: at.x + held.grip.x, y: at.y + held.grip.y };
+        hands.carrier.carry(held.object, within(scene.border, place));
+      }
+    }
+  };
+  const doubled = (event: MouseEvent) => {
+    const { scene, hands } = now();
+    const [x, y] = onCanvas(event);
+    const at = made.level(x, y, 0);
+    if (made.hit(x, y)?.solid.thing === "" && at !== null) {
+      hands.put(within(scene.border, at));
+    }
+  };
+  const listening = new AbortController();
+  const { signal } = listening;
+  host.addEventListener("pointerdown", down, { signal, capture: true });
+  host.addEventListener("pointermove", move, { signal });
+  host.addEventListener("pointerup", release, { signal });
+  host.addEventListener("pointercancel", release, { signal });
+  host.addEventListener("pointerleave", () => now().hands.hover(null), { signal });
+  host.addEventListener("dblclick", doubled, { signal });
+  host.addEventListener("redraw", redraw, { signal });
+  const sizes = new ResizeObserver(redraw);
+  sizes.observe(host);
+  const unlisten = live.listen(redraw);
+  ground.current = {
+    get scale() {
+      return made.scale();
+    },
+    at: (clientX, clientY) => {
+      const { width, height } = canvas.getBoundingClientRect();
+      const [x, y] = onCanvas({ clientX, clientY });
+      const at = x < 0 || x > width || y < 0 || y > height ? null : made.level(x, y, 0);
+      return at === null ? null : within(now().scene.border, at);
+    },
+  };
+  redraw();
+  return () => {
+    release();
+    cancelAnimationFrame(due);
+    listening.abort();
+    sizes.disconnect();
+    unlisten();
+    ground.current = null;
+    shown.current = null;
+    made.end();
+    canvas.remove();
+  };
+}
