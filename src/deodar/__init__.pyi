@@ -173,6 +173,7 @@ from deodar.worlds._base import World as World
 from deodar.worlds._pure import PureWorld as PureWorld
 from deodar.worlds.arena.arena import Arena as Arena
 from deodar.worlds.camera import Camera as Camera
+from deodar.worlds.combined import Combined as Combined
 from deodar.worlds.mujoco.mujoco import MuJoCo as MuJoCo
 from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording

@@ -291,7 +291,7 @@ class Engine:
         self.failure, self._stale = ((), ()), True
 
     def rearrange(self, how: Callable[[Session], None]) -> None:
-        """Change the world: `how` calls `Session.move`, `place`, `remove` or `push`."""
+        """Change the world: `how` calls `Session.move`, `place`, `remove` or `push_body`."""
         how(self._require())
         self._stale = True
 

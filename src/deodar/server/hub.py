@@ -280,4 +280,4 @@ def _let_go(session: Session, bodies: Iterable[str]) -> None:
     """End the pushes of bodies that the world still has."""
     for body in bodies:
         with contextlib.suppress(WorldError, UnknownName):
-            session.push(body, (0.0, 0.0, 0.0))
+            session.push_body(body, (0.0, 0.0, 0.0))

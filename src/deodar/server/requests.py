@@ -483,7 +483,7 @@ async def _push_body(hub: Hub, page: Page, m: to_server.PushBody) -> None:
         page.pushed.add(m.body)
     else:
         page.pushed.discard(m.body)
-    await _rearrange(hub, page, lambda session: session.push(m.body, m.force))
+    await _rearrange(hub, page, lambda session: session.push_body(m.body, m.force))
 
 
 async def _rearrange(hub: Hub, page: Page, how: Callable[[Session], None]) -> None:

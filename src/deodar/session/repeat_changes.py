@@ -76,7 +76,7 @@ def repeat_change(session: Session, change: Change, tick: int) -> None:
     elif verb == "world.remove":
         session.remove(name)
     elif verb == "world.push":
-        session.push(name, value)
+        session.push_body(name, value)
     elif what in ("reset", "restore"):
         raise RecordError(f"The run cannot continue from this moment: a {what} lies before it")
     else:

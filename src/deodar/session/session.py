@@ -443,7 +443,7 @@ class Session:
         """Remove an object from the world."""
         self._note(*rearrange.remove(*self._seen(), name))
 
-    def push(self, body: str, force: Sequence[float]) -> None:
+    def push_body(self, body: str, force: Sequence[float]) -> None:
         """Push a body of the world with a force along x, y and z (N), until the next push of it.
 
         Raises:

@@ -4,7 +4,7 @@
 import type { Answer, ToServer } from "../protocol";
 import type { PlanPoint } from "./plan";
 
-type Ask = (message: ToServer) => Promise<Answer>;
+export type Ask = (message: ToServer) => Promise<Answer>;
 
 export class Carrier {
   // The dragged object and its target; null: none.

@@ -1,5 +1,5 @@
-// The world in three dimensions: its solids, which move while it runs. Objects are dragged over the floor, bodies
-// of a robot are pushed, and everything else turns the view.
+// The world in three dimensions: its solids, which move while it runs. Objects are dragged over the floor,
+// bodies of a robot are pushed, and everything else turns the view.
 
 import { Switch } from "@mantine/core";
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
@@ -11,12 +11,13 @@ import { live } from "../live";
 import { objects, type PlanPoint, within } from "../plan";
 import type { Hands } from "../useHands";
 import { useLatest } from "../../plots/useLatest";
-import { force, Puller, type Point3 } from "./pull";
+import type { Point3 } from "../../plots/scenes/sceneView";
+import { force, Puller } from "./pull";
 import type { SolidStage } from "./solidStage";
 
 const NO_WEBGL =
-  'This browser has no WebGL, which this view needs. Choose "From above", or allow WebGL in the settings of ' +
-  "the browser.";
+  'This browser has no WebGL, which this view needs. Choose "From above", or allow WebGL in the settings ' +
+  "of the browser.";
 // Degrees of an arrow key, and how much nearer + comes.
 const TURN = 15;
 const NEARER = 1.2;
@@ -24,7 +25,7 @@ const NEARER = 1.2;
 type SolidSceneProps = { scene: SceneView; hands: Hands; ground: { current: Ground | null } };
 
 // What the pointer holds.
-type Held =
+type Gripped =
   | { object: string; height: number; grip: PlanPoint }
   | { body: string; index: number; own: Point3; pointer: Point3 };
 
@@ -137,7 +138,7 @@ function show(
     async (message) => (await socket.ask(message)).answer,
     () => now().hands.carrier.refuse(puller.refused),
   );
-  let held: Held | null = null;
+  let held: Gripped | null = null;
 
   const pull = () => {
     if (held !== null && "body" in held) {

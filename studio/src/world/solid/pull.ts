@@ -1,9 +1,7 @@
 // A push of a body with the mouse: a spring between the point that was gripped and the pointer.
 
-import type { Answer, ToServer } from "../../protocol";
-
-type Ask = (message: ToServer) => Promise<Answer>;
-export type Point3 = [number, number, number];
+import type { Point3 } from "../../plots/scenes/sceneView";
+import type { Ask } from "../carrier";
 
 // Of the spring, in N/m, and its largest force in N: guesses, with which an arm yields by some centimetres.
 const STIFFNESS = 400;
@@ -13,7 +11,7 @@ const MOST = 100;
 export function force(grip: Point3, pointer: Point3): Point3 {
   const pull = pointer.map((value, d) => STIFFNESS * (value - (grip[d] as number)));
   const size = Math.hypot(...pull);
-  return pull.map((value) => value * Math.min(1, MOST / Math.max(size, 1e-9))) as Point3;
+  return pull.map((value) => value * Math.min(1, MOST / Math.max(size, 1e-9))) as unknown as Point3;
 }
 
 // Sends the forces: one request at a time, the newest next, and no force at the end.
@@ -45,7 +43,7 @@ export class Puller {
     while (this.next !== null) {
       const { body, force } = this.next;
       this.next = null;
-      const { problems } = await this.ask({ type: "push_body", body, force });
+      const { problems } = await this.ask({ type: "push_body", body, force: [...force] });
       const reason = problems?.[0]?.what ?? "";
       if (reason !== this.refused) {
         this.refused = reason;

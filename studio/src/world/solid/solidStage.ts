@@ -24,7 +24,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { SolidView } from "../../protocol";
 import type { PlanPoint } from "../plan";
 import { geometryOf } from "./geometry";
-import type { Point3 } from "./pull";
+import type { Point3 } from "../../plots/scenes/sceneView";
 
 // What a ray through a pixel meets first.
 export type SolidHit = { solid: SolidView; index: number; point: Point3 };
@@ -78,7 +78,7 @@ export class SolidStage {
     this.controls.addEventListener("change", turned);
   }
 
-  // Show the whole floor within a border, and what stands on it, on a canvas of an aspect.
+  // Show the whole floor within a border, and what is above it, on a canvas of an aspect.
   frame([x0, y0, x1, y1]: [number, number, number, number], aspect: number): void {
     const across = Math.hypot(x1 - x0, y1 - y0);
     const half = Math.tan((ANGLE / 2) * (Math.PI / 180)) * Math.min(1, aspect);
@@ -183,9 +183,7 @@ export class SolidStage {
     const [first] = ray.intersectObjects(seen, false);
     const index = this.meshes.findIndex((mesh) => mesh === first?.object);
     const solid = this.solids[index];
-    return first === undefined || solid === undefined
-      ? null
-      : { solid, index, point: first.point.toArray() as Point3 };
+    return first === undefined || solid === undefined ? null : { solid, index, point: first.point.toArray() };
   }
 
   // The point of a height under a pixel; null: the pixel shows the sky.
@@ -199,17 +197,17 @@ export class SolidStage {
     const through = new Vector3(px, py, pz);
     const normal = this.camera.getWorldDirection(new Vector3());
     const plane = new Plane().setFromNormalAndCoplanarPoint(normal, through);
-    return (this.ray(x, y).ray.intersectPlane(plane, new Vector3()) ?? through).toArray() as Point3;
+    return (this.ray(x, y).ray.intersectPlane(plane, new Vector3()) ?? through).toArray();
   }
 
   // A point of a solid in its own frame, and where such a point is now.
   own(index: number, point: Point3): Point3 {
     const inverse = (this.meshes[index]?.matrix ?? new Matrix4()).clone().invert();
-    return new Vector3(...point).applyMatrix4(inverse).toArray() as Point3;
+    return new Vector3(...point).applyMatrix4(inverse).toArray();
   }
 
   now(index: number, own: Point3): Point3 {
-    return new Vector3(...own).applyMatrix4(this.meshes[index]?.matrix ?? new Matrix4()).toArray() as Point3;
+    return new Vector3(...own).applyMatrix4(this.meshes[index]?.matrix ?? new Matrix4()).toArray();
   }
 
   // The pixel of the canvas that shows a point.
