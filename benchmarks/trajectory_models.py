@@ -27,6 +27,7 @@ from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.papers.saliency.scenes import photographs
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.mujoco.mujoco import MuJoCo
 
 ROOT = Path(__file__).parents[1]
 STEPS = 300
@@ -75,7 +76,7 @@ class Table:
     precisions: tuple[str, ...] = ("float64", "float32")
 
 
-HEAVY = {"saliency": 100, "spa": 100, "color_search": 100}
+HEAVY = {"saliency": 100, "spa": 100, "color_search": 100, "pointing": 100}
 """Steps of the examples whose steps are expensive."""
 
 ENDS = {"Recording": 30}
@@ -92,6 +93,7 @@ EXAMPLE_WORLDS: Mapping[str, Callable[[], World]] = {
     "saliency": _photograph,
     "spa": lambda: Arena("z"),
     "color_search": lambda: Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4),
+    "pointing": MuJoCo.example,
 }
 
 

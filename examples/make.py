@@ -450,6 +450,43 @@ def color_search() -> dd.Model:
     return model
 
 
+def pointing() -> dd.Model:
+    """The architecture of `deodar demo pointing`, with the panels of the studio for a table and an arm."""
+    model = dd.architectures.pointing()
+    names = ("red", "green", "left", "right")
+    traces = [{"element": model[name].id, "port": "activation", "reduce": "at", "at": []} for name in names]
+    traces.append({"element": model["satisfaction"].id, "port": "activation", "reduce": "max", "at": []})
+    plots = {
+        "perceptual": (model["perceptual"].id, "heat", "activation", {}),
+        "cues": (model["red"].id, "course", "activation", {"traces": traces, "window": 10_000}),
+    }
+    say = [
+        {
+            "element": model[f"say {name}"].id,
+            "parameter": "amplitude",
+            "lower": 0,
+            "upper": 3,
+            "label": name,
+            "switch": True,
+        }
+        for name in names
+    ]
+    top = [(230, "pins"), (350, "inspector", "graph")]
+    right = (580, [(240, top), (270, "perceptual"), (190, "cues")])
+    model.describe(
+        layout={"pins": say, "panels": _panels([(700, "world"), right], plots)},
+        notes=(
+            "Pointing. An arm points at the object that a colour and a side name, such as the green object on"
+            " the left. Lomp et al. (2016), section 5. Press Play. Turn on the switches of a colour and of a"
+            " side, and off again: the nodes stay on, the perceptual field builds a peak at the object that"
+            " the camera sees there, the arm points at it, and the condition of satisfaction ends all of it."
+            " Drag an object during the reach, or pull at the arm. It needs the extra robots, and a world:"
+            " --world mujoco:table. Without cues there is no peak. Run it for 500 ms."
+        ),
+    )
+    return model
+
+
 def _panels(columns: list[Any], plots: dict[str, tuple[str, str, str, Layout]]) -> Layout:
     """The arrangement of the studio's panels, as Dockview reads it.
 
@@ -537,6 +574,7 @@ EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     behaviours,
     serial_order,
     color_search,
+    pointing,
     binding,
     remapping,
     change_detection,

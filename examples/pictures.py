@@ -313,6 +313,24 @@ def serial_order() -> Figure:
     return figure
 
 
+def pointing() -> Figure:
+    """What the camera sees when the arm points at the green object on the left (of the robot)."""
+    figure = blank()
+    world = dd.MuJoCo.example()
+    session = dd.Session(dd.load(HERE / "pointing.json"), world=world)
+    for level in (3.0, 0.0):
+        for name in ("green", "left"):
+            session.set(f"say {name}.amplitude", level)
+        session.run(300)
+    while float(session.read("satisfaction.activation").max()) < 1:
+        session.run(20)
+    pixels = [dd.Axis("column", 0, 2, 3 * SIZE[0]), dd.Axis("row", 0, 2, 3 * SIZE[1]), dd.Axis("c", 0, 2, 3)]
+    world.pixel_noise = 0.0
+    seen = world.sense("camera", pixels, session.time)[0]
+    part(figure).imshow(seen.transpose(1, 0, 2), aspect="auto")
+    return figure
+
+
 def color_search() -> Figure:
     """The way of the robot to blue, yellow and red, which it was shown in this order, from above."""
     figure = blank()
@@ -396,6 +414,7 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
     behaviours,
     serial_order,
     color_search,
+    pointing,
     binding,
     remapping,
     change_detection,
@@ -429,7 +448,7 @@ def write(figure: Figure, path: Path, photograph: bool) -> None:
 def main(folder: Path = HERE) -> None:
     """Draw every example."""
     for draw in PICTURES:
-        write(draw(), folder / f"{draw.__name__}.png", photograph=draw in (saliency, color_search))
+        write(draw(), folder / f"{draw.__name__}.png", photograph=draw in (saliency, color_search, pointing))
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import deodar as dd
 from deodar.analysis.peaks import peaks
 from deodar.papers.saliency.scenes import photographs
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.mujoco.mujoco import MuJoCo
 from tests.docs.source import EXAMPLES, module
 
 make = module(EXAMPLES / "make.py")
@@ -268,6 +269,28 @@ def test_color_search_learns_what_is_shown_and_looks_for_it_in_this_order() -> N
         until(f"item {k + 1}.node", True)
         x, y, _ = session.read("pose.output")
         assert np.hypot(x - blocks[name].center[0], y - blocks[name].center[1]) < 165
+
+
+def test_pointing_points_at_the_object_that_the_switches_name() -> None:
+    world = MuJoCo.example()
+    session = dd.Session(dd.load(EXAMPLES / "pointing.json"), world=world)
+
+    def highest(name: str) -> float:
+        return float(np.max(session.read(f"{name}.activation")))
+
+    session.run(500)
+    assert highest("perceptual") < 0
+    for level in (3.0, 0.0):
+        for name in ("green", "left"):
+            session.set(f"say {name}.amplitude", level)
+        session.run(300)
+    while highest("satisfaction") < 1:
+        session.run(20)
+        assert session.time < 10_000
+    place = next(box.center for box in world.scene().boxes if box.name == "green left")
+    assert np.hypot(*np.subtract(world.tool()[:2], place)) < 0.04
+    session.run(2000)
+    assert max(highest(n) for n in ("perceptual", "satisfaction", "green", "left")) < 0
 
 
 def test_behaviours_obey_their_constraints() -> None:

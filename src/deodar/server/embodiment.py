@@ -162,7 +162,11 @@ def missing(world: World, doc: Document) -> list[str]:
 
 def problems(doc: Document, world: World | None) -> Sequence[Problem]:
     """Return why a document cannot run in a world: signals that it lacks, or has over other axes."""
-    lacking = [_lacking(e.path, name, world) for e in doc.entries if (name := _lacks(e.element, world))]
+    lacking = [
+        _lacking(e.path, e.element, world)
+        for e in doc.entries
+        if isinstance(e.element, (Sensor, Motor)) and _lacks(e.element, world)
+    ]
     if lacking:
         return lacking
     try:
@@ -177,26 +181,20 @@ def warnings(doc: Document, world: World | None) -> list[Problem]:
     return [p for p in agreement.judge(doc, world) if p.severity == "warning"]
 
 
-def _lacks(element: object, world: World | None) -> str:
-    """Return the sensor or motor of an element that a world does not have; empty if it has all."""
-    name = ""
-    try:
-        if isinstance(element, Sensor):
-            name = f"sensor {element.sensor!r}"
-            if world is None:
-                return name
-            world.require(element.sensor)
-        elif isinstance(element, Motor) and world is not None:
-            name = f"motor {element.motor!r}"
-            world.require_motor(element.motor)
-    except WorldError:
-        return name
-    return ""
+def _lacks(element: Sensor | Motor, world: World | None) -> bool:
+    """Return whether a world does not have the sensor or motor of an element."""
+    if isinstance(element, Sensor):
+        return world is None or element.sensor not in world.sensors
+    return world is not None and element.motor not in world.motors
 
 
-def _lacking(path: str, name: str, world: World | None) -> Problem:
+def _lacking(path: str, element: Sensor | Motor, world: World | None) -> Problem:
+    what, name = ("sensor", element.sensor) if isinstance(element, Sensor) else ("motor", element.motor)
     lacks = "no world was chosen that has" if world is None else f"the world {type(world).__name__} lacks"
-    return Problem(path, f"{lacks} the {name}", "Choose a world that has it: the button World in the header")
+    having = [kind for kind, cls in registry.kinds("worlds").items() if name in {**cls.sensors, **cls.motors}]
+    such = f", such as {' or '.join(having)}" if having else ""
+    fix = f"Choose a world that has it{such}: the button World in the header"
+    return Problem(path, f"{lacks} the {what} {name!r}", fix)
 
 
 def preview(world: World, doc: Document | None) -> WorldPreview:

@@ -8,6 +8,7 @@ import pytest
 
 from deodar.papers.pointing import targets
 from deodar.papers.pointing.cycle import EVENTS, PointingCycle
+from deodar.papers.pointing.sensitivity import changes
 from deodar.papers.pointing.targets import claims
 from deodar.papers.pointing.trials import CASES, VARIANTS
 
@@ -53,6 +54,11 @@ def rows() -> dict[str, dict[str, Any]]:
             add(condition, k, "red right", {"matches": 2, "hidden": 0, **CYCLE})
             add(condition, k, "green left", {"matches": 0, "hidden": 0, **NOTHING})
             add(condition, k, "green right", {"matches": 0, "hidden": 1, **CYCLE})
+    for condition in changes():
+        add(condition, 0, "camera", CONTROL)
+        add(condition, 0, "red left", {"matches": 1, "hidden": 0, **CYCLE})
+    for k in range(40):
+        add("photograph", k, "red left", {"match": k % 4 == 0, "inside": k % 4 == 0, "highest": 1.0})
     for case in CASES:
         for k in range(50):
             add(case, k, "", {**CYCLE, **EXTRA.get(case, {})})
@@ -88,6 +94,7 @@ FAULTS = [
     ("removed/{}", {"cues on": 1}, 3, targets.WORDS["removed"]),
     ("pushed/{}", {"pushed": False}, 3, targets.WORDS["pushed"]),
     ("noisy/{}", {"right": False}, 3, targets.WORDS["noisy"]),
+    ("photograph/{} red left", {"inside": None}, 2, "photographs"),
     ("dim/{}", {"right": False}, 3, targets.WORDS["dim"]),
     *[(name + "/{} camera", {"peaks": 1}, 5, name) for name in VARIANTS],
     *[(name + "/{} red left", {"miss": 0.05}, 5, name) for name in VARIANTS],
@@ -110,3 +117,12 @@ def test_an_event_that_is_missing_or_out_of_order_is_noticed(name: str):
     swapped = {**EVENT_TIMES, name: EVENT_TIMES[late], late: EVENT_TIMES[name]}
     assert name == "rest" or not PointingCycle(events=swapped).ordered
     assert PointingCycle(events={k: v for k, v in EVENT_TIMES.items() if k != "movement"}).ordered
+
+
+def test_the_table_of_changed_parameters_begins_with_the_largest_effect():
+    found = rows()
+    found["cue.tau +20 %/0 red left"] |= {"ordered": False}
+    lines = targets.sensitivity_table(found).splitlines()
+    assert lines[2] == "| `cue.tau` | 1 of 1 | 1 of 1 | 1 of 1 | 0 of 1 |"
+    assert len(lines) == 2 + len(changes()) / 2
+    assert targets.sensitivity_table({}) == targets.NOT_RUN

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 import deodar as dd
-from deodar.server.embodiment import Embodiment
+from deodar.server.embodiment import Embodiment, problems
 
 
 def test_a_model_that_points_gets_the_table_and_another_model_does_not(monkeypatch: pytest.MonkeyPatch):
@@ -17,3 +17,5 @@ def test_a_model_that_points_gets_the_table_and_another_model_does_not(monkeypat
     assert isinstance(Embodiment(None).world(colours), dd.Arena)
     monkeypatch.setitem(sys.modules, "mujoco", None)
     assert Embodiment(None).world(document) is None
+    fixes = [p.fix for p in problems(document, None) if "'tool_plane'" in p.what]
+    assert fixes and all("such as MuJoCo: the button World" in fix for fix in fixes)

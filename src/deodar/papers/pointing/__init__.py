@@ -51,7 +51,10 @@ def about(quick: bool) -> JsonObject:
 
 
 def jobs(quick: bool) -> Sequence[Job]:
-    """Return one job for each scene and each special case; with `quick` 20 scenes and 10 of each case."""
+    """Return one job for each scene, photograph, changed parameter and special case.
+
+    With `quick` there are 20 scenes, 10 of each case, and no changed parameters.
+    """
     # start-up time: these bring JAX
     from deodar.papers.pointing import trials
 
@@ -64,10 +67,12 @@ def kept(row: Row) -> Row:
 
 
 def report(rows: Mapping[str, Row], quick: bool) -> Report:
-    """Return the claims, and a table of them."""
+    """Return the claims, and tables of them and of the sensitivity."""
     # start-up time: these bring JAX
     from deodar.papers._report import Report
     from deodar.papers.pointing import targets
 
     claims = targets.claims(rows, quick)
-    return Report(claims, tables={"claims": targets.table(claims)}, numbers=targets.numbers(claims))
+    numbers = targets.numbers(claims, rows)
+    tables = {name: numbers[name] for name in ("claims", "sensitivity")}
+    return Report(claims, tables=tables, numbers=numbers)

@@ -11,6 +11,7 @@ from deodar.architectures.pointing import CUES
 from deodar.experiments.rows import Row
 from deodar.papers._report import NOT_RUN
 from deodar.papers._shares import reported_share, required_share
+from deodar.papers.pointing.sensitivity import changes
 from deodar.papers.pointing.trials import CASES, VARIANTS
 
 SOURCE = "Lomp et al. (2016), Front. Neurorobot. 10:14"
@@ -48,10 +49,15 @@ def claims(rows: Mapping[str, Row], quick: bool) -> list[Claim]:
         if not quick:
             good = [_good(r) for r in of if _counts(r)]
             out.append(required_share(f"{name}: {EVERYTHING}", good, RIGHT, "", quick))
+    shown = [r for r in found if r["condition"] == "photograph"]
+    out.append(
+        required_share(PHOTOGRAPHS, [r["inside"] == r["match"] for r in shown], RIGHT, FIGURE_8, quick)
+    )
     beyond = [r for r in found if r["condition"] == "beyond"]
     return [*out, *(_of_scenes(beyond, "beyond the range: ", quick, required=False) if not quick else [])]
 
 
+PHOTOGRAPHS = "photographs: a peak inside the marked object for its colour and side, none for other pairs"
 EVERYTHING = "controls are silent, and every match is selected, reached and ended in order"
 
 
@@ -95,9 +101,33 @@ def table(found: Sequence[Claim]) -> str:
     return "\n".join(lines)
 
 
-def numbers(found: Sequence[Claim]) -> dict[str, str]:
-    """Return what the manual states: the table, and the distances of the tool."""
-    out = {"claims": table(found)}
+def sensitivity_table(rows: Mapping[str, Row]) -> str:
+    """Return a table of the changed parameters in Markdown, those with the largest effect first.
+
+    It counts the controls and the pairs without a match that are silent, and the matches that are selected
+    and reached in order.
+    """
+    named: dict[str, dict[str, str]] = {}
+    worst: dict[str, float] = {}
+    for condition in changes():
+        name, sign = condition.rsplit(" ", 2)[0], " ".join(condition.rsplit(" ", 2)[1:])
+        of = [r for r in rows.values() if r["condition"] == condition and _counts(r)]
+        if not of:
+            return NOT_RUN
+        met = [_good(r) for r in of if r.get("matches")]
+        none = [_good(r) for r in of if not r.get("matches")]
+        named.setdefault(name, {})[sign] = f"{sum(none)} of {len(none)} | {sum(met)} of {len(met)}"
+        share = min(sum(none) / len(none), sum(met) / len(met))
+        worst[name] = min(worst.get(name, 1.0), share)
+    lines = ["| parameter | -20 %: silent | right | +20 %: silent | right |", "|---|---|---|---|---|"]
+    for name in sorted(named, key=lambda n: (worst[n], n)):
+        lines.append(f"| `{name}` | {named[name]['-20 %']} | {named[name]['+20 %']} |")
+    return "\n".join(lines)
+
+
+def numbers(found: Sequence[Claim], rows: Mapping[str, Row]) -> dict[str, str]:
+    """Return what the manual states: the tables, and the distances of the tool."""
+    out = {"claims": table(found), "sensitivity": sensitivity_table(rows)}
     for claim in found:
         if isinstance(claim.value, list) and claim.name.startswith("distance"):
             median, largest = claim.value

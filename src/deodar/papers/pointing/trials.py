@@ -11,6 +11,7 @@ import numpy as np
 from deodar.architectures.pointing import COLOURS, CUES, SIDES
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
+from deodar.papers.pointing import photographs, sensitivity
 from deodar.papers.pointing.cycle import COUNT, ON, SETTLING, Hook, PointingCycle, clear, control, run_cycle
 from deodar.papers.pointing.scenes import BAND, BEYOND, SERVED, TEST, Disc, equal_pair, scene
 from deodar.papers.pointing.table import SPEECH, Table
@@ -70,6 +71,10 @@ def jobs(quick: bool) -> list[Job]:
         out += [_scene_job("beyond", k, BAND + k) for k in range(BEYOND_SCENES)]
         for name in VARIANTS:
             out += [_scene_job(name, k, TEST + k) for k in range(VARIANT_SCENES)]
+        for name in sensitivity.changes():
+            out += [_scene_job(name, k, sensitivity.FIRST + k) for k in range(sensitivity.SCENES)]
+    for photograph, _, _ in photographs.chosen():
+        out += [_photograph_job(photograph.name, side, TEST) for side in SIDES]
     for case in CASES:
         out += [Job((f"{case}/{k}",), special, {"case": case, "trial": k}, 6.0) for k in range(each)]
     return out
@@ -80,20 +85,23 @@ def _scene_job(condition: str, trial: int, seed: int) -> Job:
     return Job(keys, whole_scene, {"condition": condition, "trial": trial, "seed": seed}, 20.0)
 
 
-def whole_scene(
-    condition: str, trial: int, seed: int, settings: Mapping[str, float] | None = None
-) -> list[Row]:
+def _photograph_job(name: str, side: str, seed: int) -> Job:
+    keys = tuple(f"photograph/{name} {side} {colour} {where}" for colour, where in PAIRS)
+    return Job(keys, photographs.watch, {"name": name, "side": side, "seed": seed}, 8.0)
+
+
+def whole_scene(condition: str, trial: int, seed: int) -> list[Row]:
     """Run a scene: the camera alone, each cue alone, and all pairs of cues in random order, without a reset.
 
     Args:
         condition: name of the condition.
         trial: number of the scene.
         seed: seed of the scene, of the order, and of all noise.
-        settings: values of parameters of the model by path.
     """
     random = np.random.default_rng(seed + 1_000_000)
     served = BEYOND if condition == "beyond" else SERVED
-    at = _table(scene(seed, served=served), seed, settings, **VARIANTS.get(condition, {}))
+    changed = sensitivity.changes().get(condition)
+    at = _table(scene(seed, served=served), seed, changed, **VARIANTS.get(condition, {}))
     base = {"condition": condition, "trial": trial}
     rows: list[Row] = [{**base, "key": f"{condition}/{trial} camera", **_row(control(at))}]
     rows += [{**base, "key": f"{condition}/{trial} {cue}", **_row(control(at, [cue]))} for cue in CUES]
@@ -199,7 +207,9 @@ def _take_away(at: Table, since: float, seen: dict[str, Any], target: Disc) -> N
             seen.pop("still", None)
 
 
-def _table(discs: Sequence[Disc], seed: int, values: Mapping[str, float] | None, **others: Any) -> Table:
+def _table(
+    discs: Sequence[Disc], seed: int, values: Mapping[str, float | np.ndarray] | None, **others: Any
+) -> Table:
     """Open a table with values of parameters of the model by path."""
     at = Table(discs, seed, **others)
     for path, value in (values or {}).items():
