@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import cv2
@@ -13,6 +14,7 @@ from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
 from deodar.recording.opened import again, named
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.camera import Camera
 from deodar.worlds.combined import Combined
 from deodar.worlds.mujoco.mujoco import MuJoCo
 from deodar.worlds.picture import Picture
@@ -109,6 +111,22 @@ def test_the_command_line_names_all_worlds(tmp_path: Path):
     ):
         with pytest.raises(WorldError, match=said):
             named(f"combined:{text}", "--world")
+
+
+def test_a_camera_that_stops_ends_the_run_with_its_name_and_the_arm_stays(tmp_path: Path):
+    file = video(tmp_path / "table.avi", [table("green", (-0.2, 0.32))], frames=12)
+    world = Combined(MuJoCo("table"), {"camera": Camera(str(file), patience=0.2)})
+    session = dd.Session(dd.architectures.pointing(), world=world, seed=1)
+    with pytest.raises(WorldError, match=r"table\.avi"):
+        for _ in range(2000):
+            session.step()
+            time.sleep(0.005)
+    assert np.hypot(*np.subtract(world.world.tool()[:2], (0.0, 0.12))) < 0.02, "it was at rest"
+    # another world, and the run goes on
+    session.world = Combined(world.world, {"camera": Video(file, loop=True)})
+    session.reset()
+    session.step(20)
+    assert session.time == 200
 
 
 def test_a_world_that_does_not_fit_is_refused():

@@ -3,8 +3,8 @@
 The picture of a camera shows coloured objects. Nodes for two colours and two sides are switched on by the
 user and stay on. A perceptual field over the table and hue needs the camera's input, a colour and a side
 together to build a peak. Its peak is the attractor of the tool. A field of the condition of satisfaction
-(CoS) receives the target and the position of the tool; where they overlap, its peak switches nodes and
-perceptual field off, and so itself.
+(CoS) receives the target and the position of the tool; where they overlap, its peak switches a CoS node on,
+which switches cue nodes and perceptual field off, and so the CoS field and itself.
 
 Reference:
     Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied
@@ -59,7 +59,11 @@ CORNERS = ((104.598, 25.68), (22.402, 25.68), (7.003, 81.672), (119.997, 81.672)
 order (left, near), (right, near), (right, far), (left, far) as the robot sees them.
 """
 
-TAU, STEEP = 100.0, 15.0
+TAU, PERCEPTUAL_TAU, STEEP = 100.0, 60.0, 15.0
+"""Time scales of the CoS field and of the perceptual field, ms, and the slope of their sigmoid. The peak of a
+slower perceptual field would remain farther behind an object that moves.
+"""
+
 NODE_TAU, NODE_STEEP = 50.0, 20.0
 STILL = 0.15
 """Standard deviation of the noise of a field or node without interaction, the same at every resolution."""
@@ -75,17 +79,23 @@ USER = 3.0
 
 STRENGTHS = {
     "camera": 2.6,
-    "target": 0.095,
-    "release of the field": -300.0,
-    "release of the nodes": -1500.0,
+    "target": 0.08,
+    "satisfied": 4000.0,
+    "release of the field": -2.0,
+    "release of the nodes": -6.0,
 }
-"""Factors of connections. `target` is for each degree of the contracted output; those of the releases are for
-each m2 of the CoS field's output. The nodes are inhibited five times more than the field: a field that falls
-first takes the target away from the CoS field, whose peak decays before the nodes are off.
+"""Factors of connections. `target` is for each degree of the contracted output, `satisfied` for each m2 of
+the CoS field's output. The nodes are inhibited more than the field: all are to be off before the target is.
 """
 
-APPROACH = 22.5
-"""tau of eq. 15, ms m2 deg: with a peak of 0.11 m2 deg the tool relaxes in about 0.2 s."""
+SATISFIED = 100.0, -1.5, 1.0
+"""tau (ms), resting level and self-excitation of the CoS node. It is switched on by a peak of the CoS field
+of more than about 3 cm2, a single sample of the coarsest sampling, and off below 1 cm2: it stays on until all
+cue nodes are off, while the peak decays with its target.
+"""
+
+APPROACH = 12.0
+"""tau of eq. 15, ms m2 deg: with a peak of 0.11 m2 deg the tool relaxes in about 0.1 s."""
 
 FASTEST = 0.25e-3
 """Largest speed of the tool, m/ms."""
@@ -139,12 +149,12 @@ def pointing(
         Field(
             "perceptual",
             [x, y, hue],
-            tau=TAU,
+            tau=PERCEPTUAL_TAU,
             resting_level=-5.0,
             sigmoid=sigmoid,
             kernel=[Gaussian(18.0, (0.03, 0.03, 18.0), normalized=True)],
             global_inhibition=26.0,
-            noise=strength_of_noise(noise, TAU, [x, y, hue]),
+            noise=strength_of_noise(noise, PERCEPTUAL_TAU, [x, y, hue]),
             quadrature=QUADRATURE,
         )
     )
@@ -198,28 +208,36 @@ def pointing(
     where = model.add(Project(plane, name="target"))
     perceptual >> where >> strength("target") >> satisfaction
     tool >> model.add(SpaceCode(plane, sigma=0.02, amplitude=3.0, name="tool place")) >> satisfaction
+    satisfied = _node(model, "satisfied", *SATISFIED, noise)
     area = model.add(Project([], name="satisfaction area"))
-    satisfaction >> area
-    area >> strength("release of the field") >> perceptual
+    satisfaction >> area >> strength("satisfied") >> satisfied
+    satisfied >> strength("release of the field") >> perceptual
     stop = strength("release of the nodes")
-    area >> stop
+    satisfied >> stop
     for node in nodes:
         stop >> node
     return model
 
 
-def _cue(model: Model, name: str, noise: float) -> Handle:
-    """Add the node of a cue, and the input of the user to it."""
-    node = model.add(
+def _node(
+    model: Model, name: str, tau: float, resting_level: float, excitation: float, noise: float
+) -> Handle:
+    """Add a node with self-excitation."""
+    return model.add(
         Field(
             name,
             [],
-            tau=NODE_TAU,
-            resting_level=-1.2,
+            tau=tau,
+            resting_level=resting_level,
             sigmoid=Logistic(beta=NODE_STEEP),
-            kernel=[Gaussian(2.4)],
-            noise=strength_of_noise(noise, NODE_TAU, []),
+            kernel=[Gaussian(excitation)],
+            noise=strength_of_noise(noise, tau, []),
         )
     )
+
+
+def _cue(model: Model, name: str, noise: float) -> Handle:
+    """Add the node of a cue, and the input of the user to it."""
+    node = _node(model, name, NODE_TAU, -1.2, 2.4, noise)
     model.add(Boost(f"say {name}", [], 0.0)) >> node
     return node

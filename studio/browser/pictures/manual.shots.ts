@@ -150,6 +150,27 @@ for (const colours of COLOURS) {
     await shot(page, name("world"));
   });
 
+  test(`pointing, ${colours}`, async () => {
+    const studio = await open(colours, {});
+    const { page } = studio;
+    const observer = await studio.observe();
+    await openExample(page, "Pointing");
+    await observer.runs();
+    await observer.ask({ type: "speed", factor: null });
+    const say = async (value: number) => {
+      for (const name of ["say green", "say left"]) {
+        const element = observer.element(name).id;
+        await observer.ask({ type: "set", element, parameter: "amplitude", value });
+      }
+    };
+    await say(3);
+    await run(page, 40);
+    await say(0);
+    await run(page, 100);
+    await page.waitForTimeout(1000); // until the scene is drawn
+    await shot(page, name("pointing"));
+  });
+
   test(`blocks, ${colours}`, async () => {
     const parts = ["left", "right"].flatMap((side, k) => [
       [`go ${side}`, { kind: "Boost", id: `0000000${k + 1}`, axes: [], amplitude: 300 }],

@@ -1,7 +1,8 @@
 """Lomp et al. (2016), section 5: an arm points at the object that a colour and a side name.
 
-The parameters were found with a separate prototype on other scenes and another camera; the test scenes were
-run once, with these parameters.
+Most parameters were found with a separate prototype on other scenes and another camera, those of the
+approach and of the condition of satisfaction on scenes for tuning. A first set, whose arm lost a target that
+moved, was run on other test scenes; these test scenes were run once, with these parameters.
 
 Reference:
     Lomp, Richter, Zibner & Schöner (2016), Developing dynamic field theory architectures for embodied

@@ -11,7 +11,7 @@ from deodar.papers.pointing.scenes import Disc
 from deodar.papers.pointing.table import SPEECH, HuePeak, Moment, Table
 
 ON = 1.0
-"""Activation from which a peak of a field counts as detected, above fluctuations at the threshold."""
+"""Activation from which a peak of the perceptual field counts as detected, above fluctuations at 0."""
 
 MOVING = 0.02
 """Speed from which the arm counts as moving, m/s."""
@@ -131,7 +131,7 @@ def run_cycle(
                 done.miss = miss
             if done.miss_after is None and time >= since + AFTER * dt:
                 done.miss_after = miss
-        low = now.perceptual < 0 and now.satisfaction < 0 and max(now.nodes) < 0
+        low = max(now.perceptual, now.satisfaction, now.satisfied, *now.nodes) < 0
         if low and "satisfaction off" in done.events:
             rest_since = time if rest_since is None else rest_since
             done.events.setdefault("rest", rest_since)
@@ -155,7 +155,7 @@ def _note(done: PointingCycle, now: Moment, nodes: Sequence[int], speed: float, 
         events.setdefault("detection", time)
     if "detection" in events and speed > MOVING:
         events.setdefault("movement", time)
-    if "detection" in events and now.satisfaction > ON:
+    if "detection" in events and now.satisfied > 0:
         events.setdefault("satisfaction", time)
     if "satisfaction" not in events:
         return
@@ -163,7 +163,7 @@ def _note(done: PointingCycle, now: Moment, nodes: Sequence[int], speed: float, 
         events.setdefault("field off", time)
     if max(now.nodes) < 0:
         events.setdefault("nodes off", time)
-    if "field off" in events and now.satisfaction < 0:
+    if "field off" in events and max(now.satisfaction, now.satisfied) < 0:
         events.setdefault("satisfaction off", time)
 
 

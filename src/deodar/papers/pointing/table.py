@@ -41,6 +41,7 @@ class Moment:
         time: ms since the start of the session.
         perceptual: largest activation of the perceptual field.
         satisfaction: largest activation of the CoS field.
+        satisfied: activation of the CoS node.
         nodes: activation of each cue node, in the order of `CUES`.
         tool: true x and y of the tool, m.
     """
@@ -48,6 +49,7 @@ class Moment:
     time: float
     perceptual: float
     satisfaction: float
+    satisfied: float
     nodes: tuple[float, ...]
     tool: tuple[float, float]
 
@@ -101,6 +103,7 @@ class Table:
         self._places = [
             (self.model["perceptual"].id, "activation"),
             (self.model["satisfaction"].id, "activation"),
+            (self.model["satisfied"].id, "activation"),
             *((self.model[name].id, "activation") for name in CUES),
         ]
         self._reader = port_reader(self.session.program, self._places)
@@ -142,11 +145,11 @@ class Table:
         session = self.session
         session.step()
         arrays = session.read_ports(self._reader, self._places)
-        u, c, *nodes = (np.asarray(arrays[place]) for place in self._places)
+        u, c, s, *nodes = (np.asarray(arrays[place]) for place in self._places)
         self.activation = u
         x, y, _ = self.world.tool()
         levels = tuple(float(n) for n in nodes)
-        now = Moment(session.time, float(u.max()), float(c.max()), levels, (x, y))
+        now = Moment(session.time, float(u.max()), float(c.max()), float(s), levels, (x, y))
         if self.watch is not None:
             self.watch(now)
         return now
