@@ -9,6 +9,7 @@ import numpy as np
 
 from deodar.architectures.pointing import COLOURS, CUES, SIDES, pointing
 from deodar.couplings.homography import Homography
+from deodar.declarations import LIMITING
 from deodar.elements.boost import Boost
 from deodar.leaves import leaves
 from deodar.papers.pointing.scenes import TUNING
@@ -32,17 +33,21 @@ def changes() -> Mapping[str, Mapping[str, float | np.ndarray]]:
     """Return for each condition, such as `perceptual.tau -20 %`, the changed values by path.
 
     Parameters are all live ones that are not 0. Left out are the input of the user, and the corners of the
-    table in the picture, which are measured.
+    table in the picture, which are measured. A time scale is not changed below the step of the model.
     """
     group = {name: key for key, names in GROUPS.items() for name in names}
     found: dict[str, dict[str, float | np.ndarray]] = {}
-    for entry in pointing().document.entries:
+    document = pointing().document
+    for entry in document.entries:
         if isinstance(entry.element, (Boost, Homography)):
             continue
-        for path, value, _ in leaves(entry.element):
+        for path, value, declared in leaves(entry.element):
             if not np.any(value):
                 continue
             for sign, factor in FACTORS.items():
                 condition = f"{group.get(entry.path, entry.path)}.{path} {sign}"
-                found.setdefault(condition, {})[f"{entry.path}.{path}"] = factor * value
+                changed = factor * value
+                if declared.role in LIMITING and isinstance(changed, float):
+                    changed = max(changed, document.step)
+                found.setdefault(condition, {})[f"{entry.path}.{path}"] = changed
     return found
