@@ -472,7 +472,7 @@ def pointing() -> dd.Model:
         for name in names
     ]
     top = [(230, "pins"), (350, "inspector", "graph")]
-    right = (580, [(240, top), (270, "perceptual"), (190, "cues")])
+    right = (580, [(285, top), (240, "perceptual"), (175, "cues")])
     model.describe(
         layout={"pins": say, "panels": _panels([(700, "world"), right], plots)},
         notes=(

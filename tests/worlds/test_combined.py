@@ -122,7 +122,7 @@ def test_a_camera_that_stops_ends_the_run_with_its_name_and_the_arm_stays(tmp_pa
             session.step()
             time.sleep(0.005)
     assert np.hypot(*np.subtract(world.world.tool()[:2], (0.0, 0.12))) < 0.02, "it was at rest"
-    # another world, and the run goes on
+    # the run continues in another world
     session.world = Combined(world.world, {"camera": Video(file, loop=True)})
     session.reset()
     session.step(20)

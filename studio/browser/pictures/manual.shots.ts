@@ -156,7 +156,6 @@ for (const colours of COLOURS) {
     const observer = await studio.observe();
     await openExample(page, "Pointing");
     await observer.runs();
-    await observer.ask({ type: "speed", factor: null });
     const say = async (value: number) => {
       for (const name of ["say green", "say left"]) {
         const element = observer.element(name).id;
@@ -164,9 +163,13 @@ for (const colours of COLOURS) {
       }
     };
     await say(3);
-    await run(page, 40);
+    const until = async (tick: number) => {
+      await observer.ask({ type: "step", n: tick - (observer.clock?.tick ?? 0) });
+      await observer.until(() => observer.clock?.tick === tick);
+    };
+    await until(40);
     await say(0);
-    await run(page, 100);
+    await until(130);
     await page.waitForTimeout(1000); // until the scene is drawn
     await shot(page, name("pointing"));
   });
