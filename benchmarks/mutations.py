@@ -128,11 +128,14 @@ def every_class() -> str:
 
 
 def sources() -> dict[str, str]:
-    """Text of all files that are changed, by their names."""
+    """Text of all files that are changed, by their names: those without arrays in a file beside them."""
     found = {path.stem: path.read_text(encoding="utf-8") for path in sorted(SAMPLES.glob("*.json"))} | {
         "every_class": every_class()
     }
-    return found | {path.stem: path.read_text(encoding="utf-8") for path in sorted(EXAMPLES.glob("*.json"))}
+    whole = [
+        path for path in sorted(EXAMPLES.glob("*.json")) if not list(EXAMPLES.glob(f"{path.stem}.*.npz"))
+    ]
+    return found | {path.stem: path.read_text(encoding="utf-8") for path in whole}
 
 
 # ---------------------------------------------------------------------------------------------------- changes

@@ -152,6 +152,7 @@ test("without a connection plots keep their picture and take no change", async (
   await observer.runs();
   const plot = page.getByRole("region", { name: "Curves of u" });
   await observer.ask({ type: "step", n: 50 });
+  await plot.getByRole("status").waitFor({ state: "detached" }); // values have arrived
   await expect.poll(() => colours(plot.locator("canvas").first())).toBeGreaterThan(2);
   observer.close();
   await server.stop("SIGKILL");

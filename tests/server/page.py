@@ -168,7 +168,7 @@ class Page:
 
     async def send(self, **message: Any) -> None:
         """Send a message."""
-        if message["type"] == "rows" and isinstance(message["stream"], int):
+        if message["type"] == "rows" and isinstance(message.get("stream"), int):
             self.rows[message["stream"]] = None
         await self.socket.send(json.dumps(message))
 

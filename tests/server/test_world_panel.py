@@ -160,7 +160,13 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
     async def story(one: Page) -> None:
         await one.open("open_file", path="node.json")
         await one.do("watch_world", on=True)
-        assert one.said["scene"] == {"type": "scene", "scene": None, "note": "", "camera": False}
+        assert one.said["scene"] == {
+            "type": "scene",
+            "scene": None,
+            "note": "",
+            "camera": False,
+            "solid": False,
+        }
         (problem,) = (await one.ask("move_object", name="crate", x=1, y=1))["problems"]
         assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]
 

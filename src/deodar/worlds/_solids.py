@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Shape = Literal["plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"]
+SolidShape = Literal["plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"]
 
 POSE = 12
 """Numbers of the pose of a solid: its position, and the rows of its rotation matrix."""
@@ -40,7 +40,7 @@ class Solid:
     """
 
     body: str
-    shape: Shape
+    shape: SolidShape
     size: tuple[float, float, float]
     color: tuple[float, float, float, float]
     thing: str = ""

@@ -146,6 +146,14 @@ def test_the_arm_pushes_an_object_and_a_reset_puts_it_back():
     assert block.center == pytest.approx((0.0, 0.25), abs=1e-6)
 
 
+def test_a_reset_keeps_an_object_where_it_was_moved():
+    world = MuJoCo("table")
+    world.place("block", (0.0, 0.25), (0.05, 0.05))
+    world.move("block", (0.2, 0.4))
+    world.reset(0)
+    assert world.scene().boxes[0].center == pytest.approx((0.2, 0.4))
+
+
 def test_placing_and_removing_keep_the_state_of_all_else():
     world = MuJoCo("table")
     world.place("a", (-0.2, 0.3), (0.06, 0.06))

@@ -24,10 +24,12 @@ from deodar.worlds.mujoco import camera as pictures
 from deodar.worlds.mujoco import solids
 from deodar.worlds.mujoco.objects import PlacedObject
 from deodar.worlds.mujoco.reach import Arm
+from deodar.worlds.mujoco.rendering import Renderer
 from deodar.worlds.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled, is_scalar, simulator
 from deodar.worlds.mujoco.visibility import visible
 
-SETTINGS = ("robot", "period", "camera_every", "pixel_noise", "tool_noise", "light")
+SETTINGS = ("robot", "period", "camera_every", "pixel_noise", "tool_noise", "light", "render")
+RENDERS = ("rays", "egl")
 CONTROL = 0.01
 """Interval between two commands to the joints, s, if the time step of the scene is shorter."""
 
@@ -68,6 +70,8 @@ class MuJoCo(World):
         pixel_noise: standard deviation of each channel of each pixel; values stay between 0 and 1.
         tool_noise: standard deviation of the sensors `tool` and `tool_plane`, m.
         light: factor on the light that cameras see; it changes the value of colours, not hue or saturation.
+        render: how cameras are computed: rays (everywhere the same, without textures and shadows), or egl
+            (OpenGL by the driver of this machine, where it has EGL).
 
     Shapes:
         A sensor of the file has one axis with as many samples as MuJoCo states, none if it is one number.
@@ -100,6 +104,7 @@ class MuJoCo(World):
         pixel_noise: float = 0.0,
         tool_noise: float = 0.0,
         light: float = 1.0,
+        render: str = "rays",
     ) -> None:
         self.files = SceneFile.find(scene, robot)
         self.source = str(scene), None if robot is None else str(robot)
@@ -108,6 +113,11 @@ class MuJoCo(World):
         self.pixel_noise = number("pixel_noise", pixel_noise)
         self.tool_noise = number("tool_noise", tool_noise)
         self.light = number("light", light)
+        if render not in RENDERS:
+            raise WorldError(
+                f"render is {show(render)}; expected rays or egl", fix=did_you_mean(str(render), RENDERS)
+            )
+        self.render = render
         self.objects: dict[str, PlacedObject] = {}
         self._seed, self._trials, self._tick = 0, (0,), 0
         self._build()
@@ -137,6 +147,7 @@ class MuJoCo(World):
         self._home = self.files.home(model)
         self.arm = Arm.find(model, self._home)
         self._colors, self._shown = pictures.shades(model), simulator().MjData(model)
+        self._renderers: dict[tuple[int, int], Renderer] = {}
         self._geoms = solids.shown(model)
         self._solids = solids.solids(model, self._colors, self.objects)
         self._copies = [self._started() for _ in self._trials]
@@ -155,6 +166,9 @@ class MuJoCo(World):
             data.qpos[self.model.jnt_qposadr[k]] = self._home.get(
                 self.model.joint(k).name, data.qpos[self.model.jnt_qposadr[k]]
             )
+        for thing in self.objects.values():  # where they were placed, or moved by hand
+            place = self.model.joint(thing.name).qposadr[0]
+            data.qpos[place : place + 2] = thing.center
         mujoco.mj_forward(self.model, data)
         return data
 
@@ -282,13 +296,21 @@ class MuJoCo(World):
         if key not in self._pictures:
             self._shown.qpos[:] = self._frames[k]
             simulator().mj_fwdPosition(self.model, self._shown)
-            seen = pictures.picture(self.model, self._shown, sensor, size, self._colors, self.light)
+            seen = self._seen(sensor, size)
             if self.pixel_noise:
                 random = self._random(k, sensor, self._tick // self.camera_every)
                 noise = random.standard_normal(seen.shape, np.float32)
                 seen = np.clip(seen + np.float32(self.pixel_noise) * noise, 0.0, 1.0)
             self._pictures[key] = seen
         return self._pictures[key]
+
+    def _seen(self, camera: str, size: tuple[int, int]) -> np.ndarray:
+        """Return the picture of a camera without noise, as `render` states."""
+        if self.render == "rays":
+            return pictures.picture(self.model, self._shown, camera, size, self._colors, self.light)
+        if size not in self._renderers:
+            self._renderers[size] = Renderer(self.model, size)
+        return self._renderers[size].picture(self._shown, camera, self.light)
 
     def _random(self, k: int, sensor: str, count: int) -> np.random.Generator:
         """Return the noise of a sensor in one period; it depends on seed, trial, sensor and period alone."""
@@ -479,6 +501,7 @@ class MuJoCo(World):
                 "pixel_noise": self.pixel_noise,
                 "tool_noise": self.tool_noise,
                 "light": self.light,
+                "render": self.render,
             },
             "objects": self.arrangement(),
             "files": self.files.digest(),
@@ -499,7 +522,7 @@ class MuJoCo(World):
                     where=f"mujoco:{argument}",
                     fix=did_you_mean(name, SETTINGS),
                 )
-            if name != "robot":
+            if name not in ("robot", "render"):
                 try:
                     number = float(value)
                 except ValueError:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.worlds._solids import Mesh, Shape, Solid
+from deodar.worlds._solids import Mesh, Solid, SolidShape
 from deodar.worlds.mujoco.camera import VISIBLE
 from deodar.worlds.mujoco.scene_file import simulator
 
@@ -71,7 +71,7 @@ def _mesh(model: Any, k: int) -> Mesh:
     )
 
 
-def _shapes() -> dict[int, Shape]:
+def _shapes() -> dict[int, SolidShape]:
     kinds = simulator().mjtGeom
     return {
         int(kinds.mjGEOM_PLANE): "plane",
