@@ -131,8 +131,7 @@ class StateRing:
         if scene is not None and before is not None:
             boxes = before.boxes if before.boxes == scene.boxes else scene.boxes
             marks = before.marks if before.marks == scene.marks else scene.marks
-            solids = before.solids if before.solids == scene.solids else scene.solids
-            scene = dc.replace(scene, boxes=boxes, marks=marks, solids=solids)
+            scene = dc.replace(scene, boxes=boxes, marks=marks)
         return dc.replace(state, arrays=own, scene=scene)
 
     def _count(self, arrays: Mapping[PortKey, np.ndarray], by: int) -> None:

@@ -7,12 +7,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from deodar import registry
 from deodar.codec import Json
-from deodar.errors import WorldError, did_you_mean
 from deodar.recording import files
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
+from deodar.worlds._naming import named_kind
 from deodar.worlds.recording import Recording
 
 
@@ -34,15 +33,4 @@ def again(kind: type[World], described: Mapping[str, Json]) -> World:
 
 def named(text: str, where: str) -> World:
     """Return the world that `KIND:ARGUMENT` names; messages call the place of this text `where`."""
-    name, _, argument = text.partition(":")
-    kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
-    found = kinds.get(name.casefold())
-    if found is None:
-        raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
-    if not argument:
-        raise WorldError(
-            "needs an argument",
-            where=where,
-            fix=f"Write {name.lower()}:ARGUMENT; deodar elements {found.__name__} describes it",
-        )
-    return opened(found, argument)
+    return opened(*named_kind(text, where))

@@ -9,6 +9,7 @@ from deodar.family import Family
 from deodar.numerics.signs import Sign
 from deodar.parameters import ValueForm
 from deodar.server.message import Data, Id, Message
+from deodar.worlds._solids import SolidShape
 
 MESSAGES = Family(Message)
 """All messages to the page; each class below is registered by a decorator."""
@@ -630,7 +631,7 @@ class SolidView(Data, frozen=True):
     """
 
     body: str
-    shape: Literal["plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"]
+    shape: SolidShape
     size: list[float]
     color: list[float]
     thing: str

@@ -11,12 +11,13 @@ import numpy as np
 
 from deodar import codec, registry
 from deodar.codec import Json, JsonObject
-from deodar.errors import Problem, WorldError, did_you_mean
+from deodar.errors import Problem, WorldError
 from deodar.numerics.axes import Axes
 from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
+from deodar.worlds._naming import named_kind
 from deodar.worlds._scene import Scene
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
@@ -204,15 +205,9 @@ def _read(name: str, other: World) -> str:
 
 
 def _named(text: str) -> World:
-    kind, colon, argument = text.partition(":")
-    known = {name.casefold(): cls for name, cls in registry.kinds("worlds").items()}
-    found = known.get(kind.strip().casefold())
-    if found is None:
-        raise WorldError(f"there is no world {kind!r}", fix=did_you_mean(kind.casefold(), known))
-    if not colon or not argument:
-        raise WorldError("needs an argument", where=text, fix=f"Write {kind}:ARGUMENT")
-    with errors_of(found, "open", argument):
-        return found.open(argument)
+    kind, argument = named_kind(text, text)
+    with errors_of(kind, "open", argument):
+        return kind.open(argument)
 
 
 def _again(described: Any) -> World:

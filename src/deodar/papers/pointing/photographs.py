@@ -9,13 +9,10 @@ import functools
 
 import numpy as np
 
-from deodar.architectures.pointing import COLOURS, CUES, PIXELS, SIDES, TABLE, USER, pointing, table
+from deodar.architectures.pointing import COLOURS, PIXELS, SIDES, TABLE, pointing, table
 from deodar.experiments.rows import Row
-from deodar.papers.pointing.table import SPEECH
+from deodar.papers.pointing.table import SPEECH, Table
 from deodar.papers.saliency.scenes import Cue, CueScene, photographs
-from deodar.session.session import Session
-from deodar.worlds.combined import Combined
-from deodar.worlds.mujoco.mujoco import MuJoCo
 
 WIDTH = 0.2
 """Width of a photograph on the table, m."""
@@ -58,23 +55,20 @@ def watch(name: str, side: str, seed: int) -> list[Row]:
     scene, cue, colour = next(one for one in chosen() if one[0].name == name)
     wide, high = scene.picture.size
     size = WIDTH, WIDTH * high / wide
-    world = Combined(MuJoCo("table"), {"camera": scene.picture})
-    session = Session(pointing(corners=_corners(PLACES[side], size)), world=world, seed=seed)
+    model = pointing(corners=_corners(PLACES[side], size))
+    quiet = {"pixel_noise": 0.0, "tool_noise": 0.0}
+    at = Table([], seed, settings=quiet, model=model, camera=scene.picture)
     x, y, _ = (axis.points for axis in table())
     rows: list[Row] = []
     for named in COLOURS:
         for where in SIDES:
-            session.reset()
+            at.session.reset()
             highest, peak = -np.inf, None
             for k in range(STEPS):
-                if k in (0, SPEECH):
-                    for word in CUES:
-                        spoken = word in (named, where) and k == 0
-                        session.set(f"say {word}.amplitude", USER if spoken else 0.0)
-                session.step()
-                u = np.asarray(session.read("perceptual.activation"))
-                if u.max() > highest:
-                    highest = float(u.max())
+                at.say((named, where) if k < SPEECH else ())
+                now = at.step()
+                if now.perceptual > highest:
+                    highest, u = now.perceptual, at.activation
                     i, j, _n = np.unravel_index(int(u.argmax()), u.shape)
                     peak = float(x[i]), float(y[j])
             assert peak is not None

@@ -17,6 +17,8 @@ from deodar.numerics.axes import cell
 from deodar.papers.pointing.scenes import Disc
 from deodar.session.port_reader import port_reader
 from deodar.session.session import Session
+from deodar.worlds._base import World
+from deodar.worlds.combined import Combined
 from deodar.worlds.mujoco.mujoco import MuJoCo
 
 CAMERA = "camera"
@@ -71,7 +73,7 @@ class HuePeak:
 
 
 class Table:
-    """A session of the architecture in a scene.
+    """A session of the architecture in a scene; `camera` is a world that is seen in place of it.
 
     Attributes:
         world: the table.
@@ -90,6 +92,7 @@ class Table:
         settings: Mapping[str, float] | None = None,
         model: Model | None = None,
         robot: str | None = None,
+        camera: World | None = None,
     ) -> None:
         given: dict[str, Any] = {"pixel_noise": PIXEL_NOISE, "tool_noise": TOOL_NOISE, **(settings or {})}
         self.world = MuJoCo("table", robot, **given)
@@ -98,7 +101,8 @@ class Table:
             self.put(disc)
         self.samples = tuple(samples)
         self.model = _architecture(self.samples) if model is None else model
-        self.session = Session(self.model, world=self.world, seed=seed)
+        seen = self.world if camera is None else Combined(self.world, {CAMERA: camera})
+        self.session = Session(self.model, world=seen, seed=seed)
         self._said: dict[str, float] = {}
         self._places = [
             (self.model["perceptual"].id, "activation"),

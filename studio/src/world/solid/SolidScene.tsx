@@ -65,8 +65,7 @@ export function SolidScene({ scene, hands, ground }: SolidSceneProps) {
   const { hovered, selected } = hands;
   useEffect(() => {
     stage.current?.mark(({ thing }) => thing !== "" && (thing === selected || thing === hovered));
-    host.current?.dispatchEvent(new Event("redraw"));
-  }, [hovered, selected, follow]);
+  }, [hovered, selected]);
 
   const names = objects(scene).map(({ name }) => name);
   const key = (event: KeyboardEvent) => {
@@ -234,7 +233,6 @@ function show(
   host.addEventListener("pointercancel", release, { signal });
   host.addEventListener("pointerleave", () => now().hands.hover(null), { signal });
   host.addEventListener("dblclick", doubled, { signal });
-  host.addEventListener("redraw", redraw, { signal });
   const sizes = new ResizeObserver(redraw);
   sizes.observe(host);
   const unlisten = live.listen(redraw);

@@ -60,7 +60,7 @@ export class SolidStage {
 
   constructor(
     readonly canvas: HTMLCanvasElement,
-    turned: () => void,
+    private changed: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
@@ -75,7 +75,7 @@ export class SolidStage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.05;
     this.controls.maxDistance = 50;
-    this.controls.addEventListener("change", turned);
+    this.controls.addEventListener("change", changed);
   }
 
   // Show the whole floor within a border, and what is above it, on a canvas of an aspect.
@@ -161,6 +161,7 @@ export class SolidStage {
       const marked = solid !== undefined && chosen(solid);
       (material as MeshLambertMaterial).emissive.set(marked ? MARKED : 0);
     });
+    this.changed();
   }
 
   // An arrow between two points; null: none.

@@ -1,0 +1,28 @@
+"""Worlds as text: `KIND:ARGUMENT`, as on the command line."""
+
+from __future__ import annotations
+
+from deodar import registry
+from deodar.errors import WorldError, did_you_mean
+from deodar.worlds._base import World
+
+
+def named_kind(text: str, where: str) -> tuple[type[World], str]:
+    """Return the class of a world and the argument for its `open`; messages call the place of this text
+    `where`.
+
+    Raises:
+        WorldError: there is no such class, or the text has no argument.
+    """
+    name, _, argument = text.partition(":")
+    kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
+    found = kinds.get(name.casefold())
+    if found is None:
+        raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
+    if not argument:
+        raise WorldError(
+            "needs an argument",
+            where=where,
+            fix=f"Write {name.lower()}:ARGUMENT; deodar elements {found.__name__} describes it",
+        )
+    return found, argument
