@@ -13,6 +13,7 @@ import numpy as np
 from deodar import codec
 from deodar.codec import Repeated, repeated
 from deodar.errors import DocumentError
+from deodar.importers._foreign import Foreign, Source
 from deodar.importers.report import Line
 from deodar.parameters import show
 
@@ -30,27 +31,6 @@ WORDS = {
     "-Inf": -math.inf,
     "NaN": math.nan,
 }
-
-
-@dc.dataclass(frozen=True)
-class Source:
-    """One input of an element: the label of its source, and the source's component or ""."""
-
-    label: str
-    component: str = ""
-
-
-@dc.dataclass(frozen=True)
-class Foreign:
-    """One element of the file: its index in the list, its label and class, its parameters unconverted, and
-    its inputs in order.
-    """
-
-    place: int
-    label: str
-    kind: str
-    values: Mapping[str, Any]
-    sources: tuple[Source, ...]
 
 
 @dc.dataclass(frozen=True)

@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from deodar.importers.cosivina.file import Foreign, Simulator, array
+from deodar.importers._foreign import Foreign
+from deodar.importers._piece import Dims
+from deodar.importers.cosivina.file import Simulator, array
 from deodar.importers.cosivina.values import size
 from deodar.numerics.axes import MOST_SAMPLES, Axis
 
@@ -23,9 +25,6 @@ MOST_CELLS = 10_000_000
 class SizeLimit(ValueError):
     """Raised if a size is implausibly large."""
 
-
-Dims = tuple[Axis | None, ...]
-"""The axis of each dimension; None where it has one sample."""
 
 SIZES = ("size", "inputSize", "outputSize", "stimulusSize")
 

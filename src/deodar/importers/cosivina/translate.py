@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from deodar.element import Element
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DeodarError
+from deodar.importers._document import assembled
+from deodar.importers._foreign import Foreign
+from deodar.importers._names import FreeNames
+from deodar.importers._piece import Piece, Unfit
+from deodar.importers._wiring import SourceWiring
 from deodar.importers.cosivina import file
 from deodar.importers.cosivina.classes import CLASSES
 from deodar.importers.cosivina.classes.missing import placeholder
 from deodar.importers.cosivina.components import components
-from deodar.importers.cosivina.connect import SourceWiring
-from deodar.importers.cosivina.file import Foreign, Simulator
-from deodar.importers.cosivina.names import FreeNames
-from deodar.importers.cosivina.piece import Piece, SourceElement, Unfit
+from deodar.importers.cosivina.element import SourceElement
+from deodar.importers.cosivina.file import Simulator
 from deodar.importers.cosivina.sizes import Dimensions, SizeLimit
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
-from deodar.model.document import Document, Entry
+from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.paths import display
 
@@ -43,13 +45,8 @@ def read(content: bytes, name: str, bugs: bool = False) -> Imported:
         t0=simulator.start,
         notes=report.text(),
     )
-    doc, by = _add(
-        doc,
-        [element for piece in translation.pieces.values() for element in piece.elements]
-        + translation.wiring.extra,
-    )
-    for source, port, target, entrance, reads in translation.wiring.connections:
-        doc = edit.connect(doc, by[source], port, by[target], entrance, reads)
+    elements = [element for piece in translation.pieces.values() for element in piece.elements]
+    doc = assembled(doc, elements + translation.wiring.extra, translation.wiring.connections)
     return Imported(Model(document=doc), report)
 
 
@@ -68,7 +65,7 @@ class Translation:
             for s in e.sources:
                 self.asked.setdefault(s.label, set()).add(s.component)
         self.pieces = {e.label: self.piece(e) for e in simulator.elements}
-        self.wiring = SourceWiring(simulator, self.pieces, self.names)
+        self.wiring = SourceWiring("cosivina", simulator.elements, self.pieces, self.names)
         self.wiring.connect_all()
 
     def piece(self, e: Foreign) -> Piece:
@@ -131,8 +128,3 @@ def _shown(e: Foreign, piece: Piece) -> list[Line]:
         else:
             lines.append(Line(e.label, "component", component, "dropped", "no element here outputs it"))
     return lines
-
-
-def _add(doc: Document, elements: list[Element]) -> tuple[Document, dict[str, Entry]]:
-    doc, entries = edit.add_all(doc, [(element, (), 1) for element in elements])
-    return doc, {entry.element.name: entry for entry in entries}

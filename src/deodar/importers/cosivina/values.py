@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.importers.cosivina.file import Foreign, array
+from deodar.importers._foreign import Foreign
+from deodar.importers.cosivina.file import array
 from deodar.importers.report import Line, Verdict
 from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.parameters import show

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from deodar.importers._piece import Piece
 from deodar.importers.cosivina.classes import algebra, fields, kernels, shapes, stimuli, weights
-from deodar.importers.cosivina.piece import Piece, SourceElement
+from deodar.importers.cosivina.element import SourceElement
 
 CLASSES: dict[str, Callable[[SourceElement], Piece]] = {
     **fields.CLASSES,

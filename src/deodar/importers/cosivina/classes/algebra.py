@@ -6,8 +6,9 @@ from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
 from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.sum import Sum
+from deodar.importers._piece import Inlet, Outlet, Piece
 from deodar.importers.cosivina.classes.fields import STEEPEST
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement
+from deodar.importers.cosivina.element import SourceElement
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 

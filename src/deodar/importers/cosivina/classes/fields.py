@@ -14,9 +14,9 @@ from deodar.elements.integrator import Integrator
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.rate_node import RateNode
 from deodar.elements.sampled_history import SampledHistory
+from deodar.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes
 from deodar.importers.cosivina.components import PHASE_PLOT
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers.cosivina.element import SourceElement
 from deodar.model.paths import display
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.sigmoids.logistic import Logistic

@@ -9,10 +9,10 @@ from deodar.couplings.convolve import Convolve
 from deodar.couplings.interaction import Interaction
 from deodar.couplings.project import Project
 from deodar.element import Element
+from deodar.importers._piece import Dims, Inlet, Outlet, Piece, axes, projection
 from deodar.importers.cosivina.classes.stimuli import LETTERS, boundary
 from deodar.importers.cosivina.components import components
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, axes, projection
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers.cosivina.element import SourceElement
 from deodar.model.paths import display
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
@@ -58,7 +58,7 @@ def kernel_1d(b: SourceElement) -> Piece:
     """Translate GaussKernel1D."""
     form = _form(b)
     kernel = form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))
-    return _convolve(b, form, [kernel])
+    return dc.replace(_convolve(b, form, [kernel]), passes_noise=True)
 
 
 def kernel_nd(b: SourceElement) -> Piece:
@@ -67,7 +67,8 @@ def kernel_nd(b: SourceElement) -> Piece:
     mixed = b.element.kind == "GaussKernel3D" and len(form.ends) == 3 and form.ends[0] != form.ends[1]
     if mixed and b.bug("GaussKernel3D reads circularY for its convolution along x"):
         form = dc.replace(form, ends=[form.ends[0], form.ends[0], form.ends[2]])
-    return _convolve(b, form, [form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))])
+    kernel = form.gaussian(b.values.number("amplitude", 0), _widths(b, "sigma", form))
+    return dc.replace(_convolve(b, form, [kernel]), passes_noise=True)
 
 
 def difference(b: SourceElement) -> Piece:

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import did_you_mean
-from deodar.importers.cosivina.file import Foreign
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes
-from deodar.importers.cosivina.sizes import Dimensions, Dims, SizeLimit, output_size
+from deodar.importers._foreign import Foreign
+from deodar.importers._piece import Dims, Inlet, Outlet, Piece, axes
+from deodar.importers.cosivina.sizes import Dimensions, SizeLimit, output_size
 
 MISSING = {
     "AttractorDynamics": "turns a peak into the rate of change of a heading direction",

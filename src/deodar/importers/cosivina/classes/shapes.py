@@ -13,10 +13,10 @@ from deodar.couplings.gain import Gain
 from deodar.couplings.sum import Sum
 from deodar.element import Element
 from deodar.elements.pattern import Pattern
+from deodar.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes, projection
 from deodar.importers.cosivina.classes.kernels import sums
 from deodar.importers.cosivina.classes.stimuli import boundary
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes, projection
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers.cosivina.element import SourceElement
 from deodar.numerics.axes import Axis, shape
 from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.numerics.kernels.shifted import Shifted

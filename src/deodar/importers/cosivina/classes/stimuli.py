@@ -16,9 +16,9 @@ from deodar.elements.gaussian_stimulus import GaussianStimulus
 from deodar.elements.noise import Noise
 from deodar.elements.pattern import Pattern
 from deodar.elements.time_series import TimeSeries
+from deodar.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers.cosivina.element import SourceElement
 from deodar.importers.cosivina.file import empty
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, SourceElement, Unfit, axes
-from deodar.importers.cosivina.sizes import Dims
 from deodar.importers.cosivina.values import ticks
 from deodar.model.paths import display
 from deodar.numerics.axes import shape

@@ -9,12 +9,11 @@ from collections.abc import Sequence
 
 from deodar.couplings.project import Project
 from deodar.element import Element
-from deodar.importers.cosivina.file import Foreign, Simulator
-from deodar.importers.cosivina.names import FreeNames
-from deodar.importers.cosivina.sizes import Dimensions, Dims, output_size
-from deodar.importers.cosivina.values import Values
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis
+
+Dims = tuple[Axis | None, ...]
+"""The axis of each dimension; None where it has one sample."""
 
 
 @dc.dataclass(frozen=True)
@@ -39,9 +38,9 @@ class Outlet:
         port: its output port.
         dims: dimensions of the port.
         state: whether it shows a state; otherwise it follows its inputs in the same instant.
-        still: whether cosivina sets it at the start only.
+        still: whether the tool sets it at the start only.
         noise: whether it consists of noise alone.
-        initial: value that cosivina sets at the start.
+        initial: value that the tool sets at the start.
     """
 
     name: str
@@ -65,6 +64,7 @@ class Piece:
         sums: whether the element adds up any number of inputs.
         elsewhere: descriptions of where to find components without an outlet.
         needs: smallest number of inputs.
+        passes_noise: whether the output is noise alone if all inputs are.
         verdict, why: verdict and reason of the element itself in the report.
     """
 
@@ -75,69 +75,9 @@ class Piece:
     elsewhere: dict[str, str] = dc.field(default_factory=dict[str, str])
     sums: bool = False
     needs: int = 0
+    passes_noise: bool = False
     verdict: Verdict = "carried"
     why: str = ""
-
-
-class SourceElement:
-    """The context of the translation of one element: its parameters, the axes, the step, its readers, and the
-    report lines so far.
-    """
-
-    def __init__(
-        self,
-        simulator: Simulator,
-        dims: Dimensions,
-        element: Foreign,
-        asked: set[str],
-        names: FreeNames,
-        bugs: bool,
-    ) -> None:
-        self.simulator = simulator
-        self.step = simulator.step
-        self.element = element
-        self.label = element.label
-        self.values = Values(element)
-        self.asked = asked
-        self.reproduce = bugs
-        self.met: list[str] = []
-        self._dims = dims
-        self._names = names
-
-    def dims(self, component: str = "") -> Dims:
-        """Return the dimensions of an output."""
-        return self._dims.of(output_size(self.element, component))
-
-    def of(self, counts: Sequence[int]) -> Dims:
-        """Return the dimensions of a size."""
-        return self._dims.of(counts)
-
-    def source(self, k: int) -> Dims | None:
-        """Return the dimensions of an input, as its source declares them; None without this input."""
-        if k >= len(self.element.sources):
-            return None
-        s = self.element.sources[k]
-        found = self.simulator.by_label.get(s.label)
-        passed: set[str] = set()
-        while (
-            found is not None
-            and found.kind == "HebbianConnection"
-            and len(found.sources) > 1
-            and found.label not in passed
-        ):
-            passed.add(found.label)  # its size is that of its second input, and is not in the file
-            s = found.sources[1]
-            found = self.simulator.by_label.get(s.label)
-        return None if found is None else self._dims.of(output_size(found, s.component))
-
-    def named(self, what: str) -> str:
-        """Return a name for a further deodar element: the label and what it is."""
-        return self._names.new(f"{self.label} {what}")
-
-    def bug(self, what: str) -> bool:
-        """Return whether to reproduce a known error of cosivina that this element touches."""
-        self.met.append(f"{self.label}: {what}; {'reproduced' if self.reproduce else 'corrected'}")
-        return self.reproduce
 
 
 def axes(dims: Dims) -> tuple[Axis, ...]:

@@ -1,8 +1,8 @@
 """Connections, by the order of the elements in the file.
 
-cosivina computes its elements in the order of the list and in place: an element reads the values of this step
-from the elements before it, and those of the previous step from the elements after it; all but stimuli,
-fields and filled borders begin with zero. Here a step leads from t to t + dt, so that
+Some tools compute their elements in the order of the list and in place: an element reads the values of this
+step from the elements before it, and those of the previous step from the elements after it. A value that is
+neither a state nor constant begins with that of its outlet. Here a step leads from t to t + dt, so that
 
 * a state that comes before its reader is read as `current`, one that comes after it (or is the reader itself)
   as `previous`;
@@ -13,7 +13,7 @@ fields and filled borders begin with zero. Here a step leads from t to t + dt, s
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -23,10 +23,9 @@ from deodar.couplings.delay import Delay
 from deodar.couplings.gain import Gain
 from deodar.element import Element
 from deodar.elements.boost import Boost
-from deodar.importers.cosivina.file import Foreign, Simulator, Source
-from deodar.importers.cosivina.names import FreeNames
-from deodar.importers.cosivina.piece import Inlet, Outlet, Piece, axes, projection
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers._foreign import Foreign, Source
+from deodar.importers._names import FreeNames
+from deodar.importers._piece import Dims, Inlet, Outlet, Piece, axes, projection
 from deodar.importers.report import Line
 from deodar.numerics.axes import Axis, shape
 
@@ -35,11 +34,21 @@ SourceWire = tuple[str, str, str, str, str]
 
 
 class SourceWiring:
-    """The connections of a file, and the elements that they need."""
+    """The connections of a file, and the elements that they need.
 
-    def __init__(self, simulator: Simulator, pieces: Mapping[str, Piece], names: FreeNames) -> None:
-        self.elements = simulator.elements
-        self.place = {e.label: e.place for e in simulator.elements}
+    Args:
+        tool: name of the tool, for the report.
+        elements: the elements of the file, in its order.
+        pieces: their translations by label.
+        names: the names in use.
+    """
+
+    def __init__(
+        self, tool: str, elements: Sequence[Foreign], pieces: Mapping[str, Piece], names: FreeNames
+    ) -> None:
+        self.tool = tool
+        self.elements = elements
+        self.place = {e.label: e.place for e in elements}
         self.pieces = pieces
         self.names = names
         self.extra: list[Element] = []
@@ -96,11 +105,11 @@ class SourceWiring:
                     "connection",
                     what,
                     "carried",
-                    f"without effect, as in cosivina: {e.kind} does not read its input {k + 1}",
+                    f"without effect, as in {self.tool}: {e.kind} does not read its input {k + 1}",
                 )
             )
             return
-        if any(not _compatible(outlet.dims, inlet.dims) for inlet in inlets):
+        if any(not self.compatible(outlet.dims, inlet.dims) for inlet in inlets):
             sizes = " into ".join(
                 str([1 if a is None else a.samples for a in dims]) for dims in (outlet.dims, inlets[0].dims)
             )
@@ -146,9 +155,7 @@ class SourceWiring:
             renamed = _fits(outlet.dims, inlet.dims) != axes(outlet.dims)
             if renamed or (k == 0 and inlet.whole and not whole):
                 through = self.names.new(f"{outlet.name} to {inlet.name}")
-                self.extra.append(
-                    projection(through, axes(outlet.dims), inlet.dims, _fits(outlet.dims, inlet.dims))
-                )
+                self.extra.append(self.adapter(through, outlet.dims, inlet.dims))
                 self.connections.append((name, port, through, "input", reads))
                 name, port, reads = through, "output", ""
             if count > 1:
@@ -157,6 +164,18 @@ class SourceWiring:
                 self.connections.append((name, port, again, "input", reads))
                 name, port, reads = again, "output", ""
             self.connections.append((name, port, inlet.name, inlet.port, reads))
+
+    def compatible(self, given: Dims, wanted: Dims) -> bool:
+        """Return whether one size can be expanded to another, dimension by dimension."""
+        longer = max(len(given), len(wanted))
+        pairs = zip(
+            given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True
+        )
+        return all(a is None or (b is not None and shape((a,)) == shape((b,))) for a, b in pairs)
+
+    def adapter(self, name: str, given: Dims, wanted: Dims) -> Element:
+        """Return the element between a source and an inlet of other axes."""
+        return projection(name, axes(given), wanted, _fits(given, wanted))
 
     def delay(self, outlet: Outlet) -> str:
         """Return a register that delays an outlet by one step.
@@ -200,7 +219,7 @@ class SourceWiring:
             noise = any(o.noise for o in self.pieces[e.label].outlets.values())
             chained = (
                 bool(e.sources)
-                and e.kind.startswith("GaussKernel")
+                and self.pieces[e.label].passes_noise
                 and all(s.label in found for s in e.sources)
             )
             if noise or chained:
@@ -210,15 +229,6 @@ class SourceWiring:
             for n in found
             if all(self.place[t] < self.place[n] for t in self.feeds.get(n, ()) if t not in found)
         }
-
-
-def _compatible(given: Dims, wanted: Dims) -> bool:
-    """Return whether one size can be expanded to another, dimension by dimension."""
-    longer = max(len(given), len(wanted))
-    pairs = zip(
-        given + (None,) * (longer - len(given)), wanted + (None,) * (longer - len(wanted)), strict=True
-    )
-    return all(a is None or (b is not None and shape((a,)) == shape((b,))) for a, b in pairs)
 
 
 def _fits(given: Dims, wanted: Dims) -> tuple[Axis | None, ...]:
