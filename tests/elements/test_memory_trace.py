@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.pattern import Pattern
-from deodar.errors import ModelError
+from deodar.errors import ModelError, ParameterError
 
 X = dd.Axis("x", 0, 30, 31)
 
@@ -91,3 +91,14 @@ def test_a_trace_of_another_shape_is_refused():
     model.add(MemoryTrace("p", [X], start=np.zeros(30)))
     with pytest.raises(ModelError, match=r"start has shape \[30\], its axes have \[31\] samples"):
         dd.Session(model)
+
+
+def test_a_sigmoid_in_place_of_the_threshold_weights_growth_and_decay():
+    wanted = np.array([0.0, 0.7])
+    a = 1 / (1 + np.exp(-4 * (np.array([0.9, 0.2]) - 0.5)))
+    for _ in range(50):
+        wanted = wanted + 0.5 * (a * ([0.9, 0.2] - wanted) / 10 - (1 - a) * wanted / 50)
+    found = course(0.9, 50, others=0.2, start=[0.0, 0.7], activity=dd.Logistic(4.0, 0.5))
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
+    with pytest.raises(ParameterError, match="activity: is a sigmoid, and graded takes the input itself"):
+        course(0.9, 1, graded=True, activity=dd.Logistic(4.0, 0.5))

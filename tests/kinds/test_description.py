@@ -156,7 +156,9 @@ def test_symbols_are_those_of_the_equation() -> None:
 def test_choices_optional_values_and_arrays_are_described() -> None:
     boundary = form(KINDS["Gaussian"], "boundary")
     assert (
-        boundary.optional and boundary.default is None and boundary.choices == ("periodic", "zero", "reflect")
+        boundary.optional
+        and boundary.default is None
+        and boundary.choices == ("periodic", "zero", "reflect", "replicate")
     )
     assert form(KINDS["Project"], "rename").default == {}
     assert form(KINDS["Custom"], "weights").default is None and "weights" not in KINDS["Custom"].example

@@ -13,6 +13,7 @@ from jax import Array
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis, shape, wrong_shape
 from deodar.numerics.intervals import ZERO, Interval, hull
+from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.parameters import ArrayLike, FrozenArray, Live, Rebuild, Recompile
 from deodar.registry import register
 
@@ -24,7 +25,7 @@ class MemoryTrace(Element):
 
     The trace changes only while the input is above the threshold somewhere, unless `fades`: it then grows
     where the input is above the threshold and decays elsewhere. In the graded form f is the input clipped to
-    0..1.
+    0..1. With an `activity` a sigmoid a takes the place of the threshold, and the trace fades.
 
     Equation:
         \frac{dp}{dt} = \begin{cases} \mathrm{gate}\, (\mathrm{input} - p) / \tau_{\mathrm{build}} &
@@ -32,6 +33,9 @@ class MemoryTrace(Element):
             \text{else} \end{cases}
         \text{graded:}\quad \frac{dp}{dt} = \mathrm{gate} \left( \frac{f (f -
             p)}{\tau_{\mathrm{build}}} - \frac{(1 - f)\, p}{\tau_{\mathrm{decay}}} \right)
+        \text{activity:}\quad \frac{dp}{dt} = \mathrm{gate} \left( \frac{a (\mathrm{input} -
+            p)}{\tau_{\mathrm{build}}} - \frac{(1 - a)\, p}{\tau_{\mathrm{decay}}} \right),\quad
+            a = \mathrm{activity}(\mathrm{input})
 
     Parameters:
         axes: the metric dimensions; none: one number.
@@ -43,6 +47,8 @@ class MemoryTrace(Element):
         graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by
             whether it is above the threshold.
         fades: whether the trace also decays while no sample is active.
+        activity: a sigmoid of the input that weights build-up and decay, in place of the threshold; none: the
+            threshold. Not together with `graded`.
         gated: whether the element has a port `gate`; without it the gate is 1.
         start: p at the start, one value for each sample; none: 0.
 
@@ -78,6 +84,9 @@ class MemoryTrace(Element):
     fades: Annotated[bool, Recompile(meaning="whether it also decays while nothing is active")] = False
     gated: Annotated[bool, Recompile(meaning="whether it waits for the gate")] = False
     start: Annotated[ArrayLike | None, Rebuild("activation", meaning="p at the start")] = None
+    activity: Annotated[
+        SigmoidFunction | None, Recompile(meaning="sigmoid in place of the threshold; none: the threshold")
+    ] = None
 
     inputs: ClassVar[tuple[str, ...]] = ("input", "gate")
     stateful: ClassVar[bool] = True
@@ -90,6 +99,10 @@ class MemoryTrace(Element):
 
     def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
         yield from wrong_shape("start", self.start, shape(self.axes))
+
+    def validate(self) -> Iterator[tuple[str, str]]:
+        if self.graded and self.activity is not None:
+            yield "activity", "is a sigmoid, and graded takes the input itself; give one of them"
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "active": tuple(self.axes)}
@@ -118,12 +131,15 @@ class MemoryTrace(Element):
     ) -> Arrays:
         p, x = state["trace"], inputs["input"]
         active = x > self.threshold
-        if self.graded:
+        if self.activity is not None:
+            a = self.activity(x)
+            rate = a * (x - p) / self.tau_build - (1.0 - a) * p / self.tau_decay
+        elif self.graded:
             f = jnp.clip(x, 0.0, 1.0)
             rate = f * (f - p) / self.tau_build - (1.0 - f) * p / self.tau_decay
         else:
             rate = jnp.where(active, (x - p) / self.tau_build, -p / self.tau_decay)
-        if not self.fades:
+        if not self.fades and self.activity is None:
             rate = jnp.where(jnp.any(active), rate, 0.0)
         if self.gated:
             rate = jnp.maximum(inputs["gate"], 0.0) * rate

@@ -5,7 +5,7 @@ is a product of spectra on the extended grid. Integrals are sums times the grid 
 matrices include this factor.
 
 Boundaries: `periodic` wraps with a period of N steps, `zero` pads the field with 0, `reflect` mirrors the
-field at the outer edge of its last cell.
+field at the outer edge of its last cell, `replicate` continues the field with its outermost values.
 """
 
 from __future__ import annotations
@@ -22,7 +22,11 @@ from deodar.numerics import native
 from deodar.numerics.axes import Axes, Axis, cell, shape
 from deodar.numerics.native import Kernels
 
-BOUNDARIES = ("periodic", "zero", "reflect")
+BOUNDARIES = ("periodic", "zero", "reflect", "replicate")
+
+BEYOND = 4
+"""Lengths of an axis beyond each end that `replicate` counts; 0 is assumed farther away."""
+
 TINY = 1e-20
 """Smallest weight that is used; smaller weights have no effect, and denormal numbers are slow."""
 
@@ -49,6 +53,13 @@ def matrix(axis: Axis, boundary: str, profile: Profile, dtype: DTypeLike) -> Arr
         period = 2 * axis.step * axis.samples
         mirrored = jnp.asarray(x[:, None] + x[None, :] - 2 * axis.lower + axis.step, dtype)
         weights = profile(lag, period) + profile(mirrored, period)
+    elif boundary == "replicate":
+        outside = axis.step * np.arange(1, BEYOND * axis.samples + 1)
+        before = jnp.asarray((x - x[0])[:, None] + outside[None, :], dtype)
+        after = jnp.asarray((x - x[-1])[:, None] - outside[None, :], dtype)
+        weights = profile(lag, None)
+        weights = weights.at[:, 0].add(jnp.sum(profile(before, None), axis=1))
+        weights = weights.at[:, -1].add(jnp.sum(profile(after, None), axis=1))
     else:
         weights = profile(lag, None)
     return jnp.where(jnp.abs(weights) < TINY, 0.0, weights) * jnp.asarray(axis.step, dtype)

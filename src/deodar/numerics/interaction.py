@@ -98,13 +98,14 @@ def buckets(kernels: Sequence[Kernel]) -> Hashable:
 def spans(kernels: Sequence[Kernel], axes: Axes) -> dict[str, list[tuple[tuple[float, float], ...]]]:
     """Return, for each kind of boundaries and each of its Gaussians, the smallest and largest width of its
     bucket along each axis.
+
+    Kernels with a replicated end have matrices only: no transform continues a field with its last value.
     """
     out: dict[str, list[tuple[tuple[float, float], ...]]] = {}
     for kernel in kernels if axes else ():
-        for width in kernel.widths():
-            out.setdefault(boundaries(kernel, axes), []).append(
-                tuple(bounds(bucket(float(w))) for w in per_axis(width, axes))
-            )
+        ends = boundaries(kernel, axes)
+        for width in kernel.widths() if "replicate" not in ends.split() else ():
+            out.setdefault(ends, []).append(tuple(bounds(bucket(float(w))) for w in per_axis(width, axes)))
     return out
 
 

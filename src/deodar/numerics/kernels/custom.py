@@ -91,6 +91,8 @@ class Custom(Kernel):
 
     def validate_axes(self, axes: Axes) -> Iterator[str]:
         yield from super().validate_axes(axes)
+        if "replicate" in (self.boundary or ()):
+            yield "boundary is 'replicate', which a kernel given as an array does not have; take 'reflect'"
         if isinstance(self.spacing, tuple) and len(self.spacing) != len(axes):
             yield f"spacing has {len(self.spacing)} values for {len(axes)} axes"
         shape = self.weights.shape if isinstance(self.weights, FrozenArray) else ()

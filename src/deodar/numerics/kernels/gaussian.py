@@ -39,8 +39,8 @@ class Gaussian(Kernel):
             On a node the self-excitation.
         sigma: width in axis units, one value or one for each axis; > 0.
         normalized: whether the amplitude is the integral.
-        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
-            periodic axes, `zero` on others.
+        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
+            `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.

@@ -33,8 +33,8 @@ class MexicanHat(Kernel):
         inhibition: weight of the inhibition at the centre, counted positive (its integral if normalized).
         sigma_inhibition: width of the inhibition in axis units, one value or one for each axis; > 0.
         normalized: whether the weights are integrals.
-        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
-            periodic axes, `zero` on others.
+        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
+            `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.

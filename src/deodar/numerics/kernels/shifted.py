@@ -29,8 +29,8 @@ class Shifted(Kernel):
     Parameters:
         kernel: the inner kernel, a sum of separable terms (not a custom array).
         shift: the shift, in axis units, one value or one for each axis.
-        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
-            periodic axes, `zero` on others.
+        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
+            `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.

@@ -45,8 +45,8 @@ class TruncatedGaussian(Kernel):
         least: smallest reach, in axis units, one value or one for each axis: for a narrow Gaussian with the
             reach of a wider one.
         normalized: whether the amplitude is the kernel's integral.
-        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
-            periodic axes, `zero` on others.
+        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
+            `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         One number for each distance; any number of axes.

@@ -1,0 +1,89 @@
+"""A field that continues beyond its ends with its outermost values, against padding."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.elements.pattern import Pattern
+from deodar.errors import ModelError
+from deodar.numerics.kernels.box import Box
+from deodar.numerics.kernels.custom import Custom
+from deodar.numerics.kernels.mexican_hat import MexicanHat
+from deodar.numerics.kernels.shifted import Shifted
+from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+
+ENDS = ["replicate"]
+
+
+def convolved(values, kernels, axes):
+    model = dd.Model("replicate")
+    model.add(Pattern("s", axes, values)) >> model.add(dd.Convolve(kernels, name="y"))
+    return dd.simulate(model, 1, dt=1, record=["y.output"], precision="float64")["y.output"].values[0]
+
+
+def padded(values, along, step):
+    """Return the convolution along the first axis with a function of the lag, on an array padded by four
+    lengths.
+    """
+    n = len(values)
+    wide = np.concatenate([np.repeat(values[:1], 4 * n, 0), values, np.repeat(values[-1:], 4 * n, 0)])
+    lags = (np.arange(n)[:, None] + 4 * n - np.arange(9 * n)[None, :]) * step
+    return step * np.tensordot(along(lags), wide, axes=1)
+
+
+def gaussian(sigma, shift=0.0):
+    return lambda lag: np.exp(-0.5 * ((lag - shift) / sigma) ** 2)
+
+
+@pytest.mark.parametrize(
+    ("kernel", "along"),
+    [
+        (dd.Gaussian(1.5, 2.0, boundary=ENDS), lambda lag: 1.5 * gaussian(2.0)(lag)),
+        (dd.Gaussian(0.2, 9.0, boundary=ENDS), lambda lag: 0.2 * gaussian(9.0)(lag)),
+        (Box(0.8, 5.0, boundary=ENDS), lambda lag: 0.8 * (abs(lag) < 2.6)),
+        (
+            MexicanHat(2.0, 1.5, 0.6, 4.0, boundary=ENDS),
+            lambda lag: 2.0 * gaussian(1.5)(lag) - 0.6 * gaussian(4.0)(lag),
+        ),
+        (Shifted(dd.Gaussian(1.5, 2.0), 3.0, boundary=ENDS), lambda lag: 1.5 * gaussian(2.0, 3.0)(lag)),
+        (
+            TruncatedGaussian(1.5, 2.0, cutoff=2.0, boundary=ENDS),
+            lambda lag: 1.5 * gaussian(2.0)(lag) * (abs(lag) <= 4),
+        ),
+    ],
+    ids=lambda v: type(v).__name__ if hasattr(v, "boundary") else "",
+)
+def test_a_line_continues_with_its_outermost_values(kernel, along):
+    axis = dd.Axis("x", 0, 29, 30)
+    values = np.random.default_rng(1).random(30)
+    np.testing.assert_allclose(
+        convolved(values, [kernel], [axis]), padded(values, along, axis.step), rtol=0, atol=1e-12
+    )
+
+
+def test_a_plane_may_replicate_along_one_axis_only():
+    x, y = dd.Axis("x", 0, 6, 13), dd.Axis("y", 0, 10, 11)
+    values = np.random.default_rng(2).random((13, 11))
+    kernel = dd.Gaussian(0.7, [1.0, 2.0], boundary=["replicate", "zero"])
+    inside = np.arange(11)[:, None] - np.arange(11)[None, :]
+    wanted = 0.7 * padded(values, gaussian(1.0), x.step) @ gaussian(2.0)(inside).T
+    np.testing.assert_allclose(convolved(values, [kernel], [x, y]), wanted, rtol=0, atol=1e-12)
+
+
+def test_a_long_field_and_a_sum_with_another_boundary_agree_too():
+    axis = dd.Axis("x", 0, 299, 300)  # long enough for spectral modes and taps
+    values = np.random.default_rng(3).random(300)
+    both = [dd.Gaussian(1.0, 5.0, boundary=ENDS), dd.Gaussian(-0.5, 12.0)]
+    inside = np.arange(300)[:, None] - np.arange(300)[None, :]
+    wanted = padded(values, gaussian(5.0), 1.0) - 0.5 * gaussian(12.0)(inside) @ values
+    np.testing.assert_allclose(convolved(values, both, [axis]), wanted, rtol=0, atol=2e-3)
+    one = padded(values, gaussian(5.0), 1.0)
+    np.testing.assert_allclose(convolved(values, both[:1], [axis]), one, rtol=0, atol=1e-12)
+
+
+def test_an_array_refuses_it():
+    axis = dd.Axis("x", 0, 29, 30)
+    with pytest.raises(ModelError, match="boundary is 'replicate', which a kernel given as an array"):
+        convolved(np.ones(30), [Custom([0.2, 1.0, 0.2], boundary=ENDS)], [axis])
