@@ -47,10 +47,10 @@ class MemoryTrace(Element):
         graded: whether build-up and decay are weighted by the input itself, as in eq. 11, instead of by
             whether it is above the threshold.
         fades: whether the trace also decays while no sample is active.
-        activity: a sigmoid of the input that weights build-up and decay, in place of the threshold; none: the
-            threshold. Not together with `graded`.
         gated: whether the element has a port `gate`; without it the gate is 1.
         start: p at the start, one value for each sample; none: 0.
+        activity: a sigmoid of the input that weights build-up and decay, in place of the threshold; none: the
+            threshold. Not together with `graded`.
 
     Ports:
         input: over `axes`; usually the output of a field.

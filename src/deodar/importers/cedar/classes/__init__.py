@@ -1,0 +1,80 @@
+"""The translation of each type of step, by cedar's categories."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from deodar.importers.cedar.classes import algebra, fields, sources
+from deodar.importers.cedar.piece import SourceStep, StepPiece
+
+CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
+    **fields.CLASSES,
+    **sources.CLASSES,
+    **algebra.CLASSES,
+}
+
+DECLARED = frozenset(
+    {
+        "cedar.dynamics.NeuralField",
+        "cedar.dynamics.Preshape",
+        "cedar.dynamics.HebbianConnection",
+        "cedar.dynamics.SerialOrder",
+        *sources.CLASSES,
+    }
+)
+"""Types whose outputs have sizes of their own, whatever arrives."""
+
+LOOPED = frozenset(
+    {
+        f"cedar.dynamics.{name}"
+        for name in (
+            "NeuralField",
+            "Preshape",
+            "HebbianConnection",
+            "SpaceToRateCode",
+            "SerialOrder",
+            "HarmonicOscillator",
+            "CSVToPhoneme",
+            "LogTimeInterval",
+            "ViewportCamera",
+            "ViewportSlice",
+        )
+    }
+    | {
+        f"cedar.processing.steps.{name}"
+        for name in (
+            "Component",
+            "ConfigurationLimits",
+            "DNN",
+            "PseudoInverseKinematics",
+            "DampedPseudoInverseKinematics",
+            "ExponentialSmoothing",
+            "ForwardKinematics",
+            "Jacobian",
+            "NoopLooped",
+            "NumericalDifferentiation",
+            "NumericalIntegration",
+            "PythonScriptLooped",
+            "VehicleRotation",
+        )
+    }
+    | {
+        f"cedar.processing.sources.{name}"
+        for name in (
+            "SinusSignal",
+            "StepSignal",
+            "Camera",
+            "Video",
+            "CameraStream",
+            "LocalReader",
+            "NetReader",
+            "TCPReader",
+            "Noise",
+            "RealSense",
+            "VirtualCamera",
+        )
+    }
+    | {f"cedar.processing.sinks.{name}" for name in ("LocalWriter", "NetWriter", "TCPWriter")}
+    | {"cedar.processing.VideoSink", "cedar.dynamics.steps.TwoStepInput"}
+)
+"""Types that have a state, which triggers call; all others follow from them."""

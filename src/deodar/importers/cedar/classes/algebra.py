@@ -1,0 +1,264 @@
+"""Algebra: sums, products, gains, convolutions and projections."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+from deodar.couplings.convolve import Convolve
+from deodar.couplings.gain import Gain
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.couplings.sigmoid import Sigmoid
+from deodar.couplings.sum import Sum
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.importers.cedar.border import border
+from deodar.importers.cedar.file import members, text
+from deodar.importers.cedar.grid import Counts
+from deodar.importers.cedar.kernels import kernels
+from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
+from deodar.importers.cedar.sigmoids import sigmoid
+from deodar.importers.cedar.values import number
+from deodar.numerics.sigmoids.absolute import Absolute
+
+DROPPED = 4_294_967_295
+"""The target of a dropped dimension in a projection's mapping: the largest number of 32 bits."""
+
+REDUCTIONS = {"SUM": "sum", "AVERAGE": "mean", "MAXIMUM": "max", "MINIMUM": "min"}
+
+
+def one_to_one(
+    element: Element, slot: str, out: str, dims: Counts, zero: bool = True, why: str = ""
+) -> StepPiece:
+    """Return the translation of a step with one input and one output of the same element."""
+    return StepPiece(
+        [element],
+        {slot: [[InputSlot(element.name)]]},
+        {out: OutputSlot(element.name, dims)},
+        needs=(slot,),
+        zero=zero,
+        why=why or type(element).__name__,
+    )
+
+
+def largest(found: Sequence[Counts], slot: str) -> Counts:
+    """Return the size of several inputs; each is of that size, or one number.
+
+    Raises:
+        Refused: two sizes differ.
+    """
+    sizes = {dims for dims in found if dims}
+    if len(sizes) > 1:
+        raise Refused(f"the inputs at {slot!r} have different sizes: {', '.join(map(str, map(list, sizes)))}")
+    return next(iter(sizes), ())
+
+
+def gain(b: SourceStep) -> StepPiece:
+    """Translate StaticGain."""
+    element = Gain(b.values.number("gain factor", 1.0), name=b.label)
+    return one_to_one(element, "input", "output", b.first("input"))
+
+
+def add_constant(b: SourceStep) -> StepPiece:
+    """Translate AddConstant: a sum with a boost."""
+    dims = b.first("input")
+    offset = Boost(b.named("constant"), (), b.values.number("constant", 0.0))
+    piece = one_to_one(Sum(name=b.label), "input", "output", dims, zero=False, why="Sum with a Boost")
+    piece.elements.append(offset)
+    piece.inner.append((offset.name, b.label))
+    return piece
+
+
+def convert_range(b: SourceStep) -> StepPiece:
+    """Translate ConvertToValueRange: a linear map without limits."""
+    dims = b.first("input")
+    low, high = b.values.number("input lower bound", 0.0), b.values.number("input upper bound", 1.0)
+    bottom, top = b.values.number("output lower bound", 0.0), b.values.number("output upper bound", 1.0)
+    if high == low:
+        raise Refused("its input bounds are equal")
+    slope = (top - bottom) / (high - low)
+    scaled = Gain(slope, name=b.named("slope"))
+    offset = Boost(b.named("offset"), (), bottom - slope * low)
+    return StepPiece(
+        [Sum(name=b.label), scaled, offset],
+        {"input": [[InputSlot(scaled.name)]]},
+        {"converted output": OutputSlot(b.label, dims)},
+        [(scaled.name, b.label), (offset.name, b.label)],
+        needs=("input",),
+        zero=False,
+        why="Gain, and Sum with a Boost",
+    )
+
+
+def total(b: SourceStep) -> StepPiece:
+    """Translate Sum."""
+    dims = largest(b.all("terms"), "terms")
+    return StepPiece(
+        [Sum(name=b.label)],
+        {"terms": [[InputSlot(b.label)]]},
+        {"sum": OutputSlot(b.label, dims)},
+        sums=frozenset({"terms"}),
+        wanted={"terms": dims},
+        needs=("terms",),
+        why="Sum",
+    )
+
+
+def subtract(b: SourceStep) -> StepPiece:
+    """Translate SubtractElementwise; cedar raises an exception unless both sizes are equal."""
+    first, second = b.first("minuend"), b.first("subtrahend")
+    if first != second:
+        raise Refused(f"the sizes {list(first)} and {list(second)} differ")
+    minus = Gain(-1.0, name=b.named("minus"))
+    return StepPiece(
+        [Sum(name=b.label), minus],
+        {"minuend": [[InputSlot(b.label)]], "subtrahend": [[InputSlot(minus.name)]]},
+        {"result": OutputSlot(b.label, first)},
+        [(minus.name, b.label)],
+        needs=("minuend", "subtrahend"),
+        why="Sum with a Gain of -1",
+    )
+
+
+def multiply(b: SourceStep) -> StepPiece:
+    """Translate ComponentMultiply: a chain of products of two."""
+    found = b.all("operands")
+    dims = largest(found, "operands")
+    if len(found) == 1:
+        return StepPiece(
+            [Sum(name=b.label)],
+            {"operands": [[InputSlot(b.label)]]},
+            {"product": OutputSlot(b.label, dims)},
+            needs=("operands",),
+            why="Sum of one operand",
+        )
+    # an array comes first, and single numbers as factors
+    order = sorted(range(len(found)), key=lambda k: not found[k])
+    names = [b.label if k == len(found) - 2 else b.named(f"product {k + 1}") for k in range(len(found) - 1)]
+    inlets: list[list[InputSlot]] = [[] for _ in found]
+    inlets[order[0]] = [InputSlot(names[0])]
+    for k, name in enumerate(names):
+        inlets[order[k + 1]] = [InputSlot(name, "factor")]
+    products: list[Element] = [Product(name=name) for name in reversed(names)]
+    return StepPiece(
+        products,
+        {"operands": inlets},
+        {"product": OutputSlot(b.label, dims)},
+        list(itertools.pairwise(names)),
+        needs=("operands",),
+        why="Product" if len(names) == 1 else f"a chain of {len(names)} products",
+    )
+
+
+def convolution(b: SourceStep) -> StepPiece:
+    """Translate Convolution with a list of kernels; without kernels it copies its input."""
+    dims = b.first("matrix")
+    if "kernel" in b.ins:
+        raise Refused("deodar convolves with fixed kernels, and its kernel is an input")
+    axes = b.axes(dims)
+    ends = border(b.values, "convolution", len(dims))
+    listed = b.values.objects("kernels")
+    made = kernels(listed, axes, ends)
+    if not made:
+        return one_to_one(Sum(name=b.label), "matrix", "result", dims, why="Sum, a copy without kernels")
+    if not dims:
+        factor = sum(float(getattr(k, "amplitude", 0.0)) for k in made)
+        return one_to_one(Gain(factor, name=b.label), "matrix", "result", dims)
+    return one_to_one(Convolve(made, name=b.label), "matrix", "result", dims)
+
+
+def projection(b: SourceStep) -> StepPiece:
+    """Translate Projection, by cedar's rules for valid mappings."""
+    given = b.first("input")
+    count = b.values.whole("output dimensionality", 1, 0, 4)
+    if count or "output dimension sizes" not in b.values.body:
+        new = [int(n) for n in b.values.numbers("output dimension sizes", 50, count, 1, 1e6)]
+    else:
+        b.values.say("output dimension sizes", "carried", "none for one number")
+        new = []
+    how = b.values.word("compression type", "SUM", tuple(REDUCTIONS))
+    mapping = _mapping(b, len(given))
+    _require_valid(mapping, len(given), count)
+    for source, target in mapping.items():
+        new[target] = given[source]
+    dims = tuple(new)
+    if not given:
+        # one number fills all
+        return one_to_one(Project(b.axes(dims), name=b.label), "input", "output", dims)
+    here, there = b.axes(dims), b.axes(given)
+    names = {there[s].name: here[t].name for s, t in mapping.items() if there[s].name != here[t].name}
+    names |= {
+        a.name: f"{a.name} added up"
+        for s, a in enumerate(there)
+        if s not in mapping and a.name in [c.name for c in here]
+    }
+    element = Project(here, REDUCTIONS[how], names, name=b.label)
+    return one_to_one(element, "input", "output", dims)
+
+
+def _mapping(b: SourceStep, count: int) -> dict[int, int]:
+    """Return the dimensions that remain, and their places in the output."""
+    found = members(b.values.body.get("dimension mapping"))
+    b.values.say("dimension mapping")
+    out: dict[int, int] = {}
+    for key, value in found.items():
+        source, target = number(key), number(value)
+        if source is None or (target is None and text(value)):
+            raise Refused(f"its mapping of dimension {key!r} to {value!r} is not a number")
+        if target is not None and target != DROPPED and int(source) < count:
+            out[int(source)] = int(target)
+    return out
+
+
+def _require_valid(mapping: dict[int, int], given: int, count: int) -> None:
+    """Raise unless cedar accepts a mapping from `given` to `count` dimensions.
+
+    Raises:
+        Refused: it does not.
+    """
+    if any(not 0 <= target < count for target in mapping.values()):
+        raise Refused(f"its mapping leads to a dimension that an output of {count} dimensions does not have")
+    if len(set(mapping.values())) < len(mapping):
+        raise Refused("two dimensions are mapped to one")
+    dropped = given - len(mapping)
+    if not count:
+        return
+    if given and not mapping:
+        raise Refused("all dimensions are dropped, and the output has some")
+    if dropped and count >= given:
+        raise Refused("a dimension is dropped, and the output has no fewer dimensions than the input")
+    if given > count and len(mapping) != count:
+        raise Refused(f"{given - len(mapping)} of {given} dimensions are dropped for an output of {count}")
+
+
+def transfer(b: SourceStep) -> StepPiece:
+    """Translate TransferFunction."""
+    element = Sigmoid(sigmoid(b.values, "function", Absolute(100.0, 0.0)), name=b.label)
+    return one_to_one(element, "input", "sigmoided output", b.first("input"), zero=False)
+
+
+def transpose(b: SourceStep) -> StepPiece:
+    """Translate Transpose; a vector remains a vector."""
+    dims = b.first("matrix")
+    if len(dims) > 2:
+        raise Refused(f"its input has {len(dims)} dimensions")
+    if len(dims) < 2:
+        return one_to_one(Sum(name=b.label), "matrix", "transposed", dims, why="Sum, a copy")
+    here, there = b.axes(dims[::-1]), b.axes(dims)
+    names = {a.name: c.name for a, c in zip(there, here[::-1], strict=True) if a.name != c.name}
+    return one_to_one(Project(here, "sum", names, name=b.label), "matrix", "transposed", dims[::-1])
+
+
+CLASSES = {
+    "cedar.processing.StaticGain": gain,
+    "cedar.processing.steps.AddConstant": add_constant,
+    "cedar.processing.ConvertToValueRange": convert_range,
+    "cedar.processing.steps.Sum": total,
+    "cedar.processing.SubtractElementwise": subtract,
+    "cedar.processing.ComponentMultiply": multiply,
+    "cedar.processing.steps.Convolution": convolution,
+    "cedar.processing.Projection": projection,
+    "cedar.processing.TransferFunction": transfer,
+    "cedar.processing.Transpose": transpose,
+}

@@ -1,0 +1,154 @@
+"""The translation of one step: deodar elements, the targets of its input slots, and the ports of its output
+slots.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping, Sequence
+
+from deodar.element import Element
+from deodar.importers._names import FreeNames
+from deodar.importers.cedar.file import CedarStep
+from deodar.importers.cedar.grid import Counts, SampleGrid
+from deodar.importers.cedar.values import StepValues
+from deodar.importers.report import Verdict
+from deodar.numerics.axes import Axis
+
+
+@dc.dataclass(frozen=True)
+class InputSlot:
+    """The target of an input slot: a deodar element and its port."""
+
+    name: str
+    port: str = "input"
+
+
+@dc.dataclass(frozen=True)
+class OutputSlot:
+    """The port of an output slot.
+
+    Attributes:
+        name: name of a deodar element.
+        dims: size of the port.
+        port: its output port.
+        state: whether cedar gives the value after the update, as deodar's port does at the end of a step;
+            otherwise the value is computed from the inputs or from the state before the update.
+    """
+
+    name: str
+    dims: Counts
+    port: str = "output"
+    state: bool = False
+
+
+@dc.dataclass
+class StepPiece:
+    """The translation of one step.
+
+    Attributes:
+        elements: deodar elements; the first has the step's name.
+        inlets: for each input slot the targets of its connections, in their order; a slot of `sums` has one
+            entry for all.
+        outlets: ports by output slot.
+        inner: connections among `elements`, by name: (source, target) or (source, target, port).
+        sums: input slots that add up any number of connections.
+        wanted: size that an input slot requires, with one number allowed in its place if it is in `sums`.
+        needs: input slots without which cedar does not run the step.
+        zero: whether the outputs are 0 while all inputs are.
+        stops: why cedar does not run the step; "" if it does.
+        verdict, why: verdict and reason of the step itself in the report.
+    """
+
+    elements: list[Element] = dc.field(default_factory=list[Element])
+    inlets: dict[str, list[list[InputSlot]]] = dc.field(default_factory=dict[str, list[list[InputSlot]]])
+    outlets: dict[str, OutputSlot] = dc.field(default_factory=dict[str, OutputSlot])
+    inner: list[tuple[str, ...]] = dc.field(default_factory=list[tuple[str, ...]])
+    sums: frozenset[str] = frozenset()
+    wanted: dict[str, Counts] = dc.field(default_factory=dict[str, Counts])
+    needs: tuple[str, ...] = ()
+    zero: bool = True
+    stops: str = ""
+    verdict: Verdict = "carried"
+    why: str = ""
+
+
+class SourceStep:
+    """The context of the translation of one step: its parameters, the sizes that arrive, the axes, and names.
+
+    Attributes:
+        ins: sizes that arrive at each input slot, in the order of the connections; None of a step that cedar
+            does not run.
+        dt: step of the document, ms.
+    """
+
+    def __init__(
+        self,
+        step: CedarStep,
+        ins: Mapping[str, Sequence[Counts | None]],
+        grid: SampleGrid,
+        names: FreeNames,
+        dt: float,
+        bugs: bool,
+    ) -> None:
+        self.step = step
+        self.label = step.path[-1]
+        self.values = StepValues(step.values, step.label)
+        self.ins = ins
+        self.grid = grid
+        self.dt = dt
+        self.reproduce = bugs
+        self.met: list[str] = []
+        self._names = names
+
+    def axes(self, dims: Counts) -> tuple[Axis, ...]:
+        """Return the axes of a size."""
+        return self.grid.axes(dims)
+
+    def named(self, what: str) -> str:
+        """Return a name for a further deodar element: the label and what it is."""
+        return self._names.new(f"{self.label} {what}")
+
+    def first(self, slot: str) -> Counts:
+        """Return the size that arrives first at a slot.
+
+        Raises:
+            Refused: nothing arrives, or from a step that cedar does not run.
+        """
+        arriving = self.ins.get(slot, ())
+        if not arriving:
+            raise Refused(f"nothing is connected to {slot!r}")
+        if arriving[0] is None:
+            raise Refused(f"the step that feeds {slot!r} does not run")
+        return arriving[0]
+
+    def all(self, slot: str) -> list[Counts]:
+        """Return the sizes that arrive at a slot.
+
+        Raises:
+            Refused: nothing arrives, or from a step that cedar does not run.
+        """
+        arriving = self.ins.get(slot, ())
+        if not arriving:
+            raise Refused(f"nothing is connected to {slot!r}")
+        if any(dims is None for dims in arriving):
+            raise Refused(f"a step that feeds {slot!r} does not run")
+        return [dims for dims in arriving if dims is not None]
+
+    def bug(self, what: str) -> None:
+        """Note a known error of cedar that this step touches, and that is corrected here."""
+        self.met.append(f"{self.step.label}: {what}; corrected")
+
+
+class Refused(ValueError):
+    """Raised if cedar does not run a step; the message is cedar's reason."""
+
+
+def sizes(values: StepValues, default: int, most: int, name: str = "sizes") -> Counts:
+    """Return the size that `dimensionality` and `sizes` state together."""
+    count = values.whole("dimensionality", 2, 0, most)
+    if not count:
+        if name in values.body:
+            values.say(name, "carried", "none for one number")
+        return ()
+    return tuple(int(n) for n in values.numbers(name, default, count, 1, 1e6))

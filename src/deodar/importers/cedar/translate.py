@@ -1,0 +1,186 @@
+"""Translate a file of cedar to a model: elements in groups, connections in cedar's order, and a report."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import Any
+
+from deodar.elements.placeholder import Placeholder
+from deodar.errors import DeodarError
+from deodar.importers._names import FreeNames
+from deodar.importers._piece import Unfit
+from deodar.importers.cedar import file
+from deodar.importers.cedar.classes import CLASSES, DECLARED, LOOPED
+from deodar.importers.cedar.classes.missing import placeholder
+from deodar.importers.cedar.clock import clock
+from deodar.importers.cedar.file import CedarFile, CedarStep, StepPath
+from deodar.importers.cedar.grid import Counts, SampleGrid, TooManySamples
+from deodar.importers.cedar.layout import layout
+from deodar.importers.cedar.piece import Refused, SourceStep, StepPiece
+from deodar.importers.cedar.sequence import sequence
+from deodar.importers.cedar.wiring import CedarWiring, StepWire, halts, step_wires
+from deodar.importers.imported import Imported
+from deodar.importers.report import ImportReport, Line
+from deodar.model import edit
+from deodar.model.document import Document, Entry
+from deodar.model.model import Model
+
+NEVER = edit.MOST_TICKS
+"""Step in ticks of an element that does not run: a million steps."""
+
+
+def read(content: bytes, name: str, bugs: bool = False) -> Imported:
+    """Return the model that the content of a file describes, and the report.
+
+    Args:
+        content: the content of the file.
+        name: name of the file, for the model's name and the report.
+        bugs: whether to reproduce known errors of cedar; none of them can be, and the report lists them.
+    """
+    translation = StepTranslation(file.parse(content), bugs)
+    report = ImportReport("cedar", name, translation.lines(), translation.met)
+    title = PurePath(name).stem
+    doc = Document(title or "cedar")
+    doc, by = translation.added(doc)
+    for (group, source), port, (target_group, target), entrance, reads in translation.wiring.connections:
+        doc = edit.connect(doc, by[*group, source], port, by[*target_group, target], entrance, reads)
+    doc = edit.describe(
+        doc,
+        time_unit="ms",
+        dt=translation.dt,
+        notes=report.text(),
+        layout=layout(translation.architecture.root, by),
+    )
+    return Imported(Model(document=doc), report)
+
+
+class StepTranslation:
+    """The translations of a file's steps by path, their connections, and the report lines."""
+
+    def __init__(self, architecture: CedarFile, bugs: bool) -> None:
+        self.architecture = architecture
+        self.bugs = bugs
+        self.grid = SampleGrid(architecture)
+        self.met: list[str] = []
+        self.said: list[Line] = []
+        root = architecture.root
+        self.dt, clock_lines = clock(root)
+        self.steps = {step.path: step for step in root.all_steps()}
+        self.names = {g.path: FreeNames([*g.steps, *g.groups]) for g in root.all_groups()}
+        wires, wire_lines = step_wires(root)
+        self.wires = [w for w in wires if w.source in self.steps and w.target in self.steps]
+        self.into: dict[StepPath, list[StepWire]] = {}
+        feeds: dict[StepPath, list[StepPath]] = {}
+        for wire in self.wires:
+            self.into.setdefault(wire.target, []).append(wire)
+            feeds.setdefault(wire.source, []).append(wire.target)
+        self.unknown: set[StepPath] = set()
+        self.pieces = self.translated()
+        self.halted = halts(self.pieces, self.steps, self.wires)
+        place, order_lines = sequence(root, lambda step: step.kind in LOOPED, feeds)
+        self.wiring = CedarWiring(self.pieces, self.wires, place, self.halted, self.names, self.grid)
+        self.wiring.connect_all()
+        self.said += [*clock_lines, *wire_lines, *order_lines]
+
+    def translated(self) -> dict[StepPath, StepPiece]:
+        """Return the translations: first of steps with a size of their own, then of what follows."""
+        found: dict[StepPath, StepPiece] = {}
+        waiting: list[CedarStep] = []
+        for step in self.steps.values():
+            if step.kind in DECLARED or step.kind not in CLASSES:
+                found[step.path] = self.piece(step, found)
+            else:
+                waiting.append(step)
+        while waiting:
+            ready = [s for s in waiting if all(w.source in found for w in self.into.get(s.path, ()))]
+            for step in ready or waiting:
+                why = "" if ready else "its size follows from a loop of steps without a size of their own"
+                found[step.path] = self.piece(step, found, why)
+            waiting = [s for s in waiting if s.path not in found]
+        return {path: found[path] for path in self.steps}
+
+    def piece(self, step: CedarStep, known: dict[StepPath, StepPiece], stops: str = "") -> StepPiece:
+        """Return the translation of one step, or a placeholder with the reason."""
+        ins: dict[str, list[Counts | None]] = {}
+        unknown = ""
+        for wire in self.into.get(step.path, ()):
+            source = known.get(wire.source)
+            outlet = None if source is None else source.outlets.get(wire.source_slot)
+            if source is None and step.kind in DECLARED:
+                ins.setdefault(wire.target_slot, []).append(())
+                continue
+            if wire.source in self.unknown:
+                unknown = wire.source[-1]
+            if outlet is not None and source is not None:
+                ins.setdefault(wire.target_slot, []).append(None if source.stops else outlet.dims)
+        context = SourceStep(step, ins, self.grid, self.names[step.path[:-1]], self.dt, self.bugs)
+        try:
+            if stops:
+                raise Refused(stops)
+            if unknown and step.kind not in DECLARED:
+                self.unknown.add(step.path)
+                found = self.missing(step, f"its size is that of {unknown!r}, which is not known")
+            elif step.kind in CLASSES:
+                found = CLASSES[step.kind](context)
+            else:
+                self.unknown.add(step.path)
+                found = self.missing(step)
+        except Refused as error:
+            found = self.missing(step, f"cedar does not run it: {error}", str(error))
+        except (Unfit, TooManySamples) as error:
+            self.unknown.add(step.path)
+            found = self.missing(step, str(error))
+        except (DeodarError, ValueError, TypeError, IndexError, OverflowError) as error:
+            self.unknown.add(step.path)
+            found = self.missing(step, f"its parameters are inconsistent ({error})")
+        self.met += context.met
+        self.said.append(Line(step.label, "element", step.kind, found.verdict, found.why))
+        if isinstance(found.elements[0], Placeholder):
+            self.said += [
+                Line(step.label, "parameter", name, "dropped", "its element is a placeholder")
+                for name in step.values
+                if name not in ("name", "threaded", "comments")
+            ]
+        else:
+            self.said += context.values.rest(step.short)
+        return found
+
+    def missing(self, step: CedarStep, why: str = "", stops: str = "") -> StepPiece:
+        """Return a placeholder for a step, with the slots that connections name."""
+        ins = list(dict.fromkeys(w.target_slot for w in self.into.get(step.path, ())))
+        outs = list(dict.fromkeys(w.source_slot for w in self.wires if w.source == step.path))
+        return placeholder(step, list(CLASSES), ins, outs, why, stops)
+
+    def added(self, doc: Document) -> tuple[Document, dict[StepPath, Entry]]:
+        """Return a document with all elements and groups, and the entries by path."""
+        elements: list[tuple[Any, StepPath, int]] = []
+        for path, piece in self.pieces.items():
+            every = NEVER if path in self.halted and not isinstance(piece.elements[0], Placeholder) else 1
+            elements += [
+                (element, path[:-1], every if k == 0 else 1) for k, element in enumerate(piece.elements)
+            ]
+        elements += [(element, group, 1) for group, element in self.wiring.extra]
+        doc, entries = edit.add_all(doc, elements)
+        for group in self.architecture.root.all_groups():
+            if group.path and group.path not in doc.groups:
+                doc = edit.group(doc, group.path)
+        return doc, {entry.names: entry for entry in entries}
+
+    def lines(self) -> list[Line]:
+        """Return all lines of the report."""
+        halted = [
+            Line(
+                ".".join(path),
+                "element",
+                self.steps[path].kind,
+                "approximated",
+                f"cedar does not run it: {why}. Here its step is {NEVER} ticks; a step of 1 lets it run",
+            )
+            for path, why in self.halted.items()
+            if not isinstance(self.pieces[path].elements[0], Placeholder)
+        ]
+        told = {line.where for line in halted}
+        said = [
+            x for x in self.said if not (x.part == "element" and x.where in told and x.verdict == "carried")
+        ]
+        return [*self.architecture.lines, *said, *halted, *self.wiring.lines]

@@ -1,0 +1,179 @@
+"""The parameters of one step, converted from text; each reading adds a line to the report."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from deodar.importers.cedar.file import items, members, pairs, text
+from deodar.importers.report import Line, Verdict
+from deodar.parameters import show
+
+LARGEST = 1e30
+"""Largest number; larger ones overflow in single precision when they are squared or multiplied."""
+
+UNITS = {"s": 1000.0, "ms": 1.0, "us": 1e-3, "min": 60_000.0, "m": 60_000.0, "h": 3_600_000.0}
+"""Units of time, in ms."""
+
+NUMBER = re.compile(r"\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z]*)\s*\Z")
+"""A number as cedar writes it: old versions wrote the comma of the system's language."""
+
+IGNORED = ("name", "comments", "threaded", "stored data")
+"""Keys of every step that change nothing of what it computes."""
+
+
+class StepValues:
+    """The parameters of a step, or of an object inside it, with the report lines about them.
+
+    Attributes:
+        body: the parameters as the file has them.
+        where: label of the step.
+        lines: report lines by the name of the parameter.
+    """
+
+    def __init__(
+        self, body: Mapping[str, Any], where: str, prefix: str = "", lines: dict[str, Line] | None = None
+    ) -> None:
+        self.body = body
+        self.where = where
+        self.prefix = prefix
+        self.lines: dict[str, Line] = {} if lines is None else lines
+
+    def inside(self, name: str, body: Any = None) -> StepValues:
+        """Return the parameters of an object inside this one; its lines are added to these."""
+        found = members(self.body.get(name) if body is None else body)
+        return StepValues(found, self.where, f"{self.prefix}{name}.", self.lines)
+
+    def number(self, name: str, default: float, lower: float = -LARGEST, upper: float = LARGEST) -> float:
+        """Return one number; a value that is not a number or out of bounds is replaced and reported."""
+        if name not in self.body:
+            return default
+        value = number(self.body[name])
+        if value is None:
+            return self._instead(name, default)
+        inside = min(max(value, lower), upper)
+        if inside != value:
+            self.say(name, "approximated", f"{value:g} is out of range; {inside:g} is used")
+        else:
+            self.say(name)
+        return inside
+
+    def time(self, name: str, default: float, lower: float = 0.0) -> float:
+        """Return a time in ms; a number without a unit is in ms."""
+        if name not in self.body:
+            return default
+        value = milliseconds(self.body[name])
+        if value is None:
+            return self._instead(name, default)
+        if value < lower:
+            self.say(name, "approximated", f"{value:g} ms is out of range; {lower:g} is used")
+            return lower
+        self.say(name)
+        return value
+
+    def whole(self, name: str, default: int, lower: int, upper: int) -> int:
+        """Return a whole number."""
+        return int(self.number(name, default, lower, upper))
+
+    def flag(self, name: str, default: bool) -> bool:
+        """Return a switch, written as `true` or `false`."""
+        if name not in self.body:
+            return default
+        value = (
+            text(self.body[name]).lower()
+            if not isinstance(self.body[name], bool)
+            else str(self.body[name]).lower()
+        )
+        if value not in ("true", "false", "1", "0"):
+            return bool(self._instead(name, default))
+        self.say(name)
+        return value in ("true", "1")
+
+    def word(self, name: str, default: str, choices: Sequence[str] = ()) -> str:
+        """Return a word; one that is not among the choices is replaced and reported."""
+        if name not in self.body:
+            return default
+        value = text(self.body[name])
+        if choices and value not in choices:
+            return str(self._instead(name, default))
+        self.say(name)
+        return value
+
+    def numbers(
+        self, name: str, default: float, count: int, lower: float = -LARGEST, upper: float = LARGEST
+    ) -> list[float]:
+        """Return `count` numbers; missing ones have the default value, as in cedar, and further ones are
+        ignored.
+        """
+        if name not in self.body:
+            return [default] * count
+        given = items(self.body[name])
+        if not given and text(self.body[name]):
+            given = [self.body[name]]
+        found = [number(v) for v in given]
+        out = [default if v is None else min(max(v, lower), upper) for v in found[:count]]
+        if any(v is None for v in found[:count]) or out != found[:count]:
+            self.say(name, "approximated", f"it is {show(self.body[name])}; {out} is used")
+        elif len(out) < count:
+            self.say(
+                name, "approximated", f"it has {len(out)} of {count} numbers; the others are {default:g}"
+            )
+        else:
+            self.say(name)
+        return out + [default] * (count - len(out))
+
+    def object(self, name: str) -> tuple[str, StepValues] | None:
+        """Return the type of an object and its parameters; None without the object."""
+        if not isinstance(self.body.get(name), dict):
+            return None
+        self.say(name)
+        inside = self.inside(name)
+        return text(inside.body.get("type")), inside
+
+    def objects(self, name: str) -> list[tuple[str, StepValues]]:
+        """Return the objects of a list: the type of each and its parameters."""
+        found = pairs(self.body.get(name))
+        if name in self.body:
+            self.say(name)
+        return [(kind, self.inside(f"{name}[{k}]", body)) for k, (kind, body) in enumerate(found)]
+
+    def say(self, name: str, verdict: Verdict = "carried", why: str = "") -> None:
+        """Add a report line about a parameter."""
+        full = f"{self.prefix}{name}"
+        self.lines[full] = Line(self.where, "parameter", full, verdict, why)
+
+    def rest(self, kind: str) -> list[Line]:
+        """Return all report lines; a parameter that was not read is `dropped`."""
+        for name in self.body:
+            if name in IGNORED:
+                continue
+            full = f"{self.prefix}{name}"
+            if full not in self.lines:
+                self.say(name, "dropped", f"{kind} has no such parameter, or it has no effect here")
+        return list(self.lines.values())
+
+    def _instead(self, name: str, default: Any) -> Any:
+        self.say(name, "approximated", f"it is {show(self.body[name])}; {show(default)} is used")
+        return default
+
+
+def number(value: Any) -> float | None:
+    """Return a number from text; None if it is none, not finite or too large."""
+    if isinstance(value, bool):
+        return float(value)
+    found = NUMBER.match(str(value)) if isinstance(value, (str, int, float)) else None
+    if found is None:
+        return None
+    out = float(found[1].replace(",", "."))
+    return out if math.isfinite(out) and abs(out) <= LARGEST else None
+
+
+def milliseconds(value: Any) -> float | None:
+    """Return a time in ms from text such as `0.02 s`; a bare number is in ms."""
+    found = NUMBER.match(str(value)) if isinstance(value, (str, int, float)) else None
+    plain = number(value)
+    if found is None or plain is None or (found[2] and found[2] not in UNITS):
+        return None
+    return plain * UNITS.get(found[2], 1.0)
