@@ -34,6 +34,7 @@ from deodar.batch.resume import resume as resume
 from deodar.batch.simulate import simulate as simulate
 from deodar.couplings.adaptive_weights import AdaptiveWeights as AdaptiveWeights
 from deodar.couplings.attractor_velocity import AttractorVelocity as AttractorVelocity
+from deodar.couplings.axis_weights import AxisWeights as AxisWeights
 from deodar.couplings.color_histogram import ColorHistogram as ColorHistogram
 from deodar.couplings.color_space import ColorSpace as ColorSpace
 from deodar.couplings.convolve import Convolve as Convolve
@@ -41,6 +42,7 @@ from deodar.couplings.delay import Delay as Delay
 from deodar.couplings.delay_line import DelayLine as DelayLine
 from deodar.couplings.diagonal_expansion import DiagonalExpansion as DiagonalExpansion
 from deodar.couplings.diagonal_sum import DiagonalSum as DiagonalSum
+from deodar.couplings.envelope import Envelope as Envelope
 from deodar.couplings.gain import Gain as Gain
 from deodar.couplings.gain_adaptation import GainAdaptation as GainAdaptation
 from deodar.couplings.hebbian import Hebbian as Hebbian
@@ -49,9 +51,11 @@ from deodar.couplings.interaction import Interaction as Interaction
 from deodar.couplings.logarithm import Logarithm as Logarithm
 from deodar.couplings.obstacle_repulsion import ObstacleRepulsion as ObstacleRepulsion
 from deodar.couplings.peak_position import PeakPosition as PeakPosition
+from deodar.couplings.pointwise import Pointwise as Pointwise
 from deodar.couplings.population_activity import PopulationActivity as PopulationActivity
 from deodar.couplings.product import Product as Product
 from deodar.couplings.project import Project as Project
+from deodar.couplings.quotient import Quotient as Quotient
 from deodar.couplings.rate_code import RateCode as RateCode
 from deodar.couplings.resample import Resample as Resample
 from deodar.couplings.reward_gate import RewardGate as RewardGate
