@@ -70,15 +70,3 @@ class SampleGrid:
 
 def _cyclic(step: CedarStep) -> bool:
     return CedarBorder.of(step.values.get("lateral kernel convolution"), 1).type == "Cyclic"
-
-
-def effective(dims: Sequence[int]) -> Counts:
-    """Return a size as cedar counts dimensions: a matrix with one row or one column has one dimension."""
-    if len(dims) <= 2:
-        return tuple(n for n in dims if n > 1)
-    return tuple(dims)
-
-
-def reason(given: Counts, wanted: Counts) -> str:
-    """Return why an input does not fit, in words."""
-    return f"its size does not fit: {list(given)} into {list(wanted)}"

@@ -51,7 +51,8 @@ class StepPiece:
         inlets: for each input slot the targets of its connections, in their order; a slot of `sums` has one
             entry for all.
         outlets: ports by output slot.
-        inner: connections among `elements`, by name: (source, target) or (source, target, port).
+        inner: connections among `elements`, by name: source, target, and where they differ from `input` and
+            "" the target's port and what it reads.
         sums: input slots that add up any number of connections.
         wanted: size that an input slot requires, with one number allowed in its place if it is in `sums`.
         needs: input slots without which cedar does not run the step.

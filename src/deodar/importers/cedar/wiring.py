@@ -139,10 +139,7 @@ class CedarWiring:
         """Connect all steps."""
         for path, piece in self.pieces.items():
             group = path[:-1]
-            self.connections += [
-                ((group, a), "output", (group, c), rest[0] if rest else "input", "")
-                for a, c, *rest in piece.inner
-            ]
+            self.connections += inside(piece, group, {e.name: e.name for e in piece.elements})
             counts: dict[str, int] = {}
             for wire in self.into.get(path, ()):
                 k = counts.get(wire.target_slot, 0)
@@ -229,10 +226,7 @@ class CedarWiring:
             names = {e.name: self.names[group].new(f"{e.name} before") for e in piece.elements}
             self.copies[path, lag] = names
             self.extra += [(group, dc.replace(e, name=names[e.name])) for e in piece.elements]
-            self.connections += [
-                ((group, names[a]), "output", (group, names[c]), rest[0] if rest else "input", "")
-                for a, c, *rest in piece.inner
-            ]
+            self.connections += inside(piece, group, names)
             counts: dict[str, int] = {}
             for wire in self.into.get(path, ()):
                 k = counts.get(wire.target_slot, 0)
@@ -261,6 +255,14 @@ class CedarWiring:
             self.extra.append((group, Delay(self.grid.axes(outlet.dims), name=name)))
             self.connections.append(((group, before), port, (group, name), "input", ""))
         return self.registers[key]
+
+
+def inside(piece: StepPiece, group: StepPath, names: Mapping[str, str]) -> list[PlacedWire]:
+    """Return the connections among the elements of one step; `names` are their names here."""
+    return [
+        ((group, names[a]), "output", (group, names[c]), *(*rest, *("input", "")[len(rest) :]))  # pyright: ignore
+        for a, c, *rest in piece.inner
+    ]
 
 
 def fits(given: Counts, wanted: Counts, adds: bool) -> bool:

@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from deodar.importers.cedar.classes import algebra, fields, sources
+from deodar.importers.cedar.classes import (
+    algebra,
+    arrays,
+    fields,
+    functions,
+    learning,
+    programming,
+    sources,
+)
 from deodar.importers.cedar.piece import SourceStep, StepPiece
 
 CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **fields.CLASSES,
     **sources.CLASSES,
+    **learning.CLASSES,
     **algebra.CLASSES,
+    **functions.CLASSES,
+    **arrays.CLASSES,
+    **programming.CLASSES,
 }
 
 DECLARED = frozenset(
@@ -19,6 +31,9 @@ DECLARED = frozenset(
         "cedar.dynamics.Preshape",
         "cedar.dynamics.HebbianConnection",
         "cedar.dynamics.SerialOrder",
+        "cedar.processing.steps.Timer",
+        "cedar.processing.sources.SinusSignal",
+        "cedar.processing.sources.StepSignal",
         *sources.CLASSES,
     }
 )

@@ -1,0 +1,333 @@
+"""Arrays: resizing, cropping, padding, permuting, collecting and separating."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import itertools
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from deodar.couplings.axis_weights import AxisWeights
+from deodar.couplings.envelope import Envelope
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.couplings.space_code import SpaceCode
+from deodar.couplings.sum import Sum
+from deodar.couplings.weights import Weights
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.importers._piece import Unfit
+from deodar.importers.cedar.classes.algebra import one_to_one
+from deodar.importers.cedar.file import items, text
+from deodar.importers.cedar.grid import Counts
+from deodar.importers.cedar.interpolation import WAYS, matrix
+from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece, sizes
+from deodar.numerics.axes import Axis
+
+MOST_SCALARS = 255
+
+
+def along_axes(
+    b: SourceStep,
+    slot: str,
+    out: str,
+    matrices: Sequence[np.ndarray | None],
+    dims: Counts,
+    why: str,
+) -> StepPiece:
+    """Return a chain of weights along the axes of an input; None leaves an axis as it is.
+
+    The last element has the step's name.
+    """
+    given = b.first(slot)
+    here, there = b.axes(dims), b.axes(given)
+    changed = {d: m for d, m in enumerate(matrices) if m is not None}
+    if not changed:
+        return one_to_one(Sum(name=b.label), slot, out, given, why="Sum, a copy")
+    last = max(changed)
+    names = [b.label if d == last else b.named(f"along {here[d].name}") for d in changed]
+    elements = [
+        AxisWeights(m, here[d], there[d].name, name=name)
+        for (d, m), name in zip(changed.items(), names, strict=True)
+    ]
+    return StepPiece(
+        [*elements[::-1]],
+        {slot: [[InputSlot(names[0])]]},
+        {out: OutputSlot(b.label, dims)},
+        list(itertools.pairwise(names)),
+        needs=(slot,),
+        why=why,
+    )
+
+
+def resize(b: SourceStep) -> StepPiece:
+    """Translate Resize: each axis of the input has another number of samples over the same extent."""
+    given = b.first("input")
+    if not given:
+        raise Refused("its input is one number")
+    dims = tuple(int(n) for n in b.values.numbers("output size", 50, len(given), 1, 5000))
+    way = b.values.word("interpolation", "LINEAR", WAYS)
+    if len(given) > 2:
+        if way != "LINEAR":
+            b.values.say("interpolation", "carried", "cedar resizes three dimensions linearly only")
+        way = "LINEAR"
+        b.bug("resizing three dimensions mixes up the weights of neighbours")
+    if way == "LANCZOS4":
+        b.values.say("interpolation", "approximated", "CUBIC is used")
+    matrices = [None if n == m else matrix(n, m, way) for n, m in zip(given, dims, strict=True)]
+    return along_axes(b, "input", "output", matrices, dims, "AxisWeights")
+
+
+def flip(b: SourceStep) -> StepPiece:
+    """Translate Flip."""
+    given = b.first("input")
+    listed = [text(v) != "false" for v in items(b.values.body.get("flipped dimensions"))]
+    b.values.say("flipped dimensions")
+    flags = (listed + [True] * len(given))[: len(given)]
+    matrices = [np.eye(n)[::-1] if f else None for n, f in zip(given, flags, strict=True)]
+    return along_axes(b, "input", "output", matrices, given, "AxisWeights")
+
+
+def cut(b: SourceStep) -> StepPiece:
+    """Translate MatrixSlice: a part of each axis, its upper end excluded."""
+    given = b.first("matrix")
+    count = len(given)
+    lower, upper = (
+        b.values.numbers(f"range {end}", float(v), count) for end, v in (("lower", 0), ("upper", 1))
+    )
+    if b.values.word("anchor type", "Absolute", ("Absolute", "Center")) == "Center":
+        half = [n // 2 for n in given]
+        lower = [v + h for v, h in zip(lower, half, strict=True)]
+        upper = [v + h for v, h in zip(upper, half, strict=True)]
+    spans = [(int(a), int(z)) for a, z in zip(lower, upper, strict=True)]
+    if any(not 0 <= a < z <= n for (a, z), n in zip(spans, given, strict=True)):
+        raise Refused(f"its range {spans} is not inside an array of {list(given)}")
+    dims = tuple(z - a for a, z in spans)
+    matrices = [np.eye(n)[a:z] if (a, z) != (0, n) else None for (a, z), n in zip(spans, given, strict=True)]
+    return _shrunk(along_axes(b, "matrix", "slice", matrices, dims, "AxisWeights"), b, "slice", dims)
+
+
+def _shrunk(piece: StepPiece, b: SourceStep, slot: str, dims: Counts) -> StepPiece:
+    """Drop the axes of one sample, which cedar does not count as dimensions."""
+    kept = tuple(n for n in dims if n > 1)
+    if kept == dims:
+        return piece
+    inside = b.named("with all axes")
+    first = piece.elements[0]
+    piece.elements[0] = dc.replace(first, name=inside)
+    piece.inner = [tuple(inside if n == b.label else n for n in wire) for wire in piece.inner]
+    piece.inlets = {
+        key: [[InputSlot(inside if i.name == b.label else i.name, i.port) for i in each] for each in listed]
+        for key, listed in piece.inlets.items()
+    }
+    axes = [a for a, n in zip(b.axes(dims), dims, strict=True) if n > 1]
+    here = b.axes(kept)
+    names = {a.name: c.name for a, c in zip(axes, here, strict=True) if a.name != c.name}
+    piece.elements.insert(0, Project(here, "sum", names, name=b.label))
+    piece.inner.append((inside, b.label))
+    piece.outlets = {slot: OutputSlot(b.label, kept)}
+    return piece
+
+
+def pad(b: SourceStep) -> StepPiece:
+    """Translate MatrixPadding: more samples at both ends of each axis."""
+    given = b.first("input")
+    border = b.values.numbers("border size", 0.0, len(given), 0.0, 5000.0)
+    mode = b.values.word("padding mode", "PadByBorder", ("PadByBorder", "PadToSize"))
+    kind = b.values.word("border type", "Zero", ("Zero", "Cyclic", "Replicate", "Reflect"))
+    pads: list[tuple[int, int]] = []
+    for n, amount in zip(given, border, strict=True):
+        if mode == "PadByBorder":
+            pads.append((int(amount), int(amount)))
+        else:
+            more = max(int(amount) - n, 0)
+            pads.append((more // 2, more - more // 2))
+    ways = {"Zero": "constant", "Cyclic": "wrap", "Replicate": "edge", "Reflect": "symmetric"}
+    matrices = [
+        np.pad(np.eye(n), (p, (0, 0)), mode=ways[kind]) if any(p) else None  # pyright: ignore
+        for n, p in zip(given, pads, strict=True)
+    ]
+    dims = tuple(n + sum(p) for n, p in zip(given, pads, strict=True))
+    return along_axes(b, "input", "padded", matrices, dims, "AxisWeights")
+
+
+def concatenate(b: SourceStep) -> StepPiece:
+    """Translate ConcatVertically: rows above rows."""
+    above, below = b.first("input above"), b.first("input below")
+    if above[1:] != below[1:] or not above or not below:
+        raise Refused(f"the sizes {list(above)} and {list(below)} do not fit above each other")
+    dims = (above[0] + below[0], *above[1:])
+    axis = b.axes(dims)[0]
+    names = b.named("above"), b.named("below")
+    eye = np.eye(dims[0])
+    elements: list[Element] = [
+        Sum(name=b.label),
+        AxisWeights(eye[:, : above[0]], axis, b.axes(above)[0].name, name=names[0]),
+        AxisWeights(eye[:, above[0] :], axis, b.axes(below)[0].name, name=names[1]),
+    ]
+    return StepPiece(
+        elements,
+        {"input above": [[InputSlot(names[0])]], "input below": [[InputSlot(names[1])]]},
+        {"output": OutputSlot(b.label, dims)},
+        [(names[0], b.label), (names[1], b.label)],
+        needs=("input above", "input below"),
+        why="AxisWeights, and Sum",
+    )
+
+
+def stack(b: SourceStep) -> StepPiece:
+    """Translate Stack: matrices become the layers of a volume."""
+    count = b.values.whole("dimensionality", 1, 1, MOST_SCALARS)
+    slots = [str(k) for k in range(count)]
+    given = {s: b.first(s) for s in slots if s in b.ins}
+    if not given:
+        raise Refused("nothing is connected to it")
+    flat = next(iter(given.values()))
+    if any(dims != flat for dims in given.values()) or len(flat) != 2:
+        raise Refused(
+            f"it stacks matrices of one size, not {', '.join(str(list(d)) for d in given.values())}"
+        )
+    dims = (*flat, count)
+    axes = b.axes(dims)
+    one = Axis("layer", 0, 1, 1, periodic=True)
+    piece = StepPiece(
+        [Sum(name=b.label)],
+        {},
+        {"stack": OutputSlot(b.label, dims)},
+        needs=tuple(given),
+        why="AxisWeights, and Sum",
+    )
+    renamed = {a.name: c.name for a, c in zip(b.axes(flat), axes[:2], strict=True) if a.name != c.name}
+    for k, slot in enumerate(slots):
+        if slot not in given:
+            continue
+        layer, placed = b.named(f"layer {k}"), b.named(f"at {k}")
+        piece.elements += [
+            Project([*axes[:2], one], "sum", renamed, name=layer),
+            AxisWeights(np.eye(count)[:, k : k + 1], axes[2], "layer", name=placed),
+        ]
+        piece.inner += [(layer, placed), (placed, b.label)]
+        piece.inlets[slot] = [[InputSlot(layer)]]
+    return piece
+
+
+def clamp(b: SourceStep) -> StepPiece:
+    """Translate Clamp with limits in place of larger and smaller values."""
+    given = b.first("input")
+    for name in ("replace lower limit", "replace upper limit"):
+        if b.values.flag(name, False):
+            raise Unfit("it replaces values beyond a limit by another value than the limit")
+    sides = [
+        (side, b.values.number(f"{name} limit", default))
+        for side, name, default in (("upper", "lower", 0.0), ("lower", "upper", 1.0))
+        if b.values.flag(f"apply {name} limit", True)
+    ]
+    for name in ("lower replacement", "upper replacement"):
+        if name in b.values.body:
+            b.values.say(name, "carried", "without effect")
+    if not sides:
+        return one_to_one(Sum(name=b.label), "input", "thresholded input", given, why="Sum, a copy")
+    names = [b.label if k == len(sides) - 1 else b.named("above the lower limit") for k in range(len(sides))]
+    limits: list[Element] = [Envelope(side, name=name) for (side, _), name in zip(sides, names, strict=True)]
+    piece = StepPiece(
+        limits[::-1],
+        {"input": [[InputSlot(names[0])]]},
+        {"thresholded input": OutputSlot(b.label, given)},
+        list(itertools.pairwise(names)),
+        needs=("input",),
+        zero=False,
+        why="Envelope with a Boost for each limit",
+    )
+    for (side, value), name in zip(sides, names, strict=True):
+        limit = Boost(b.named("lower limit" if side == "upper" else "upper limit"), (), value)
+        piece.elements.append(limit)
+        piece.inner.append((limit.name, name, "other"))
+    return piece
+
+
+def masked(b: SourceStep) -> StepPiece:
+    """Translate Mask: the input where the mask is not 0."""
+    given, mask = b.first("input"), b.first("mask")
+    if given != mask:
+        raise Refused(f"the sizes {list(given)} and {list(mask)} differ")
+    piece = StepPiece(
+        [Product(name=b.label)],
+        {"input": [[InputSlot(b.label)]], "mask": [[InputSlot(b.label, "factor")]]},
+        {"masked": OutputSlot(b.label, given)},
+        needs=("input", "mask"),
+        verdict="approximated",
+        why="Product, which is the same for masks of 0 and 1",
+    )
+    return piece
+
+
+def variable_gauss(b: SourceStep) -> StepPiece:
+    """Translate VariableGauss: a Gaussian whose centre is the input."""
+    dims = sizes(b.values, 50, 4)
+    if b.values.flag("no peak if NaN", False):
+        b.values.say("no peak if NaN", "carried", "no value is undefined here")
+    element = SpaceCode(
+        b.axes(dims),
+        b.values.numbers("sigma", 3.0, len(dims), 1e-6),
+        b.values.number("amplitude", 1.0),
+        boundary=None if not any(a.periodic for a in b.axes(dims)) else ["zero"] * len(dims),
+        name=b.label,
+    )
+    piece = one_to_one(element, "centers", "box", dims, zero=False)
+    piece.wanted = {"centers": () if len(dims) == 1 else (len(dims),)}
+    return piece
+
+
+def to_vector(b: SourceStep) -> StepPiece:
+    """Translate ScalarsToVector."""
+    count = b.values.whole("number of vector entries", 1, 1, MOST_SCALARS)
+    dims = () if count == 1 else (count,)
+    piece = StepPiece(
+        [Sum(name=b.label)],
+        {},
+        {"vector": OutputSlot(b.label, dims)},
+        why="Sum of Weights to one sample each",
+    )
+    for k in range(count):
+        slot = f"scalar {k}"
+        if b.first(slot):
+            raise Refused(f"the input at {slot!r} is not one number")
+        name = b.named(f"entry {k}")
+        piece.elements.append(Weights(np.eye(count)[k].reshape(dims), b.axes(dims), name=name))
+        piece.inner.append((name, b.label))
+        piece.inlets[slot] = [[InputSlot(name)]]
+    return piece
+
+
+def to_scalars(b: SourceStep) -> StepPiece:
+    """Translate VectorToScalars: one number for each entry."""
+    given = b.first("input vector")
+    count = b.values.whole("number of vector entries", 3, 1, MOST_SCALARS)
+    if math.prod(given) != count or len(given) > 1:
+        raise Refused(f"its input has the size {list(given)}, and it has {count} entries")
+    eye = np.eye(count)
+    names = [b.label if k == 0 else b.named(f"entry {k}") for k in range(count)]
+    return StepPiece(
+        [*(Weights(eye[k].reshape(given), (), name=name) for k, name in enumerate(names))],
+        {"input vector": [[InputSlot(name) for name in names]]},
+        {f"scalar {k}": OutputSlot(name, ()) for k, name in enumerate(names)},
+        needs=("input vector",),
+        why="Weights for each entry",
+    )
+
+
+CLASSES = {
+    "cedar.processing.Resize": resize,
+    "cedar.processing.Flip": flip,
+    "cedar.processing.MatrixSlice": cut,
+    "cedar.processing.MatrixPadding": pad,
+    "cedar.processing.steps.ConcatVertically": concatenate,
+    "cedar.processing.steps.Stack": stack,
+    "cedar.processing.steps.Clamp": clamp,
+    "cedar.processing.Mask": masked,
+    "cedar.processing.steps.VariableGauss": variable_gauss,
+    "cedar.processing.ScalarsToVector": to_vector,
+    "cedar.processing.VectorToScalars": to_scalars,
+}

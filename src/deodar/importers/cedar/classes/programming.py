@@ -1,0 +1,225 @@
+"""Programming and numerics: copies, counts, switches, positions, delays, clocks and integrals."""
+
+from __future__ import annotations
+
+import math
+
+from deodar.couplings.delay_line import DelayLine
+from deodar.couplings.gain import Gain
+from deodar.couplings.peak_position import PeakPosition
+from deodar.couplings.pointwise import Pointwise
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.couplings.rate_code import RateCode
+from deodar.couplings.sigmoid import Sigmoid
+from deodar.couplings.sum import Sum
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.integrator import Integrator
+from deodar.importers._piece import Unfit
+from deodar.importers.cedar.classes.algebra import one_to_one
+from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
+from deodar.numerics.sigmoids.step import Step
+
+SECOND = 1e-3
+"""Rate of an integrator that counts seconds, per ms."""
+
+
+FLOAT_TYPES = ("Float", "Double")
+
+
+def noop(b: SourceStep) -> StepPiece:
+    """Translate Noop and NoopLooped."""
+    return one_to_one(Sum(name=b.label), "input", "output", b.first("input"), why="Sum, a copy")
+
+
+def converter(b: SourceStep) -> StepPiece:
+    """Translate MatrixTypeConverter; all numbers are real here."""
+    piece = one_to_one(Sum(name=b.label), "matrix", "converted matrix", b.first("matrix"), why="Sum, a copy")
+    kind = b.values.word("target type", "Float")
+    if kind not in FLOAT_TYPES:
+        b.values.say("target type", "approximated", "numbers are not rounded")
+    return piece
+
+
+def nan_check(b: SourceStep) -> StepPiece:
+    """Translate NaNCheck: a run with undefined values ends with an error here."""
+    for name in ("check for NaN?", "check for Inf?", "check for Empty?", "automatically reset"):
+        if name in b.values.body:
+            b.values.say(name, "carried", "a run with undefined values ends with an error")
+    return one_to_one(Sum(name=b.label), "input", "output", b.first("input"), why="Sum, a copy")
+
+
+def count(b: SourceStep) -> StepPiece:
+    """Translate Count: the number of samples above a threshold."""
+    b.first("input")
+    above = Sigmoid(Step(b.values.number("threshold", 0.0)), name=b.named("above"))
+    return StepPiece(
+        [Project([], "sum", name=b.label), above],
+        {"input": [[InputSlot(above.name)]]},
+        {"output": OutputSlot(b.label, ())},
+        [(above.name, b.label)],
+        needs=("input",),
+        zero=False,
+        why="Sigmoid with Step, summed",
+    )
+
+
+def switch(b: SourceStep) -> StepPiece:
+    """Translate Switch: a mixture of two inputs."""
+    first, second, factor = b.first("input 1"), b.first("input 2"), b.first("factor")
+    if first != second or factor not in ((), first):
+        raise Refused(f"the sizes {list(first)}, {list(second)} and {list(factor)} do not fit")
+    one, two, rest, minus, unit = (b.named(w) for w in ("first part", "second part", "rest", "minus", "one"))
+    piece = StepPiece(
+        [
+            Sum(name=b.label),
+            Product(name=one),
+            Product(name=two),
+            Sum(name=rest),
+            Gain(-1.0, name=minus),
+            Boost(unit, (), 1.0),
+        ],
+        {
+            "input 1": [[InputSlot(one)]],
+            "input 2": [[InputSlot(two)]],
+            "factor": [[InputSlot(one, "factor"), InputSlot(minus)]],
+        },
+        {"mixture": OutputSlot(b.label, first)},
+        [(one, b.label), (two, b.label), (minus, rest), (unit, rest), (rest, two, "factor")],
+        needs=("input 1", "input 2", "factor"),
+        zero=False,
+        why="two Product, summed",
+    )
+    if b.values.flag("make binary", False):
+        binary = Sigmoid(Step(0.5), name=b.named("binary"))
+        piece.elements.append(binary)
+        piece.inlets["factor"] = [[InputSlot(binary.name)]]
+        piece.inner += [(binary.name, one, "factor"), (binary.name, minus)]
+    return piece
+
+
+def position(b: SourceStep) -> StepPiece:
+    """Translate PositionOfMaximum by the mean position of the peak."""
+    dims = b.first("input")
+    if not dims:
+        raise Refused("its input is one number")
+    kind = b.values.word("position type", "Maximum", ("Maximum", "Centroid", "Cyclic Mean"))
+    least = b.values.number("Peak detection threshold", 0.1, 1e-9)
+    if "Centroid detection threshold" in b.values.body:
+        b.values.say("Centroid detection threshold", "approximated", "all samples count")
+    if b.values.flag("NaN if no peak", False):
+        b.values.say("NaN if no peak", "approximated", "0 is given")
+    axes = b.axes(dims)
+    single = len(dims) == 1
+    element: Element = (
+        PeakPosition(axes[0], least, name=b.label)
+        if single
+        else RateCode(list(axes), least=least, name=b.label)
+    )
+    piece = one_to_one(element, "input", "output", () if single else (len(dims),))
+    piece.verdict = "approximated"
+    piece.why = f"{type(element).__name__}: the mean position of the input, not its {kind.lower()}"
+    return piece
+
+
+def delay(b: SourceStep) -> StepPiece:
+    """Translate Delay: a number of steps."""
+    dims = b.first("input")
+    steps = b.values.whole("number of time steps", 1, 1, 100_000)
+    line = DelayLine(b.label, b.axes(dims), steps * b.dt, steps)
+    piece = one_to_one(line, "input", "output", dims)
+    piece.outlets["output"] = OutputSlot(b.label, dims, state=True)
+    return piece
+
+
+def timer(b: SourceStep) -> StepPiece:
+    """Translate Timer: seconds since the start."""
+    for slot in ("run signal (optional)", "reset signal (optional)"):
+        if slot in b.ins:
+            raise Unfit(f"it waits for {slot!r}")
+    clock = Integrator(b.label, (), SECOND)
+    unit = Boost(b.named("one"), (), 1.0)
+    return StepPiece(
+        [clock, unit],
+        outlets={"time": OutputSlot(b.label, (), state=True)},
+        inner=[(unit.name, b.label)],
+        zero=False,
+        why="Integrator",
+    )
+
+
+def sinus_signal(b: SourceStep) -> StepPiece:
+    """Translate SinusSignal: A sin((t + phase) / period 2 pi) + offset, t in s."""
+    return _signal(b, "cos" if b.values.flag("make cos", False) else "sin")
+
+
+def step_signal(b: SourceStep) -> StepPiece:
+    """Translate StepSignal: a wave of two values."""
+    b.values.flag("make cos", False)
+    piece = _signal(b, "sin")
+    wave, sign = piece.elements[2], Sigmoid(Step(0.0), name=b.named("sign"))
+    gain = piece.elements[1]
+    amplitude = float(getattr(gain, "factor", 1.0))
+    piece.elements[1] = Gain(2 * amplitude, name=gain.name)
+    piece.elements += [sign, Boost(b.named("lower"), (), -amplitude)]
+    piece.inner = [w for w in piece.inner if w[:2] != (wave.name, gain.name)]
+    piece.inner += [(wave.name, sign.name), (sign.name, gain.name), (piece.elements[-1].name, b.label)]
+    piece.verdict, piece.why = "approximated", "the sign of a sine: cedar's wave is not documented"
+    return piece
+
+
+def _signal(b: SourceStep, function: str) -> StepPiece:
+    period = b.values.number("period", 1.0)
+    if not period:
+        raise Refused("its period is 0")
+    phase, offset = b.values.number("phase shift", 0.0), b.values.number("vertical offset", 0.0)
+    gain = Gain(b.values.number("amplitude", 1.0), name=b.named("amplitude"))
+    wave = Pointwise(function, name=b.named(function))
+    angle = Gain(2 * math.pi / period, name=b.named("angle"))
+    clock, unit = Integrator(b.named("time"), (), SECOND, initial=phase), Boost(b.named("one"), (), 1.0)
+    raised = Boost(b.named("offset"), (), offset)
+    return StepPiece(
+        [Sum(name=b.label), gain, wave, angle, clock, unit, raised],
+        outlets={"signal": OutputSlot(b.label, ())},
+        inner=[
+            (gain.name, b.label),
+            (raised.name, b.label),
+            (wave.name, gain.name),
+            (angle.name, wave.name),
+            (clock.name, angle.name, "input", "current"),
+            (unit.name, clock.name),
+        ],
+        zero=False,
+        why="Integrator as clock, and Pointwise",
+    )
+
+
+def integration(b: SourceStep) -> StepPiece:
+    """Translate NumericalIntegration by Euler steps in seconds."""
+    dims = b.first("input")
+    for slot in ("delay (optional)", "reset signal (optional)", "initial state (optional)"):
+        if slot in b.ins:
+            raise Unfit(f"it reads {slot!r}")
+    if b.values.flag("use BDF5", False):
+        b.values.say("use BDF5", "approximated", "Euler steps are used")
+    b.values.flag("initialize on reset", True)
+    piece = one_to_one(Integrator(b.label, b.axes(dims), SECOND), "input", "integration result", dims)
+    piece.outlets["integration result"] = OutputSlot(b.label, dims, state=True)
+    return piece
+
+
+CLASSES = {
+    "cedar.processing.steps.Noop": noop,
+    "cedar.processing.steps.NoopLooped": noop,
+    "cedar.processing.steps.MatrixTypeConverter": converter,
+    "cedar.processing.steps.NaNCheck": nan_check,
+    "cedar.processing.steps.Count": count,
+    "cedar.processing.steps.Switch": switch,
+    "cedar.processing.steps.PositionOfMaximum": position,
+    "cedar.processing.steps.Delay": delay,
+    "cedar.processing.steps.Timer": timer,
+    "cedar.processing.sources.SinusSignal": sinus_signal,
+    "cedar.processing.sources.StepSignal": step_signal,
+    "cedar.processing.steps.NumericalIntegration": integration,
+}
