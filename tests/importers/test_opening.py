@@ -49,7 +49,7 @@ def test_a_new_folder_adds_an_importer(tmp_path, monkeypatch):
     other = types.ModuleType("deodar.importers.other")
     other.NAME = "other"
     other.sniff = lambda head: head.startswith(b"OTHER")
-    other.read = lambda content, name, bugs: Imported(
+    other.read = lambda content, name, bugs, beside: Imported(
         dd.Model(content.decode().split()[1]), ImportReport("other", name, [])
     )
     modules = registry.modules

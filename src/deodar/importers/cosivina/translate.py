@@ -6,6 +6,7 @@ from pathlib import PurePath
 
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DeodarError
+from deodar.importers._beside import Beside, nothing
 from deodar.importers._document import assembled
 from deodar.importers._foreign import Foreign
 from deodar.importers._names import FreeNames
@@ -26,13 +27,14 @@ from deodar.model.model import Model
 from deodar.model.paths import display
 
 
-def read(content: bytes, name: str, bugs: bool = False) -> Imported:
+def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing) -> Imported:
     """Return the model that the content of a file describes, and the report.
 
     Args:
         content: the content of the file.
         name: name of the file, for the model's name and the report.
         bugs: whether to reproduce known errors of cosivina instead of correcting them.
+        beside: not used: a file of cosivina needs no other files.
     """
     simulator = file.parse(content)
     translation = Translation(simulator, bugs)
