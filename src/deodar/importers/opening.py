@@ -118,7 +118,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:
-    """Read a document, or a file of another tool (cosivina, dnf-composer); the model's notes list what was not converted.
+    """Read a document, or a file of cosivina or dnf-composer; the notes list what was not converted.
 
     Args:
         path: the file, or `example:NAME` for an example of deodar.

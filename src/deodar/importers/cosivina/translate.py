@@ -6,6 +6,7 @@ from pathlib import PurePath
 
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DeodarError
+from deodar.importers._axes import SizeLimit
 from deodar.importers._beside import Beside, nothing
 from deodar.importers._document import assembled
 from deodar.importers._foreign import Foreign
@@ -18,7 +19,7 @@ from deodar.importers.cosivina.classes.missing import placeholder
 from deodar.importers.cosivina.components import components
 from deodar.importers.cosivina.element import SourceElement
 from deodar.importers.cosivina.file import Simulator
-from deodar.importers.cosivina.sizes import Dimensions, SizeLimit
+from deodar.importers.cosivina.sizes import Dimensions
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
