@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from deodar.couplings.weights import Weights
 from deodar.element import Element
 from deodar.importers._piece import Dims, axes, projection
 from deodar.importers._wiring import SourceWiring
+from deodar.importers.report import Verdict
 from deodar.numerics.axes import shape
 
 MOST_FLAT = 2500
@@ -17,7 +19,9 @@ MOST_FLAT = 2500
 
 
 class FlatWiring(SourceWiring):
-    """The connections of a simulation."""
+    """The connections of a simulation; an element without inputs reads zero there too."""
+
+    without_input: ClassVar[Verdict] = "carried"
 
     def compatible(self, given: Dims, wanted: Dims) -> bool:
         counts = [math.prod(shape(axes(dims))) for dims in (given, wanted)]
