@@ -39,6 +39,13 @@ def own() -> dict[str, ModuleType]:
     return {module.NAME: module for module in found if hasattr(module, "sniff")}
 
 
+def endings() -> tuple[str, ...]:
+    """Return the endings of file names that the importers state in `ENDINGS`; those without it read `.json`."""
+    return tuple(
+        dict.fromkeys(ending for tool in tools().values() for ending in getattr(tool, "ENDINGS", ()))
+    )
+
+
 def packaged() -> list[Plugin]:
     """Return the importers that installed packages name, without importing them."""
     return plugins.found("importers", list(own()))

@@ -216,7 +216,7 @@ def test_the_first_of_two_elements_of_one_name_is_kept(tmp_path):
     assert [c.reads for c in done.model.document.connections] == ["current"]
 
 
-# ------------------------------------------------------------------------------- files beside the file
+# ------------------------------------------------------------------------------------ files beside the file
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,9 @@ from deodar.importers.dnf_composer.translate import read
 
 NAME = "dnf-composer"
 
+ENDINGS = (".dnf",)
+"""Endings of its file names, besides `.json`, by which the studio lists them."""
+
 ELEMENT = re.compile(rb'"uniqueName"\s*:')
 """The key of every element, which no other tool writes."""
 
@@ -22,4 +25,4 @@ def sniff(head: bytes) -> bool:
     return ELEMENT.search(head) is not None or all(key.search(head) for key in WHOLE)
 
 
-__all__ = ["NAME", "read", "sniff"]
+__all__ = ["ENDINGS", "NAME", "read", "sniff"]

@@ -14,12 +14,13 @@ from deodar.importers.dnf_composer.file import StoredSimulation, number
 from deodar.importers.dnf_composer.sizes import SampleAxes, is_plane, samples, size
 from deodar.importers.dnf_composer.values import StoredValues
 from deodar.importers.report import Line
+from deodar.parameters import show
 
 MOST_VALUES = 20_000_000
 """Largest number of array values in a model, of all elements together (a guess; they take 160 MB)."""
 
 
-class Room:
+class ValueBudget:
     """The number of array values that a model may still have."""
 
     def __init__(self) -> None:
@@ -46,7 +47,7 @@ class StoredElement:
         values: its parameters.
         asked: components that other elements read.
         beside: reads a file in the folder of the simulation.
-        room: limits the arrays of the model.
+        budget: limits the arrays of the model.
         start: output after the initialisation: one number, or one for each sample.
         levels: values of further components at that time.
         extra: report lines that are not about a parameter.
@@ -59,7 +60,7 @@ class StoredElement:
         element: Foreign,
         asked: set[str],
         names: FreeNames,
-        room: Room,
+        budget: ValueBudget,
         beside: Beside,
     ) -> None:
         self.simulation = simulation
@@ -68,7 +69,7 @@ class StoredElement:
         self.label = element.label
         self.values = StoredValues(element)
         self.asked = asked
-        self.room = room
+        self.budget = budget
         self.beside = beside
         self.start: float | np.ndarray = 0.0
         self.levels: dict[str, float] = {}
@@ -97,7 +98,7 @@ class StoredElement:
             count = samples(self.element, extent, step)
             if own and count is None:
                 given = [self.element.values.get(name) for name in (extent, step)]
-                raise Unfit(f"its {extent} and {step} are {given}, which is no number of samples")
+                raise Unfit(f"expected {extent} and {step} above 0, got {show(given)}")
             self._say_extent(extent, step, count if own else None)
         return self._axes.of(self.counts)
 

@@ -20,7 +20,7 @@ from deodar.importers._piece import Inlet, Outlet, Piece, Unfit, axes
 from deodar.importers.dnf_composer import file, legacy, start
 from deodar.importers.dnf_composer.classes import CLASSES
 from deodar.importers.dnf_composer.classes.missing import placeholder
-from deodar.importers.dnf_composer.element import Room, StoredElement
+from deodar.importers.dnf_composer.element import StoredElement, ValueBudget
 from deodar.importers.dnf_composer.file import StoredSimulation
 from deodar.importers.dnf_composer.links import admitted
 from deodar.importers.dnf_composer.sizes import SampleAxes
@@ -71,10 +71,10 @@ class SimulationTranslation:
         for e in self.simulation.elements:
             for s in e.sources:
                 self.asked.setdefault(s.label, set()).add(s.component)
-        room = Room()
+        budget = ValueBudget()
         self.contexts = {
             e.label: StoredElement(
-                self.simulation, self.axes, e, self.asked.get(e.label, set()), self.names, room, beside
+                self.simulation, self.axes, e, self.asked.get(e.label, set()), self.names, budget, beside
             )
             for e in self.simulation.elements
         }
@@ -144,7 +144,7 @@ def _plus(b: StoredElement, piece: Piece, values: np.ndarray) -> Piece:
     """Return a stimulus plus a constant."""
     outlet = piece.outlets["output"]
     own = axes(outlet.dims)
-    b.room.take(values.size)
+    b.budget.take(values.size)
     alone = dc.replace(piece.elements[0], name=b.named("alone"))
     constant = Pattern(b.named("inputs"), own, values.reshape(shape(own)))
     return dc.replace(

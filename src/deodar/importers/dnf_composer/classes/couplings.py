@@ -39,7 +39,7 @@ def gauss_field_coupling(b: StoredElement) -> Piece:
     b.values.optional |= {"couplings"}
     normalized, circular = b.values.flag("normalized", True), b.values.flag("circular", False)
     count, peaks = b.counts[1], b.values.rows("couplings", 4)
-    b.room.take(came * count)
+    b.budget.take(came * count)
     weights = np.zeros((came, count))
     source = b.source()
     spacing = b.spacing("input_d_x") if source is None else _spacing(source.values.get("d_x", 1.0))
@@ -62,7 +62,7 @@ def gauss_field_coupling(b: StoredElement) -> Piece:
 def stored_weights(b: StoredElement, came: int) -> np.ndarray:
     """Return the weights of the file NAME_weights.txt, one row for each input sample; else zeros."""
     name, count = f"{b.label}_weights.txt", b.counts[1]
-    b.room.take(came * count)
+    b.budget.take(came * count)
     nothing = np.zeros((came, count))
     try:
         content = b.beside(name) if is_plain(name) else None

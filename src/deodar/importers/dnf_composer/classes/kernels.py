@@ -26,7 +26,7 @@ SLOWEST = 0.01
 
 def gauss(b: StoredElement) -> Piece:
     """Translate `gauss kernel` and its form over a plane."""
-    form = KernelForm(b)
+    form = StoredKernel(b)
     amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
     shown = amplitude * form.outer([form.gaussian(d, width).weights for d in (0, 1)])
     return form.piece([form.truncated(amplitude, width)], shown)
@@ -36,7 +36,7 @@ def mexican_hat(b: StoredElement) -> Piece:
     """Translate `mexican hat kernel`: over a line both Gaussians have the reach of the wider one with an
     amplitude, over a plane each has its own.
     """
-    form = KernelForm(b)
+    form = StoredKernel(b)
     up, down = b.values.number("amplitudeExc", 11), b.values.number("amplitudeInh", 15)
     narrow, wide = b.values.width("widthExc", 2.5), b.values.width("widthInh", 5)
     common = 0.0 if b.plane else max((up != 0) * narrow, (down != 0) * wide)
@@ -51,7 +51,7 @@ def mexican_hat(b: StoredElement) -> Piece:
 
 def oscillatory(b: StoredElement) -> Piece:
     """Translate `oscillatory kernel`; over a line its sum is divided out with its amplitude if normalized."""
-    form = KernelForm(b)
+    form = StoredKernel(b)
     amplitude = b.values.number("amplitude", 1)
     decay, crossings = b.values.number("decay", 0.08), b.values.number("zeroCrossings", 0.3, 0, 1)
     if decay <= 0:
@@ -71,7 +71,7 @@ def oscillatory(b: StoredElement) -> Piece:
 
 def asymmetric(b: StoredElement) -> Piece:
     """Translate `asymmetric gauss kernel`: a Gaussian plus its derivative times `timeShift`."""
-    form = KernelForm(b)
+    form = StoredKernel(b)
     amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
     names = ("timeShift_y", "timeShift_x") if b.plane else ("", "timeShift")
     shifts = [b.values.number(name, 0) if name else 0.0 for name in names]
@@ -85,7 +85,7 @@ def asymmetric(b: StoredElement) -> Piece:
     return form.custom(amplitude, found)
 
 
-class KernelForm:
+class StoredKernel:
     """The common properties of a kernel: dimensions, boundary, whether it is normalised, and the factor of
     the sum of the input.
 
@@ -120,7 +120,7 @@ class KernelForm:
         if not own:
             return self.piece([TruncatedGaussian(amplitude, normalized=True)], shown)
         arrays = [part.centred(mirrored=not self.circular) for part in own]
-        self.b.room.take(math.prod(a.size for a in arrays))
+        self.b.budget.take(math.prod(a.size for a in arrays))
         weights = arrays[0] if len(arrays) == 1 else np.outer(arrays[0], arrays[1])
         return self.piece([Custom(weights, amplitude, boundary=ends)], shown)
 
@@ -128,7 +128,7 @@ class KernelForm:
         """Return the product of the weights of both dimensions, if an element reads it; else nothing."""
         if "kernel" not in self.b.asked:
             return np.zeros(0)
-        self.b.room.take(math.prod(f.size for f in factors))
+        self.b.budget.take(math.prod(f.size for f in factors))
         return np.outer(factors[0], factors[1]).reshape(-1)
 
     def piece(self, kernels: list[Kernel], shown: np.ndarray) -> Piece:

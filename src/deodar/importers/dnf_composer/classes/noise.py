@@ -60,7 +60,7 @@ def _line(b: StoredElement, width: float, half: int, circular: bool) -> Kernel:
         return TruncatedGaussian(1.0, width, normalized=True)
     if half <= ((count - 1) // 2 if circular else count - 1):
         return TruncatedGaussian(1.0, width, 0.0, float(half), normalized=True, boundary=ends)
-    b.room.take(2 * half + 1)
+    b.budget.take(2 * half + 1)
     return Custom(taps.gaussian(width, half, half, True).weights, boundary=ends)
 
 

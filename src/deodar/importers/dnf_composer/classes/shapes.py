@@ -30,7 +30,7 @@ def resize(b: StoredElement) -> Piece:
     rows, came = _came(b, b.counts)
     if rows != 1:
         came *= rows  # a plane is taken as one line
-    b.room.take(came * b.counts[1])
+    b.budget.take(came * b.counts[1])
     return _weights(b, b.of((1, came)), dims, matrix(method, came, b.counts[1]))
 
 
@@ -41,7 +41,7 @@ def resize_2d(b: StoredElement) -> Piece:
     came = b.of(counts)
     factors = [matrix(method, n, m) for n, m in zip(counts, b.counts, strict=True)]
     if math.prod(f.size for f in factors) <= DENSE:
-        b.room.take(math.prod(f.size for f in factors))
+        b.budget.take(math.prod(f.size for f in factors))
         return _weights(b, came, dims, np.kron(factors[0], factors[1]))
     pairs = [(d, a, z) for d in (1, 0) if (a := came[d]) != (z := dims[d])]
     if None in came or None in dims or not pairs:
@@ -50,7 +50,7 @@ def resize_2d(b: StoredElement) -> Piece:
     here = list(axes(came))
     for stage, (d, old, new) in enumerate(pairs):
         assert old is not None and new is not None
-        b.room.take(factors[d].size)
+        b.budget.take(factors[d].size)
         wide = (*here, new)
         here[d] = new
         last = stage == len(pairs) - 1

@@ -76,7 +76,7 @@ def gauss_stimulus_2d(b: StoredElement) -> Piece:
         return _stimulus(b, dims, bell)
     if not own:
         return _stimulus(b, dims, Boost(b.label, own, float(start[0])))
-    b.room.take(pattern.size)
+    b.budget.take(pattern.size)
     return _stimulus(b, dims, Pattern(b.label, own, start.reshape(shape(own))))
 
 
