@@ -1,11 +1,11 @@
 """Files with errors in them, by the thousand: `python benchmarks/mutations.py [--count N] [--seed S] [--run
 R]`, by default 2,000, 0 and 10.
 
-Takes documents of deodar (`examples/`) and files of cosivina (in the tests, and one with every class of it),
-changes their text or their content at random places, and opens them. Each must give a model, or one error
-that lists problems. Any other exception, an error that says nothing, more than a minute of CPU time, or a
-model that is empty although nothing says so, is printed with what makes it again (`--only NAME:NUMBER`); then
-the status is 1.
+Takes documents of deodar (`examples/`) and files of cosivina and dnf-composer (in the tests, and one with
+every class of cosivina), changes their text or their content at random places, and opens them. Each must give
+a model, or one error that lists problems. Any other exception, an error that says nothing, more than a minute
+of CPU time, or a model that is empty although nothing says so, is printed with what makes it again (`--only
+NAME:NUMBER`); then the status is 1.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from deodar.model.model import Model
 
 ROOT = Path(__file__).parent.parent
 SAMPLES = ROOT / "tests" / "importers" / "cosivina"
+SIMULATIONS = ROOT / "tests" / "importers" / "dnf_composer"
 EXAMPLES = ROOT / "examples"
 
 SECONDS = 60.0
@@ -132,6 +133,9 @@ def sources() -> dict[str, str]:
     found = {path.stem: path.read_text(encoding="utf-8") for path in sorted(SAMPLES.glob("*.json"))} | {
         "every_class": every_class()
     }
+    found |= {
+        f"{path.stem}.dnf": path.read_text(encoding="utf-8") for path in sorted(SIMULATIONS.glob("*.dnf"))
+    }
     whole = [
         path for path in sorted(EXAMPLES.glob("*.json")) if not list(EXAMPLES.glob(f"{path.stem}.*.npz"))
     ]
@@ -206,6 +210,8 @@ def mutated(data: Any, rng: random.Random, times: int) -> Any:
                     "kind",
                     "axes",
                     "id",
+                    "uniqueName",
+                    "inputs",
                     "".join(rng.choices(string.printable, k=5)),
                 ]
                 holder[rng.choice(names)] = holder.pop(key)
@@ -255,14 +261,16 @@ def _foreign(path: Path) -> Model:
     json.dumps(done.report.data())
     done.report.text()
     doc = done.model.document
-    if (
-        not doc.entries
-        and done.report.faithful
-        and json.loads(path.read_bytes())["simulator"].get("nElements") != 0
-    ):
+    if not doc.entries and done.report.faithful and not _states_none(path.read_bytes()):
         raise Broken("an empty model, and the report says that everything was carried")
     _checked(done.model)
     return done.model
+
+
+def _states_none(content: bytes) -> bool:
+    """Whether a file of another tool states that it has no elements."""
+    data = json.loads(content)
+    return data.get("simulator", {}).get("nElements") == 0 or data.get("elements") == []
 
 
 def _own(path: Path) -> Model:

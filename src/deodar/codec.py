@@ -178,21 +178,28 @@ def read(content: bytes | str) -> Any:
     return data
 
 
-def foreign(content: bytes) -> Any:
+def foreign(content: bytes, leading: bool = False) -> Any:
     """Read JSON of another tool.
 
     A byte order mark, control characters in strings, Latin-1 text, numbers that are not finite and repeated
     keys (marked, see `repeated`) are accepted.
 
+    Args:
+        content: the content of the file.
+        leading: whether to read the first value and ignore the text after it.
+
     Raises:
         DocumentError: if it is still not JSON.
     """
+    content = content.removeprefix(b"\xef\xbb\xbf")
     try:
         try:
-            data = json.loads(content.removeprefix(b"\xef\xbb\xbf"), strict=False, object_pairs_hook=collect)
+            written = content.decode(json.detect_encoding(content), "surrogatepass")
         except UnicodeDecodeError:
             # older versions of MATLAB wrote the system's encoding
-            data = json.loads(content.decode("latin-1"), strict=False, object_pairs_hook=collect)
+            written = content.decode("latin-1")
+        decoder = json.JSONDecoder(strict=False, object_pairs_hook=collect)
+        data = decoder.raw_decode(written.lstrip())[0] if leading else decoder.decode(written)
     except json.JSONDecodeError as error:
         raise _not_json(error) from None
     except RecursionError:

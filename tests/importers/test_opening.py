@@ -49,7 +49,7 @@ def test_a_new_folder_adds_an_importer(tmp_path, monkeypatch):
     other = types.ModuleType("deodar.importers.other")
     other.NAME = "other"
     other.sniff = lambda head: head.startswith(b"OTHER")
-    other.read = lambda content, name, bugs: Imported(
+    other.read = lambda content, name, bugs, beside: Imported(
         dd.Model(content.decode().split()[1]), ImportReport("other", name, [])
     )
     modules = registry.modules
@@ -60,4 +60,8 @@ def test_a_new_folder_adds_an_importer(tmp_path, monkeypatch):
         lambda room: [*modules(room), *(["deodar.importers.other"] if room == "importers" else [])],
     )
     (tmp_path / "file.txt").write_text("OTHER model")
-    assert dd.load(tmp_path / "file.txt").name == "model" and set(tools()) == {"cosivina", "other"}
+    assert dd.load(tmp_path / "file.txt").name == "model" and set(tools()) == {
+        "cosivina",
+        "dnf-composer",
+        "other",
+    }

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
+from deodar.server import content
+from deodar.server.workspace import Workspace
 from tests.importers.cosivina.files import element, text, written
+from tests.importers.dnf_composer.files import HERE as SIMULATIONS
 from tests.server.page import Page, play, studio
 
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
@@ -68,3 +72,13 @@ def test_a_file_of_another_tool_may_be_dropped(tmp_path: Path) -> None:
 
     with studio(tmp_path) as address:
         play(address, scene)
+
+
+def test_a_folder_lists_files_of_dnf_composer_and_one_opens_with_its_weights(tmp_path: Path) -> None:
+    shutil.copyfile(SIMULATIONS / "all-elements.dnf", tmp_path / "a.dnf")
+    shutil.copyfile(SIMULATIONS / "field coupling_weights.txt", tmp_path / "field coupling_weights.txt")
+    space = Workspace(tmp_path)
+    assert space.listed(1, "").files == ["a.dnf"]
+    document = content.load(space, tmp_path / "a.dnf")
+    weights = next(e.element for e in document.entries if e.path == "field coupling")
+    assert weights.weights.data.any()

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from deodar.importers.report import ImportReport
 
 HELP = (
-    "make a document from a file of another tool (cosivina), with a report of what was carried, approximated"
-    " or dropped"
+    "make a document from a file of another tool (cosivina, dnf-composer), with a report of what was carried,"
+    " approximated or dropped"
 )
 EPILOG = """\
 Known errors of the other tool are corrected, and listed; with --bugs they are reproduced. The report stays

@@ -26,3 +26,11 @@ class Foreign:
     kind: str
     values: Mapping[str, Any]
     sources: tuple[Source, ...]
+
+
+def plain_text(value: Any) -> str:
+    """Return a label as valid text: unpaired surrogates and control characters are replaced."""
+    if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+        return ""
+    text = str(value)[:500].encode("utf-8", "replace").decode()
+    return "".join(c if c.isprintable() else " " for c in text).strip()

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -26,7 +27,7 @@ from deodar.elements.boost import Boost
 from deodar.importers._foreign import Foreign, Source
 from deodar.importers._names import FreeNames
 from deodar.importers._piece import Dims, Inlet, Outlet, Piece, axes, projection
-from deodar.importers.report import Line
+from deodar.importers.report import Line, Verdict
 from deodar.numerics.axes import Axis, shape
 
 SourceWire = tuple[str, str, str, str, str]
@@ -42,6 +43,9 @@ class SourceWiring:
         pieces: their translations by label.
         names: the names in use.
     """
+
+    without_input: ClassVar[Verdict] = "approximated"
+    """Verdict on an input that is needed here, and to which the file connects nothing."""
 
     def __init__(
         self, tool: str, elements: Sequence[Foreign], pieces: Mapping[str, Piece], names: FreeNames
@@ -137,7 +141,11 @@ class SourceWiring:
             self.connections.append((name, "output", inlet.name, inlet.port, ""))
             self.lines.append(
                 Line(
-                    e.label, "connection", "input", "approximated", "nothing is connected to it; zero arrives"
+                    e.label,
+                    "connection",
+                    "input",
+                    self.without_input,
+                    "nothing is connected to it; zero arrives",
                 )
             )
             return

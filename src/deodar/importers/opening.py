@@ -9,6 +9,7 @@ from types import ModuleType
 from deodar import plugins, registry
 from deodar.errors import DeodarError, DocumentError, Problem
 from deodar.importers import examples
+from deodar.importers._beside import in_folder
 from deodar.importers.imported import Imported
 from deodar.model import model as models
 from deodar.model.files import MOST_BYTES
@@ -25,7 +26,8 @@ OWN = b'"deodar":'
 def tools() -> dict[str, ModuleType]:
     """Return the importers by name: every folder beside this file, and those of installed packages.
 
-    Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs) -> Imported`.
+    Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs, beside) -> Imported`; `beside`
+    reads other files of the same folder by their names.
     """
     outside = {p.name: p.load() for p in packaged() if not p.problem}
     return own() | {name: module for name, (module, problem) in outside.items() if not problem}
@@ -35,6 +37,13 @@ def own() -> dict[str, ModuleType]:
     """Return the importers that are part of deodar."""
     found = [importlib.import_module(name) for name in registry.modules("importers")]
     return {module.NAME: module for module in found if hasattr(module, "sniff")}
+
+
+def endings() -> tuple[str, ...]:
+    """Return the endings of file names that the importers state in `ENDINGS`; those without it read `.json`."""
+    return tuple(
+        dict.fromkeys(ending for tool in tools().values() for ending in getattr(tool, "ENDINGS", ()))
+    )
 
 
 def packaged() -> list[Plugin]:
@@ -106,7 +115,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         size = path.stat().st_size
         if size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; at most {MOST_BYTES // 2**20} are read")
-        return tool.read(path.read_bytes(), path.name, bugs)
+        return tool.read(path.read_bytes(), path.name, bugs, in_folder(path.parent))
     except DeodarError as error:
         raise DocumentError(
             [Problem(f"{path}: {p.where}" if p.where else str(path), p.what, p.fix) for p in error.problems]
@@ -116,7 +125,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
 
 
 def load(path: str | Path, trust: bool = False, bugs: bool = False) -> Model:
-    """Read a document, or a file of another tool (cosivina); the model's notes list what was not converted.
+    """Read a document, or a file of cosivina or dnf-composer; the notes list what was not converted.
 
     Args:
         path: the file, or `example:NAME` for an example of deodar.

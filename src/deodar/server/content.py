@@ -91,7 +91,9 @@ def _is_example(space: Workspace, place: Path) -> bool:
 
 def _document(content: bytes, title: str, beside: Callable[[str], bytes | None]) -> Document:
     tool = opening.tool_for(content)
-    return files.loads(content, beside) if tool is None else tool.read(content, title).model.document
+    if tool is None:
+        return files.loads(content, beside)
+    return tool.read(content, title, False, beside).model.document
 
 
 def _content(folder: OpenFolder, name: str) -> bytes:

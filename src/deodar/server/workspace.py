@@ -17,6 +17,7 @@ from pathlib import Path
 
 from deodar import codec
 from deodar.errors import DeodarError, DocumentError, OutputError
+from deodar.importers import opening
 from deodar.model import files, output
 from deodar.model.document import Document
 from deodar.model.files import MOST_BYTES
@@ -150,7 +151,7 @@ class Workspace:
             request=request,
             path="" if place == self.root else self.shown(place),
             folders=[e.name for e in inside if _is(e.is_dir) and e.name not in records],
-            files=_ending(inside, DOCUMENTS),
+            files=_ending(inside, (*DOCUMENTS, *opening.endings())),
             pictures=_ending(inside, PICTURES),
             records=records,
             others=_others(inside, records),
@@ -173,7 +174,7 @@ def _ending(entries: Iterable[os.DirEntry[str]], suffixes: tuple[str, ...]) -> l
 
 
 def _others(entries: Iterable[os.DirEntry[str]], records: list[str]) -> list[str]:
-    known = (*DOCUMENTS, *PICTURES)
+    known = (*DOCUMENTS, *opening.endings(), *PICTURES)
     others = [e for e in entries if not e.name.lower().endswith(known) and e.name not in records]
     return [e.name for e in others if _is(e.is_file)]
 

@@ -11,9 +11,9 @@ from typing import Any, cast
 import numpy as np
 
 from deodar import codec
-from deodar.codec import Repeated, repeated
 from deodar.errors import DocumentError
-from deodar.importers._foreign import Foreign, Source
+from deodar.importers._foreign import Foreign, Source, plain_text
+from deodar.importers._repeated import repeated_keys
 from deodar.importers.report import Line
 from deodar.parameters import show
 
@@ -67,7 +67,7 @@ def parse(content: bytes) -> Simulator:
             fix='It is an object {"simulator": {"deltaT": ..., "elements": [...]}}',
         )
     body = cast("dict[str, Any]", inside)
-    lines = [_repeated(data, found) for found in repeated(data)]
+    lines = repeated_keys(data, _label)
     step, start = _time(body, "deltaT", 1.0, lines), _time(body, "tZero", 0.0, lines)
     found = _entries(body.get("elements"))
     count = _counted(body)
@@ -112,25 +112,9 @@ def empty(value: Any) -> bool:
 # ------------------------------------------------------------------------------------------ parts of the file
 
 
-def _repeated(data: Any, found: Repeated) -> Line:
-    """Return the report line of a key that occurs more than once; inside an element it has the element's
-    label.
-    """
-    label, path = "", list[Any]()
-    for step in found.path:
-        data = data[step]
-        path.append(step)
-        if isinstance(data, dict) and "class" in data:
-            label, path = _text(cast("dict[str, Any]", data).get("label")), []
-    what = ".".join(str(step) for step in (*path, found.key))
-    values = ", ".join(show(value) for value in found.values)
-    return Line(
-        label,
-        "key",
-        what,
-        "approximated",
-        f"it occurs {len(found.values)} times, with the values {values}; the last one is used",
-    )
+def _label(entry: dict[str, Any]) -> str | None:
+    """Return the label of a JSON object that is an element, else None."""
+    return plain_text(entry.get("label")) if "class" in entry else None
 
 
 def _time(body: dict[str, Any], key: str, default: float, lines: list[Line]) -> float:
@@ -165,8 +149,8 @@ def _census(body: dict[str, Any], found: list[Any], count: int | None) -> list[L
     labels = (
         [listed] if isinstance(listed, str) else cast("list[Any]", listed) if isinstance(listed, list) else []
     )
-    there = {_text(cast("dict[str, Any]", e).get("label")) for e in found if isinstance(e, dict)}
-    for label in dict.fromkeys(_text(v) for v in labels):
+    there = {plain_text(cast("dict[str, Any]", e).get("label")) for e in found if isinstance(e, dict)}
+    for label in dict.fromkeys(plain_text(v) for v in labels):
         if label and label not in there:
             lines.append(
                 Line(
@@ -197,8 +181,11 @@ def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
         lines.append(Line(f"entry {place + 1}", "element", show(entry), "dropped", "it is not an element"))
         return None
     body = cast("dict[str, Any]", entry)
-    label, kind = _text(body.get("label")) or f"element {place + 1}", _text(body.get("class")) or "unknown"
-    if _text(body.get("label")) != body.get("label"):
+    label, kind = (
+        plain_text(body.get("label")) or f"element {place + 1}",
+        plain_text(body.get("class")) or "unknown",
+    )
+    if plain_text(body.get("label")) != body.get("label"):
         lines.append(
             Line(
                 label,
@@ -211,7 +198,7 @@ def _element(place: int, entry: Any, lines: list[Line]) -> Foreign | None:
     param = body.get("param")
     param = param[0] if isinstance(param, list) and len(cast(Any, param)) == 1 else param
     values = (
-        {_text(k): v for k, v in cast("dict[str, Any]", param).items()}
+        {plain_text(k): v for k, v in cast("dict[str, Any]", param).items()}
         if isinstance(param, dict) and not empty(param)
         else {}
     )
@@ -229,7 +216,7 @@ def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
     if isinstance(value, list):
         return [s for item in cast("list[Any]", value) for s in _sources(label, item, lines)]
     if isinstance(value, str):
-        return [Source(_text(value))]
+        return [Source(plain_text(value))]
     if isinstance(value, dict):
         body = cast("dict[str, Any]", value)
         source, component = body.get("label"), body.get("component")
@@ -238,11 +225,15 @@ def _sources(label: str, value: Any, lines: list[Line]) -> list[Source]:
             parts = (
                 cast("list[Any]", component) if isinstance(component, list) else [component] * len(several)
             )
-            return [Source(_text(s), _text(c)) for s, c in zip(several, parts, strict=False) if not empty(s)]
+            return [
+                Source(plain_text(s), plain_text(c))
+                for s, c in zip(several, parts, strict=False)
+                if not empty(s)
+            ]
         if empty(source):
             return []
-        if _text(source):
-            return [Source(_text(source), _text(component))]
+        if plain_text(source):
+            return [Source(plain_text(source), plain_text(component))]
     lines.append(Line(label, "connection", show(value), "dropped", "it names no source"))
     return []
 
@@ -272,14 +263,6 @@ def _unique(elements: tuple[Foreign, ...], lines: list[Line]) -> tuple[Foreign, 
         seen.add(e.label)
         out.append(e)
     return tuple(out)
-
-
-def _text(value: Any) -> str:
-    """Return a label as valid text: unpaired surrogates and control characters are replaced."""
-    if isinstance(value, bool) or not isinstance(value, (str, int, float)):
-        return ""
-    text = str(value)[:500].encode("utf-8", "replace").decode()
-    return "".join(c if c.isprintable() else " " for c in text).strip()
 
 
 # ----------------------------------------------------------------------------------------------------- values

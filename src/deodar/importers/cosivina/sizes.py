@@ -7,24 +7,12 @@ z and w. A dimension of one sample has no axis: a row has one axis, a single num
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
-
+from deodar.importers._axes import LengthAxes
 from deodar.importers._foreign import Foreign
-from deodar.importers._piece import Dims
 from deodar.importers.cosivina.file import Simulator, array
 from deodar.importers.cosivina.values import size
-from deodar.numerics.axes import MOST_SAMPLES, Axis
 
 NAMES = ("y", "x", "z", "w")
-
-MOST_CELLS = 10_000_000
-"""Largest number of samples; a larger array is probably an error (a guess; it would take 80 MB)."""
-
-
-class SizeLimit(ValueError):
-    """Raised if a size is implausibly large."""
-
 
 SIZES = ("size", "inputSize", "outputSize", "stimulusSize")
 
@@ -64,42 +52,14 @@ def output_size(e: Foreign, component: str = "") -> tuple[int, ...]:
             return size(given)
 
 
-class Dimensions:
-    """The axes of a file: one for each dimension and length, and whether the lengths wrap."""
+class Dimensions(LengthAxes):
+    """The axes of a file of cosivina."""
 
     def __init__(self, simulator: Simulator) -> None:
-        self.used: list[Counter[int]] = [Counter() for _ in NAMES]
-        self.wraps: Counter[int] = Counter()
-        for e in simulator.elements:
-            own = size(next((e.values[key] for key in SIZES if key in e.values), None))
-            for d, count in enumerate(own):
-                self.used[d][count] += count > 1
-            for d, circular in _circular(e, own).items():
-                if d < len(own):
-                    self.wraps[own[d]] += 1 if circular else -1
-        self.common = [max(used, key=lambda n: (used[n], n), default=0) for used in self.used]
-
-    def of(self, counts: Sequence[int]) -> Dims:
-        """Return the axes of a size.
-
-        All dimensions of one length wrap, or none: as most kernels and stimuli of this length do.
-
-        Raises:
-            TooLarge: a size is implausibly large.
-        """
-        total = 1
-        for count in counts:
-            total *= count
-        if max(counts) > MOST_SAMPLES or total > MOST_CELLS:
-            raise SizeLimit(f"its size {list(counts)} is more than {MOST_CELLS} samples")
-        return tuple(self.axis(d, n) if n > 1 else None for d, n in enumerate(counts))
-
-    def axis(self, d: int, count: int) -> Axis:
-        """Return the axis of one dimension."""
-        common = self.common[d]
-        name = NAMES[d] if count == common or not self.used[d][common] else f"{NAMES[d]}{count}"
-        periodic = self.wraps[count] > 0
-        return Axis(name, 1, count + 1 if periodic else count, count, periodic)
+        own = [
+            size(next((e.values[key] for key in SIZES if key in e.values), None)) for e in simulator.elements
+        ]
+        super().__init__(NAMES, ((n, _circular(e, n)) for e, n in zip(simulator.elements, own, strict=True)))
 
 
 def _circular(e: Foreign, own: tuple[int, ...]) -> dict[int, bool]:

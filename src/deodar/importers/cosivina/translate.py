@@ -6,6 +6,8 @@ from pathlib import PurePath
 
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DeodarError
+from deodar.importers._axes import SizeLimit
+from deodar.importers._beside import Beside, nothing
 from deodar.importers._document import assembled
 from deodar.importers._foreign import Foreign
 from deodar.importers._names import FreeNames
@@ -17,7 +19,7 @@ from deodar.importers.cosivina.classes.missing import placeholder
 from deodar.importers.cosivina.components import components
 from deodar.importers.cosivina.element import SourceElement
 from deodar.importers.cosivina.file import Simulator
-from deodar.importers.cosivina.sizes import Dimensions, SizeLimit
+from deodar.importers.cosivina.sizes import Dimensions
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
@@ -26,13 +28,14 @@ from deodar.model.model import Model
 from deodar.model.paths import display
 
 
-def read(content: bytes, name: str, bugs: bool = False) -> Imported:
+def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing) -> Imported:
     """Return the model that the content of a file describes, and the report.
 
     Args:
         content: the content of the file.
         name: name of the file, for the model's name and the report.
         bugs: whether to reproduce known errors of cosivina instead of correcting them.
+        beside: not used: a file of cosivina needs no other files.
     """
     simulator = file.parse(content)
     translation = Translation(simulator, bugs)

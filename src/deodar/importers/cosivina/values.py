@@ -8,37 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from deodar.importers._foreign import Foreign
+from deodar.importers._values import LARGEST, ForeignValues
 from deodar.importers.cosivina.file import array
-from deodar.importers.report import Line, Verdict
 from deodar.numerics.kernels.gaussian import NARROWEST
-from deodar.parameters import show
-
-LARGEST = 1e30
-"""Largest number; larger ones overflow in single precision when they are squared or multiplied."""
 
 
-class Values:
+class Values(ForeignValues):
     """The parameter values of an element."""
 
-    def __init__(self, element: Foreign) -> None:
-        self.element = element
-        self.lines: dict[str, Line] = {}
-
-    def number(self, name: str, default: float, lower: float = -LARGEST, upper: float = LARGEST) -> float:
-        """Return one number; a value that is not a number or out of bounds is replaced and reported."""
-        if name not in self.element.values:
-            return default
+    def single(self, name: str) -> float | None:
         found = array(self.element.values[name])
-        if found is None or found.size != 1 or not np.isfinite(found).all():
-            return self._instead(name, default)
-        value = float(found.reshape(-1)[0])
-        inside = min(max(value, lower), upper)
-        if inside != value:
-            self.say(name, "approximated", f"{value:g} is out of range; {inside:g} is used")
-        else:
-            self.say(name)
-        return inside
+        return float(found.reshape(-1)[0]) if found is not None and found.size == 1 else None
 
     def width(self, name: str, default: float = 1.0) -> float:
         """Return the width of a Gaussian in samples.
@@ -62,7 +42,7 @@ class Values:
             or not np.isfinite(found).all()
             or np.abs(found).max() > LARGEST
         ):
-            self._instead(name, list(default))
+            self.instead(name, list(default))
             return list(default)
         self.say(name)
         return [float(v) for v in np.broadcast_to(found.reshape(-1), (count,))]
@@ -90,27 +70,10 @@ class Values:
             self.say(name)
             return []
         if found is None or found.size % 2 or np.isnan(found).any():
-            self._instead(name, "no moment")
+            self.instead(name, "no moment")
             return []
         self.say(name, why="moved by one step, since cosivina counts the time before it computes")
         return [(float(a), float(b)) for a, b in found.reshape(-1, 2)]
-
-    def say(self, name: str, verdict: Verdict = "carried", why: str = "") -> None:
-        """Add a report line about a parameter."""
-        self.lines[name] = Line(self.element.label, "parameter", name, verdict, why)
-
-    def rest(self) -> list[Line]:
-        """Return all report lines; a parameter that was not read is `dropped`."""
-        for name in self.element.values:
-            if name not in self.lines:
-                self.say(
-                    name, "dropped", f"{self.element.kind} has no such parameter, or it has no effect here"
-                )
-        return list(self.lines.values())
-
-    def _instead(self, name: str, default: Any) -> Any:
-        self.say(name, "approximated", f"it is {show(self.element.values[name])}; {show(default)} is used")
-        return default
 
 
 def size(value: Any, default: Sequence[int] = (1, 1)) -> tuple[int, ...]:

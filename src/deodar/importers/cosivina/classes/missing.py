@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import did_you_mean
+from deodar.importers._axes import SizeLimit
 from deodar.importers._foreign import Foreign
 from deodar.importers._piece import Dims, Inlet, Outlet, Piece, axes
-from deodar.importers.cosivina.sizes import Dimensions, SizeLimit, output_size
+from deodar.importers.cosivina.sizes import Dimensions, output_size
 
 MISSING = {
     "AttractorDynamics": "turns a peak into the rate of change of a heading direction",

@@ -10,9 +10,9 @@ from deodar.couplings.reward_gate import RewardGate
 from deodar.couplings.weights import Weights
 from deodar.element import Element
 from deodar.importers._piece import Inlet, Outlet, Piece, Unfit, axes
+from deodar.importers._values import LARGEST
 from deodar.importers.cosivina.element import SourceElement
 from deodar.importers.cosivina.file import empty
-from deodar.importers.cosivina.values import LARGEST
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
 
