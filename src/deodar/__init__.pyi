@@ -47,6 +47,7 @@ from deodar.couplings.gain import Gain as Gain
 from deodar.couplings.gain_adaptation import GainAdaptation as GainAdaptation
 from deodar.couplings.hebbian import Hebbian as Hebbian
 from deodar.couplings.homography import Homography as Homography
+from deodar.couplings.hue_saturation_value import HueSaturationValue as HueSaturationValue
 from deodar.couplings.interaction import Interaction as Interaction
 from deodar.couplings.logarithm import Logarithm as Logarithm
 from deodar.couplings.obstacle_repulsion import ObstacleRepulsion as ObstacleRepulsion

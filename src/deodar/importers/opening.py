@@ -40,7 +40,7 @@ def own() -> dict[str, ModuleType]:
 
 
 def endings() -> tuple[str, ...]:
-    """Return the endings of file names that the importers state in `ENDINGS`; those without it read `.json`."""
+    """Return the endings of file names that importers state in `ENDINGS`; those without it read `.json`."""
     return tuple(
         dict.fromkeys(ending for tool in tools().values() for ending in getattr(tool, "ENDINGS", ()))
     )

@@ -13,6 +13,7 @@ from typing import Any, cast
 from deodar import codec
 from deodar.codec import Ambiguous
 from deodar.errors import DocumentError
+from deodar.importers._beside import Beside, nothing
 from deodar.importers.cedar.aliases import KINDS, renamed
 from deodar.importers.report import Line
 from deodar.parameters import show
@@ -25,6 +26,9 @@ MOST_WIRES = 20_000
 
 DEEPEST = 16
 """Deepest nesting of groups (a guess, several times that of the deepest known file)."""
+
+TEMPLATES = ("fieldTemplates.json", "elementaryBehavior.json")
+"""Files of cedar's own templates of groups."""
 
 TRIGGER = "cedar.processing.LoopedTrigger"
 
@@ -117,8 +121,8 @@ class CedarFile:
     lines: tuple[Line, ...]
 
 
-def parse(content: bytes) -> CedarFile:
-    """Parse the content of a file of an architecture.
+def parse(content: bytes, beside: Beside = nothing) -> CedarFile:
+    """Parse the content of a file of an architecture; `beside` reads files whose groups it links.
 
     Raises:
         DocumentError: the content is not JSON, is nested too deeply, or does not describe an architecture.
@@ -129,7 +133,7 @@ def parse(content: bytes) -> CedarFile:
         raise DocumentError(
             "holds no architecture of cedar", fix='It is an object {"steps": {...}, "connections": [...]}'
         )
-    reader = _FileReader()
+    reader = _FileReader(beside)
     root = reader.group((), body, 0)
     plugins = body.get("required", members(body.get("meta")).get("required plugins"))
     for plugin in items(plugins):
@@ -166,7 +170,8 @@ def text(value: Any) -> str:
 
 
 class _FileReader:
-    def __init__(self) -> None:
+    def __init__(self, beside: Beside) -> None:
+        self.beside = beside
         self.lines: list[Line] = []
         self.steps = 0
         self.wires = 0
@@ -174,6 +179,7 @@ class _FileReader:
     def group(self, path: StepPath, body: Mapping[str, Any], level: int) -> CedarGroup:
         if level > DEEPEST:
             raise DocumentError(f"holds groups nested deeper than {DEEPEST} levels")
+        body = self.whole(path, body)
         found = CedarGroup(path, values=body)
         for kind, values in pairs(body.get("steps")):
             self.step(found, kind, values)
@@ -196,6 +202,30 @@ class _FileReader:
                     )
                 )
         return found
+
+    def whole(self, path: StepPath, body: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return a group with the content that it links; cedar does not store it with the group."""
+        template, linked = text(body.get("linked group template")), body.get("linked file")
+        if not template and not linked:
+            return body
+        where, own = ".".join(path), text(body.get("linked group name")) or template
+        name = text(members(linked).get("path")) or text(linked)
+        name = name.replace("\\", "/").rpartition("/")[2]
+        for file in [name] if name else TEMPLATES:
+            try:
+                content = self.beside(file)
+            except DocumentError as error:
+                self.lines.append(Line(where, "element", own, "dropped", error.problems[0].what))
+                continue
+            listed = {} if content is None else members(members(codec.foreign(content)).get("groups"))
+            if own in listed:
+                self.lines.append(Line(where, "element", own, "carried", f"the group of {file}, as a copy"))
+                kept = {key: value for key, value in body.items() if key in ("ui generic", "name")}
+                return {**members(listed[own]), **kept}
+        wanted = name or " or ".join(TEMPLATES)
+        why = f"its content is in another file; put {wanted} beside this file"
+        self.lines.append(Line(where, "element", own or "group", "dropped", why))
+        return body
 
     def step(self, group: CedarGroup, kind: str, values: Any) -> None:
         self.steps += 1

@@ -7,10 +7,13 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from deodar.element import Element
 from deodar.importers._names import FreeNames
 from deodar.importers.cedar.file import CedarStep
 from deodar.importers.cedar.grid import Counts, SampleGrid
+from deodar.importers.cedar.stored import StoredValues
 from deodar.importers.cedar.values import StepValues
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis
@@ -91,6 +94,7 @@ class SourceStep:
         names: FreeNames,
         dt: float,
         bugs: bool,
+        stored: StoredValues,
     ) -> None:
         self.step = step
         self.label = step.path[-1]
@@ -101,6 +105,20 @@ class SourceStep:
         self.reproduce = bugs
         self.met: list[str] = []
         self._names = names
+        self._stored = stored
+
+    def stored(self, slot: str, shape: Counts) -> np.ndarray | None:
+        """Return what the file stores of a slot; None without it. Another size is reported."""
+        found = self._stored.of(self.step.label, slot, self.step.values)
+        if found is None:
+            return None
+        wanted = tuple(n for n in shape if n > 1)
+        if found.shape != wanted:
+            why = f"it has the size {list(found.shape)}, not {list(wanted)}"
+            self.values.say(f"stored {slot}", "dropped", why)
+            return None
+        self.values.say(f"stored {slot}", "carried", "as the value at the start")
+        return found.reshape(shape)
 
     def axes(self, dims: Counts) -> tuple[Axis, ...]:
         """Return the axes of a size."""

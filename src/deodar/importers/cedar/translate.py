@@ -7,6 +7,7 @@ from typing import Any
 
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DeodarError
+from deodar.importers._beside import Beside, nothing
 from deodar.importers._names import FreeNames
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar import file
@@ -16,9 +17,11 @@ from deodar.importers.cedar.clock import clock
 from deodar.importers.cedar.file import CedarFile, CedarStep, StepPath
 from deodar.importers.cedar.grid import Counts, SampleGrid, TooManySamples
 from deodar.importers.cedar.layout import layout
+from deodar.importers.cedar.links import linked
 from deodar.importers.cedar.piece import Refused, SourceStep, StepPiece
 from deodar.importers.cedar.sequence import sequence
-from deodar.importers.cedar.wiring import CedarWiring, StepWire, halts, step_wires
+from deodar.importers.cedar.stored import StoredValues
+from deodar.importers.cedar.wiring import CedarWiring, StepWire, buffers, halts, step_wires
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
@@ -29,21 +32,23 @@ NEVER = edit.MOST_TICKS
 """Step in ticks of an element that does not run: a million steps."""
 
 
-def read(content: bytes, name: str, bugs: bool = False) -> Imported:
+def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing) -> Imported:
     """Return the model that the content of a file describes, and the report.
 
     Args:
         content: the content of the file.
         name: name of the file, for the model's name and the report.
         bugs: whether to reproduce known errors of cedar; none of them can be, and the report lists them.
+        beside: reads other files of the folder: stored traces and weights, and linked groups.
     """
-    translation = StepTranslation(file.parse(content), bugs)
-    report = ImportReport("cedar", name, translation.lines(), translation.met)
+    translation = StepTranslation(file.parse(content, beside), bugs, StoredValues(name, beside))
     title = PurePath(name).stem
     doc = Document(title or "cedar")
     doc, by = translation.added(doc)
     for (group, source), port, (target_group, target), entrance, reads in translation.wiring.connections:
         doc = edit.connect(doc, by[*group, source], port, by[*target_group, target], entrance, reads)
+    doc, links = linked(doc, translation.architecture.root, by)
+    report = ImportReport("cedar", name, [*translation.lines(), *links], translation.met)
     doc = edit.describe(
         doc,
         time_unit="ms",
@@ -57,7 +62,8 @@ def read(content: bytes, name: str, bugs: bool = False) -> Imported:
 class StepTranslation:
     """The translations of a file's steps by path, their connections, and the report lines."""
 
-    def __init__(self, architecture: CedarFile, bugs: bool) -> None:
+    def __init__(self, architecture: CedarFile, bugs: bool, stored: StoredValues) -> None:
+        self.stored = stored
         self.architecture = architecture
         self.bugs = bugs
         self.grid = SampleGrid(architecture)
@@ -68,6 +74,7 @@ class StepTranslation:
         self.steps = {step.path: step for step in root.all_steps()}
         self.names = {g.path: FreeNames([*g.steps, *g.groups]) for g in root.all_groups()}
         wires, wire_lines = step_wires(root)
+        wires += buffers(root)
         self.wires = [w for w in wires if w.source in self.steps and w.target in self.steps]
         self.into: dict[StepPath, list[StepWire]] = {}
         feeds: dict[StepPath, list[StepPath]] = {}
@@ -113,7 +120,9 @@ class StepTranslation:
                 unknown = wire.source[-1]
             if outlet is not None and source is not None:
                 ins.setdefault(wire.target_slot, []).append(None if source.stops else outlet.dims)
-        context = SourceStep(step, ins, self.grid, self.names[step.path[:-1]], self.dt, self.bugs)
+        context = SourceStep(
+            step, ins, self.grid, self.names[step.path[:-1]], self.dt, self.bugs, self.stored
+        )
         try:
             if stops:
                 raise Refused(stops)
@@ -183,4 +192,4 @@ class StepTranslation:
         said = [
             x for x in self.said if not (x.part == "element" and x.where in told and x.verdict == "carried")
         ]
-        return [*self.architecture.lines, *said, *halted, *self.wiring.lines]
+        return [*self.architecture.lines, *self.stored.lines, *said, *halted, *self.wiring.lines]

@@ -22,13 +22,18 @@ from collections.abc import Mapping, Sequence
 from deodar.couplings.delay import Delay
 from deodar.element import Element
 from deodar.importers._names import FreeNames
-from deodar.importers.cedar.file import CedarGroup, CedarStep, CedarWire, StepPath
+from deodar.importers.cedar.file import CedarGroup, CedarStep, CedarWire, StepPath, text
 from deodar.importers.cedar.grid import Counts, SampleGrid
 from deodar.importers.cedar.piece import OutputSlot, StepPiece
 from deodar.importers.report import Line
 
 WireEnd = tuple[str, StepPath, str]
 """`step` or `connector`, the path of the step or of the connector's group, and the slot or connector."""
+
+
+READER = "cedar.processing.steps.BufferReader"
+BUFFER = "buffer "
+"""Before the name of a buffer, which only a BufferReader reads."""
 
 
 @dc.dataclass(frozen=True)
@@ -61,6 +66,19 @@ def step_wires(root: CedarGroup) -> tuple[list[StepWire], list[Line]]:
         if target[0] == "step":
             out += [StepWire(path, slot, target[1], target[2]) for _, path, slot in _origins(target, into)]
     return out, lines
+
+
+def buffers(root: CedarGroup) -> list[StepWire]:
+    """Return the connections of the steps that read a buffer of another step by its path."""
+    out: list[StepWire] = []
+    for group in root.all_groups():
+        for step in group.steps.values():
+            if step.kind != READER:
+                continue
+            name, _, slot = text(step.values.get("buffer path")).rpartition(".")
+            source = (*group.path, *name.split("."))
+            out.append(StepWire(source, f"{BUFFER}{slot}", step.path, "buffer"))
+    return out
 
 
 def _end(group: CedarGroup, name: str, slot: str, wire: CedarWire, lines: list[Line]) -> WireEnd | None:

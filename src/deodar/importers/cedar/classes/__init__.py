@@ -12,6 +12,7 @@ from deodar.importers.cedar.classes import (
     learning,
     programming,
     sources,
+    vision,
 )
 from deodar.importers.cedar.piece import SourceStep, StepPiece
 
@@ -23,6 +24,7 @@ CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **functions.CLASSES,
     **arrays.CLASSES,
     **programming.CLASSES,
+    **vision.CLASSES,
 }
 
 DECLARED = frozenset(
@@ -32,6 +34,10 @@ DECLARED = frozenset(
         "cedar.dynamics.HebbianConnection",
         "cedar.dynamics.SerialOrder",
         "cedar.processing.steps.Timer",
+        "cedar.processing.sources.Picture",
+        "cedar.processing.sources.Video",
+        "cedar.processing.sources.Camera",
+        "cedar.processing.sources.CameraStream",
         "cedar.processing.sources.SinusSignal",
         "cedar.processing.sources.StepSignal",
         *sources.CLASSES,

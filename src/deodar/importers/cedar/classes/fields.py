@@ -14,6 +14,7 @@ from deodar.importers.cedar.kernels import kernels
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, SourceStep, StepPiece, sizes
 from deodar.importers.cedar.sigmoids import sigmoid
 from deodar.importers.cedar.values import StepValues
+from deodar.importers.cedar.wiring import BUFFER
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 from deodar.numerics.sigmoids.absolute import Absolute
 
@@ -58,7 +59,10 @@ def neural_field(b: SourceStep) -> StepPiece:
         if name in values.body:
             values.say(name, "carried", "only a matter of cedar's plots and icons")
     shown = values.flag("activation as output", False)
-    outlets = {"sigmoided activation": OutputSlot(b.label, dims, "output")}
+    outlets = {
+        "sigmoided activation": OutputSlot(b.label, dims, "output"),
+        f"{BUFFER}activation": OutputSlot(b.label, dims, "activation", state=True),
+    }
     if shown:
         outlets["activation"] = OutputSlot(b.label, dims, "activation", state=True)
     return StepPiece(
@@ -117,6 +121,7 @@ def preshape(b: SourceStep) -> StepPiece:
         activity=sigmoid(values, "sigmoid", Absolute(1000.0, 0.5)),
         fades=True,
         gated="peak detector" in b.ins,
+        start=b.stored("activation", dims),
     )
     inlets = {"input": [[InputSlot(b.label)]]}
     wanted = {"input": dims}

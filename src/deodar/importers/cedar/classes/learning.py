@@ -111,6 +111,9 @@ def _rate(b: SourceStep) -> tuple[float, str]:
 def _start(b: SourceStep, source: Counts, target: Counts) -> tuple[np.ndarray | None, str]:
     """Return the weights at the start, source samples first, and what differs."""
     shape = (*source, *target)
+    kept = b.stored("weights", shape)
+    if kept is not None:
+        return kept, ""
     if b.values.flag("manual weights", False):
         count = len(shape)
         centers = b.values.numbers("weight centers", 3.0, count)

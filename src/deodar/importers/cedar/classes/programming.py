@@ -33,6 +33,14 @@ def noop(b: SourceStep) -> StepPiece:
     return one_to_one(Sum(name=b.label), "input", "output", b.first("input"), why="Sum, a copy")
 
 
+def buffer_reader(b: SourceStep) -> StepPiece:
+    """Translate BufferReader, of the activation of a field."""
+    b.values.say("buffer path")
+    if "buffer" not in b.ins:
+        raise Unfit("deodar's port of this buffer is not the same: only the activation of a field is")
+    return one_to_one(Sum(name=b.label), "buffer", "buffer value", b.first("buffer"), why="Sum, a copy")
+
+
 def converter(b: SourceStep) -> StepPiece:
     """Translate MatrixTypeConverter; all numbers are real here."""
     piece = one_to_one(Sum(name=b.label), "matrix", "converted matrix", b.first("matrix"), why="Sum, a copy")
@@ -212,6 +220,7 @@ def integration(b: SourceStep) -> StepPiece:
 CLASSES = {
     "cedar.processing.steps.Noop": noop,
     "cedar.processing.steps.NoopLooped": noop,
+    "cedar.processing.steps.BufferReader": buffer_reader,
     "cedar.processing.steps.MatrixTypeConverter": converter,
     "cedar.processing.steps.NaNCheck": nan_check,
     "cedar.processing.steps.Count": count,
