@@ -1,8 +1,8 @@
 """Files with errors in them, by the thousand: `python benchmarks/mutations.py [--count N] [--seed S] [--run
 R]`, by default 2,000, 0 and 10.
 
-Takes documents of deodar (`examples/`) and files of cosivina and dnf-composer (in the tests, and one with
-every class of cosivina), changes their text or their content at random places, and opens them. Each must give
+Takes documents of deodar (`examples/`) and files of cedar, cosivina and dnf-composer (in the tests, and one
+with every class of cosivina), changes their text or their content at random places, and opens them. Each must give
 a model, or one error that lists problems. Any other exception, an error that says nothing, more than a minute
 of CPU time, or a model that is empty although nothing says so, is printed with what makes it again (`--only
 NAME:NUMBER`); then the status is 1.
@@ -14,6 +14,7 @@ import argparse
 import copy
 import json
 import random
+import re
 import signal
 import string
 import sys
@@ -36,6 +37,7 @@ from deodar.model.model import Model
 
 ROOT = Path(__file__).parent.parent
 SAMPLES = ROOT / "tests" / "importers" / "cosivina"
+ARCHITECTURES = ROOT / "tests" / "importers" / "cedar" / "data"
 SIMULATIONS = ROOT / "tests" / "importers" / "dnf_composer"
 EXAMPLES = ROOT / "examples"
 
@@ -136,6 +138,10 @@ def sources() -> dict[str, str]:
     found |= {
         f"{path.stem}.dnf": path.read_text(encoding="utf-8") for path in sorted(SIMULATIONS.glob("*.dnf"))
     }
+    found |= {
+        f"{path.stem}.cedar": path.read_text(encoding="utf-8")
+        for path in sorted(ARCHITECTURES.glob("*.json"))
+    }
     whole = [
         path for path in sorted(EXAMPLES.glob("*.json")) if not list(EXAMPLES.glob(f"{path.stem}.*.npz"))
     ]
@@ -152,9 +158,25 @@ def changed(text: str, rng: random.Random) -> bytes:
         return _bytes(text.encode(), rng)
     if way < 0.3:
         return _lines(text, rng).encode("utf-8", "surrogatepass")
-    return json.dumps(mutated(json.loads(text), rng, rng.choice((1, 1, 2, 3, 8)))).encode(
-        "utf-8", "surrogatepass"
-    )
+    data = json.loads(text, object_pairs_hook=numbered)
+    return written(mutated(data, rng, rng.choice((1, 1, 2, 3, 8)))).encode("utf-8", "surrogatepass")
+
+
+def numbered(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object in which a repeated key has a number, so that all of them can be changed."""
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        name, n = key, 0
+        while name in found:
+            n += 1
+            name = f"{key}\0{n}"
+        found[name] = value
+    return found
+
+
+def written(data: Any) -> str:
+    """The text of data, with repeated keys as they were."""
+    return re.sub(r"\\u0000\d+", "", json.dumps(data))
 
 
 def _bytes(content: bytes, rng: random.Random) -> bytes:
@@ -270,7 +292,8 @@ def _foreign(path: Path) -> Model:
 def _states_none(content: bytes) -> bool:
     """Whether a file of another tool states that it has no elements."""
     data = json.loads(content)
-    return data.get("simulator", {}).get("nElements") == 0 or data.get("elements") == []
+    steps = data.get("steps", data.get("groups"))
+    return data.get("simulator", {}).get("nElements") == 0 or data.get("elements") == [] or steps in ("", {})
 
 
 def _own(path: Path) -> Model:
