@@ -6,6 +6,8 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from deodar.couplings.weights import Weights
+from deodar.parameters import FrozenArray
 from deodar.server import content
 from deodar.server.workspace import Workspace
 from tests.importers.cosivina.files import element, text, written
@@ -80,5 +82,6 @@ def test_a_folder_lists_files_of_dnf_composer_and_one_opens_with_its_weights(tmp
     space = Workspace(tmp_path)
     assert space.listed(1, "").files == ["a.dnf"]
     document = content.load(space, tmp_path / "a.dnf")
-    weights = next(e.element for e in document.entries if e.path == "field coupling")
-    assert weights.weights.data.any()
+    coupling = next(e.element for e in document.entries if e.path == "field coupling")
+    assert isinstance(coupling, Weights) and isinstance(coupling.weights, FrozenArray)
+    assert coupling.weights.data.any()

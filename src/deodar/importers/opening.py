@@ -40,10 +40,9 @@ def own() -> dict[str, ModuleType]:
 
 
 def endings() -> tuple[str, ...]:
-    """Return the endings of file names that importers state in `ENDINGS`; those without it read `.json`."""
-    return tuple(
-        dict.fromkeys(ending for tool in tools().values() for ending in getattr(tool, "ENDINGS", ()))
-    )
+    """Return the endings of file names, besides `.json`, that the importers state in `ENDINGS`."""
+    found = (ending for tool in tools().values() for ending in getattr(tool, "ENDINGS", ()))
+    return tuple(dict.fromkeys(found))
 
 
 def packaged() -> list[Plugin]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -48,7 +48,7 @@ class StoredElement:
         asked: components that other elements read.
         beside: reads a file in the folder of the simulation.
         budget: limits the arrays of the model.
-        start: output after the initialisation: one number, or one for each sample.
+        start: output after the initialisation: one number, or a function that computes one for each sample.
         levels: values of further components at that time.
         extra: report lines that are not about a parameter.
     """
@@ -71,7 +71,7 @@ class StoredElement:
         self.asked = asked
         self.budget = budget
         self.beside = beside
-        self.start: float | np.ndarray = 0.0
+        self.start: float | Callable[[], np.ndarray] = 0.0
         self.levels: dict[str, float] = {}
         self.extra: list[Line] = []
         self._axes = axes

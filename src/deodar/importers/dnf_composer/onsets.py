@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 
@@ -25,7 +26,7 @@ def spans(periods: Sequence[tuple[float, float]], step: float) -> list[tuple[int
         Unfit: there are too many spans.
     """
     latest = max((min(z, MOST_COUNTED * step) for _, z in periods), default=0.0)
-    times = np.add.accumulate(np.full(min(max(math.ceil(latest / step), 0) + 2, MOST_COUNTED), step))
+    times = _times(step, min(max(math.ceil(latest / step), 0) + 2, MOST_COUNTED))
     found = sorted(
         span for a, z in periods if (span := (_first(times, a, step), _last(times, z, step)))[0] <= span[1]
     )
@@ -38,6 +39,12 @@ def spans(periods: Sequence[tuple[float, float]], step: float) -> list[tuple[int
     if len(out) > MOST_SPANS:
         raise Unfit(f"it is on in {len(out)} separate periods; at most {MOST_SPANS} are read")
     return out
+
+
+@functools.lru_cache(maxsize=4)
+def _times(step: float, count: int) -> np.ndarray:
+    """Return the times of the steps, each the sum of the one before and the step."""
+    return np.add.accumulate(np.full(count, step))
 
 
 def _first(times: np.ndarray, t: float, step: float) -> int:

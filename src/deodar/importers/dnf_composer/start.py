@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from deodar.importers._foreign import Foreign
+from deodar.importers._piece import Unfit
 from deodar.importers.dnf_composer.element import StoredElement
 from deodar.importers.dnf_composer.sizes import size
 
@@ -20,18 +21,23 @@ def added(elements: Sequence[Foreign], contexts: Mapping[str, StoredElement]) ->
 
     All elements are initialised twice, in the order of the file: without inputs, then with them. So a
     stimulus adds the final output of the sources before it, and what those after it show without inputs.
+    A sum that exceeds the budget is left out.
     """
     out: dict[str, np.ndarray] = {}
     for e in elements:
         if e.kind not in ADDING or not e.sources:
             continue
         count = math.prod(size(e))
+        try:
+            contexts[e.label].budget.take(count)
+        except Unfit:
+            continue
         total = np.zeros(count)
         for s in e.sources:
             b = contexts[s.label]
             shown = b.start if s.component == "output" else b.levels.get(s.component, 0.0)
-            total = total + np.broadcast_to(shown, (count,))
+            total += shown() if callable(shown) else shown
             if s.component == "output" and s.label in out:
-                total = total + out[s.label]
+                total += out[s.label]
         out[e.label] = total
     return out

@@ -58,10 +58,15 @@ def derivative(width: float, left: int, right: int) -> np.ndarray:
 
 def oscillation(decay: float, crossings: float, count: int, circular: bool) -> Taps:
     """Return exp(-d |o|) (sin(d |z o|) + cos(z o)), of amplitude 1."""
-    left, right = reaches(max(1 / decay, 5 * crossings), count, circular)
+    left, right = reaches(oscillation_width(decay, crossings), count, circular)
     o = np.arange(-left, right + 1.0)
     waves = np.sin(decay * np.abs(crossings * o)) + np.cos(crossings * o)
     return Taps(left, right, np.exp(-decay * np.abs(o)) * waves)
+
+
+def oscillation_width(decay: float, crossings: float) -> float:
+    """Return the width from which the reach of an oscillation follows."""
+    return max(1 / decay, 5 * crossings)
 
 
 def per_sum(taps: Taps) -> Taps:

@@ -80,7 +80,7 @@ class SimulationTranslation:
         }
         self.pieces = {e.label: self.piece(e) for e in self.simulation.elements}
         connected = self.add_inputs_of_stimuli()
-        self.wiring = FlatWiring("dnf-composer", connected, self.pieces, self.names)
+        self.wiring = FlatWiring(connected, self.pieces, self.names, budget)
         self.wiring.connect_all()
         self.said += refused
 
@@ -123,14 +123,16 @@ class SimulationTranslation:
         sums = start.added(self.simulation.elements, self.contexts)
         out: list[Foreign] = []
         for e in self.simulation.elements:
-            if e.label not in sums or isinstance(self.pieces[e.label].elements[0], Placeholder):
+            if e.kind not in start.ADDING or isinstance(self.pieces[e.label].elements[0], Placeholder):
                 out.append(e)
                 continue
+            verdict, why = "carried", "added once, at the start"
+            if e.label not in sums:
+                verdict, why = "dropped", "the arrays of the file have too many values"
             self.said += [
-                Line(e.label, "connection", f"{s.label}.{s.component}", "carried", "added once, at the start")
-                for s in e.sources
+                Line(e.label, "connection", f"{s.label}.{s.component}", verdict, why) for s in e.sources
             ]
-            if sums[e.label].any():
+            if e.label in sums and sums[e.label].any():
                 self.pieces[e.label] = _plus(self.contexts[e.label], self.pieces[e.label], sums[e.label])
             out.append(dc.replace(e, sources=()))
         return out
@@ -144,7 +146,6 @@ def _plus(b: StoredElement, piece: Piece, values: np.ndarray) -> Piece:
     """Return a stimulus plus a constant."""
     outlet = piece.outlets["output"]
     own = axes(outlet.dims)
-    b.budget.take(values.size)
     alone = dc.replace(piece.elements[0], name=b.named("alone"))
     constant = Pattern(b.named("inputs"), own, values.reshape(shape(own)))
     return dc.replace(

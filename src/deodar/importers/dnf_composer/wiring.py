@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
 
 from deodar.couplings.weights import Weights
 from deodar.element import Element
-from deodar.importers._piece import Dims, axes, projection
+from deodar.importers._foreign import Foreign
+from deodar.importers._names import FreeNames
+from deodar.importers._piece import Dims, Piece, Unfit, axes, projection
 from deodar.importers._wiring import SourceWiring
+from deodar.importers.dnf_composer.element import ValueBudget
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import shape
 
@@ -23,9 +27,23 @@ class FlatWiring(SourceWiring):
 
     without_input: ClassVar[Verdict] = "carried"
 
+    def __init__(
+        self, elements: Sequence[Foreign], pieces: Mapping[str, Piece], names: FreeNames, budget: ValueBudget
+    ) -> None:
+        super().__init__("dnf-composer", elements, pieces, names)
+        self.budget = budget
+
     def compatible(self, given: Dims, wanted: Dims) -> bool:
         counts = [math.prod(shape(axes(dims))) for dims in (given, wanted)]
-        return counts[0] == counts[1] and (_alike(given, wanted) or counts[0] <= MOST_FLAT)
+        if counts[0] != counts[1] or _alike(given, wanted):
+            return counts[0] == counts[1]
+        if counts[0] > MOST_FLAT:
+            return False
+        try:
+            self.budget.take(counts[0] ** 2)
+        except Unfit:
+            return False
+        return True
 
     def adapter(self, name: str, given: Dims, wanted: Dims) -> Element:
         if _alike(given, wanted):

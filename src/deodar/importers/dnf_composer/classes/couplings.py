@@ -11,13 +11,16 @@ from deodar.couplings.weights import Weights
 from deodar.element import Element
 from deodar.errors import DeodarError
 from deodar.importers._beside import is_plain
-from deodar.importers._piece import Inlet, Outlet, Piece, axes
+from deodar.importers._piece import Inlet, Outlet, Piece, Unfit, axes
 from deodar.importers._values import LARGEST
 from deodar.importers.dnf_composer.element import StoredElement
 from deodar.importers.dnf_composer.sizes import INPUT_LENGTH, input_length
 from deodar.importers.report import Line
 from deodar.model.paths import display
 from deodar.numerics.axes import shape
+
+MOST_PRODUCTS = 500_000_000
+"""Largest number of weights times peaks (a guess; they take seconds)."""
 
 LEARNING = ("learningRule", "learningRate", "decayRate")
 
@@ -40,6 +43,8 @@ def gauss_field_coupling(b: StoredElement) -> Piece:
     normalized, circular = b.values.flag("normalized", True), b.values.flag("circular", False)
     count, peaks = b.counts[1], b.values.rows("couplings", 4)
     b.budget.take(came * count)
+    if len(peaks) * came * count > MOST_PRODUCTS:
+        raise Unfit(f"its {len(peaks)} peaks over {came} x {count} samples take too long to add")
     weights = np.zeros((came, count))
     source = b.source()
     spacing = b.spacing("input_d_x") if source is None else _spacing(source.values.get("d_x", 1.0))

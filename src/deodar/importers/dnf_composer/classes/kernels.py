@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -28,8 +29,10 @@ def gauss(b: StoredElement) -> Piece:
     """Translate `gauss kernel` and its form over a plane."""
     form = StoredKernel(b)
     amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
-    shown = amplitude * form.outer([form.gaussian(d, width).weights for d in (0, 1)])
-    return form.piece([form.truncated(amplitude, width)], shown)
+    return form.piece(
+        [form.truncated(amplitude, width)],
+        lambda: amplitude * outer([form.gaussian(d, width).weights for d in (0, 1)]),
+    )
 
 
 def mexican_hat(b: StoredElement) -> Piece:
@@ -41,11 +44,15 @@ def mexican_hat(b: StoredElement) -> Piece:
     narrow, wide = b.values.width("widthExc", 2.5), b.values.width("widthInh", 5)
     common = 0.0 if b.plane else max((up != 0) * narrow, (down != 0) * wide)
     least = CUTOFF * common
-    parts = [
-        amplitude * form.outer([form.gaussian(d, width, common or width).weights for d in (0, 1)])
-        for amplitude, width in ((up, narrow), (-down, wide))
-    ]
-    shown = parts[0] + parts[1] if parts[0].shape == parts[1].shape else parts[0]
+
+    def shown() -> np.ndarray:
+        pairs = ((up, narrow), (-down, wide))
+        parts = [
+            amplitude * outer([form.gaussian(d, width, common or width).weights for d in (0, 1)])
+            for amplitude, width in pairs
+        ]
+        return parts[0] + parts[1] if parts[0].shape == parts[1].shape else parts[0]
+
     return form.piece([form.truncated(up, narrow, least), form.truncated(-down, wide, least)], shown)
 
 
@@ -57,6 +64,7 @@ def oscillatory(b: StoredElement) -> Piece:
     if decay <= 0:
         b.values.say("decay", "carried", f"{SLOWEST:g} in place of {decay:g}, as in dnf-composer")
         decay = SLOWEST
+    form.reserve(taps.oscillation_width(decay, crossings))
     found = [taps.oscillation(decay, crossings, count, form.circular) for count in b.counts]
     if form.normalized:
         found = [taps.per_sum(part) for part in found]
@@ -77,6 +85,7 @@ def asymmetric(b: StoredElement) -> Piece:
     shifts = [b.values.number(name, 0) if name else 0.0 for name in names]
     if form.normalized and not b.plane:
         shifts = [v / abs(amplitude) if amplitude else 0.0 for v in shifts]  # the amplitude is applied below
+    form.reserve(width)
     found = list[Taps]()
     for d, amount in enumerate(shifts):
         bell = form.gaussian(d, width)
@@ -99,6 +108,11 @@ class StoredKernel:
         self.normalized = b.values.flag("normalized", True)
         self.overall = b.values.number("amplitudeGlobal", 0.0)
 
+    def reserve(self, width: float) -> None:
+        """Count the values of a kernel that is stored as an array, before it is computed."""
+        found = (taps.reaches(width, count, self.circular) for count in self.b.counts)
+        self.b.budget.take(math.prod(2 * max(sides) + 1 for sides in found))
+
     def gaussian(self, d: int, width: float, reaching: float = 0.0) -> Taps:
         """Return the Gaussian of one dimension, with the reach of another width."""
         left, right = taps.reaches(reaching or width, self.b.counts[d], self.circular)
@@ -111,40 +125,43 @@ class StoredKernel:
 
     def custom(self, amplitude: float, found: list[Taps]) -> Piece:
         """Return a kernel of any shape, as the product of one array for each dimension."""
-        shown = amplitude * self.outer([part.weights for part in found])
+        height = amplitude
         own = [part for part, axis in zip(found, self.dims, strict=True) if axis is not None]
         for part, axis in zip(found, self.dims, strict=True):
             if axis is None:
                 amplitude *= float(part.weights[part.left])
+
+        def shown() -> np.ndarray:
+            return height * outer([part.weights for part in found])
+
         ends = boundary(axes(self.dims), self.circular)
         if not own:
             return self.piece([TruncatedGaussian(amplitude, normalized=True)], shown)
         arrays = [part.centred(mirrored=not self.circular) for part in own]
-        self.b.budget.take(math.prod(a.size for a in arrays))
         weights = arrays[0] if len(arrays) == 1 else np.outer(arrays[0], arrays[1])
         return self.piece([Custom(weights, amplitude, boundary=ends)], shown)
 
-    def outer(self, factors: list[np.ndarray]) -> np.ndarray:
-        """Return the product of the weights of both dimensions, if an element reads it; else nothing."""
-        if "kernel" not in self.b.asked:
-            return np.zeros(0)
-        self.b.budget.take(math.prod(f.size for f in factors))
-        return np.outer(factors[0], factors[1]).reshape(-1)
-
-    def piece(self, kernels: list[Kernel], shown: np.ndarray) -> Piece:
-        """Return the translation of a kernel; `shown` are its weights, for elements that read them."""
+    def piece(self, kernels: Sequence[Kernel], shown: Callable[[], np.ndarray]) -> Piece:
+        """Return the translation of a kernel; `shown` computes its weights, for elements that read them."""
         b, dims = self.b, self.dims
         elements: list[Element] = [Interaction(kernels, -self.overall + 0.0, name=b.label)]
         outlets = {"output": Outlet(b.label, dims)}
         if "kernel" in b.asked:
             count = math.prod(b.counts)
-            if shown.size <= count:
-                values = np.pad(shown, (0, count - shown.size)).reshape(shape(axes(dims)))
+            b.budget.take(count)
+            weights = shown()
+            if weights.size <= count:
+                values = np.pad(weights, (0, count - weights.size)).reshape(shape(axes(dims)))
                 elements.append(Pattern(b.named("kernel"), axes(dims), values))
                 outlets["kernel"] = Outlet(elements[-1].name, dims, still=True)
         elsewhere = {"kernel": f"computed from the parameter {display((b.label, 'kernel'))}"}
         inlet = Inlet(b.label, dims, whole=True)
         return Piece(elements, [[inlet]], outlets, elsewhere=elsewhere, sums=True, needs=1, why="Interaction")
+
+
+def outer(factors: list[np.ndarray]) -> np.ndarray:
+    """Return the product of the weights of both dimensions, flat."""
+    return np.outer(factors[0], factors[1]).reshape(-1)
 
 
 CLASSES = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 
 import numpy as np
 
@@ -32,11 +33,15 @@ def gauss_stimulus(b: StoredElement) -> Piece:
     position = _position(b, "position", "x_max", 50) / b.spacing("d_x")
     width, circular = b.values.width("width", 5), b.values.flag("circular", True)
     amplitude, normalized = b.values.number("amplitude", 15), b.values.flag("normalized", False)
-    factor = profile.line(count, position, width, circular)
-    start = amplitude * (factor / factor.sum() if normalized and factor.sum() > 0 else factor)
-    b.start = start
+
+    def pattern() -> np.ndarray:
+        factor = profile.line(count, position, width, circular)
+        total = factor.sum() if normalized else 1.0
+        return amplitude * (factor / total if total > 0 else factor)
+
+    b.start = pattern
     if dims[1] is None:
-        return _stimulus(b, dims, Boost(b.label, axes(dims), float(start[0])))
+        return _stimulus(b, dims, Boost(b.label, axes(dims), float(pattern()[0])))
     ends = boundary(axes(dims), circular)
     bell = GaussianStimulus(
         b.label, axes(dims), position, width, amplitude, normalized=normalized, boundary=ends
@@ -53,31 +58,33 @@ def gauss_stimulus_2d(b: StoredElement) -> Piece:
     dims = b.dims()
     width, circular = b.values.width("width", 5), b.values.flag("circular", True)
     amplitude, normalized = b.values.number("amplitude", 15), b.values.flag("normalized", False)
-    centers, sigmas, factors, whole = list[float](), list[float](), list[np.ndarray](), True
-    for letter, count, axis in zip("yx", b.counts, dims, strict=True):
-        step, extent = b.spacing(f"d_{letter}"), number(b.element.values.get(f"{letter}_max")) or 1.0
-        position = _position(b, f"position_{letter}", f"{letter}_max", 50)
-        points = np.arange(1.0, count + 1) * step
-        factors.append(profile.along(points, extent if circular else None, position, width))
-        if axis is not None:
-            centers.append(position / step)
-            sigmas.append(width / step)
-        whole = whole and axis is not None and (not circular or abs(count * step - extent) <= EXACT * extent)
-    pattern = np.outer(*factors)
-    total = float(pattern.sum())
+    sides = [_side(b, letter, circular) for letter in "yx"]
+
+    def factors() -> list[np.ndarray]:
+        return [profile.along(side.points, side.period, side.position, width) for side in sides]
+
+    total = math.prod(float(factor.sum()) for factor in factors()) if normalized else 1.0
     normalized = normalized and total > NOTHING
-    start = (amplitude * (pattern / total if normalized else pattern)).reshape(-1)
-    b.start, own = start, axes(dims)
-    if whole:
-        ends = boundary(own, circular)
-        bell = GaussianStimulus(
-            b.label, own, centers, sigmas, amplitude, normalized=normalized, boundary=ends
-        )
-        return _stimulus(b, dims, bell)
+
+    def pattern() -> np.ndarray:
+        return (amplitude / (total if normalized else 1.0) * np.outer(*factors())).reshape(-1)
+
+    b.start, own = pattern, axes(dims)
     if not own:
-        return _stimulus(b, dims, Boost(b.label, own, float(start[0])))
-    b.budget.take(pattern.size)
-    return _stimulus(b, dims, Pattern(b.label, own, start.reshape(shape(own))))
+        return _stimulus(b, dims, Boost(b.label, own, float(pattern()[0])))
+    if len(own) < 2 or not all(side.whole for side in sides):
+        b.budget.take(math.prod(b.counts))
+        return _stimulus(b, dims, Pattern(b.label, own, pattern().reshape(shape(own))))
+    bell = GaussianStimulus(
+        b.label,
+        own,
+        center=[side.position / side.step for side in sides],
+        sigma=[width / side.step for side in sides],
+        amplitude=amplitude,
+        normalized=normalized,
+        boundary=boundary(own, circular),
+    )
+    return _stimulus(b, dims, bell)
 
 
 def boost(b: StoredElement) -> Piece:
@@ -92,6 +99,38 @@ def boost(b: StoredElement) -> Piece:
 
 
 # ----------------------------------------------------------------------------------------------------- inside
+
+
+@dc.dataclass(frozen=True)
+class Side:
+    """One axis of a plane, in units: samples, step, extent, the position of a peak, and whether it wraps."""
+
+    count: int
+    step: float
+    extent: float
+    position: float
+    circular: bool
+
+    @property
+    def points(self) -> np.ndarray:
+        """The positions of the samples."""
+        return np.arange(1.0, self.count + 1) * self.step
+
+    @property
+    def period(self) -> float | None:
+        """The extent after which it wraps; None if it does not."""
+        return self.extent if self.circular else None
+
+    @property
+    def whole(self) -> bool:
+        """Whether the samples fill the extent, so that deodar has the same distances."""
+        return not self.circular or abs(self.count * self.step - self.extent) <= EXACT * self.extent
+
+
+def _side(b: StoredElement, letter: str, circular: bool) -> Side:
+    extent = number(b.element.values.get(f"{letter}_max")) or 1.0
+    position = _position(b, f"position_{letter}", f"{letter}_max", 50)
+    return Side(b.counts["yx".index(letter)], b.spacing(f"d_{letter}"), extent, position, circular)
 
 
 def _position(b: StoredElement, name: str, extent: str, default: float) -> float:
