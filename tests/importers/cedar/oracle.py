@@ -569,7 +569,7 @@ def kernel_parts(type_id, p, d):
 
 
 def beyond(y, axis, before, after, border):
-    """Return an array that goes on beyond its ends, by a rule for the border."""
+    """Return an array extended beyond its ends, by a rule for the border."""
     n = y.shape[axis]
     i = np.arange(-before, n + after)
     if border == "Cyclic":
@@ -684,7 +684,7 @@ def neural_field(p, x, s, clock):
     lateral = convolved(output, kernels, p.inner("lateral kernel convolution"))
     change = -u + p.number("resting level", -5) + lateral + total
     change = change + p.number("global inhibition", -0.01) * output.sum()
-    s["u"] = u + clock.dt / p.number("time scale", 100) * change
+    s["u"] = u + clock.dt / p.time("time scale", 100) * change
     return {
         "sigmoided activation": output,
         "activation": s["u"],
@@ -770,7 +770,7 @@ def hebbian(p, x, s, clock):
     if p.word("learning rule", "Oja's Rule") != "Oja's Rule":
         raise ValueError("no reference for this learning rule")
     sizes = weight_sizes(p)
-    if len(sizes[0]) + len(sizes[1]) > 2 or (sizes[0] and sizes[1] and len(sizes[0] + sizes[1]) != 2):
+    if len(sizes[0]) + len(sizes[1]) > 2:
         raise ValueError("no reference for these dimensions")
     source_shape, target_shape = (shape_of(n) for n in sizes)
     heaviside = "cedar.aux.math.HeavisideSigmoid"
