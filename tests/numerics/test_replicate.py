@@ -7,7 +7,6 @@ import pytest
 
 import deodar as dd
 from deodar.elements.pattern import Pattern
-from deodar.errors import ModelError
 from deodar.numerics.kernels.box import Box
 from deodar.numerics.kernels.custom import Custom
 from deodar.numerics.kernels.mexican_hat import MexicanHat
@@ -83,7 +82,20 @@ def test_a_long_field_and_a_sum_with_another_boundary_agree_too():
     np.testing.assert_allclose(convolved(values, both[:1], [axis]), one, rtol=0, atol=1e-12)
 
 
-def test_an_array_refuses_it():
+@pytest.mark.parametrize("count", [5, 29, 91])
+def test_a_kernel_given_as_an_array_continues_too(count):
     axis = dd.Axis("x", 0, 29, 30)
-    with pytest.raises(ModelError, match="boundary is 'replicate', which a kernel given as an array"):
-        convolved(np.ones(30), [Custom([0.2, 1.0, 0.2], boundary=ENDS)], [axis])
+    random = np.random.default_rng(count)
+    values, weights = random.random((30, 5)), random.random(count)
+    half = count // 2
+
+    def along(lag):
+        place = np.rint(lag).astype(int) + half
+        return np.where((place >= 0) & (place < count), weights[np.clip(place, 0, count - 1)], 0.0)
+
+    found = convolved(values[:, 0].copy(), [Custom(weights, boundary=ENDS)], [axis])
+    np.testing.assert_allclose(found, padded(values[:, 0], along, 1.0), rtol=0, atol=1e-10)
+    both = Custom(weights[:, None] * [[0.2, 1.0, 0.4]], boundary=["replicate", "periodic"])
+    across = sum(np.roll(values, k, axis=1) * w for k, w in zip((-1, 0, 1), (0.2, 1.0, 0.4), strict=True))
+    found = convolved(values, [both], [axis, dd.Axis("y", 0, 5, 5, periodic=True)])
+    np.testing.assert_allclose(found, padded(across, along, 1.0), rtol=0, atol=1e-10)

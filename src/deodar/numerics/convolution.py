@@ -120,7 +120,8 @@ def separable(matrices: Sequence[Array], y: Array, order: Sequence[int] | None =
 
 def extended(axes: Axes, bounds: Sequence[str]) -> tuple[int, ...]:
     """Return the number of samples along each axis for a circular convolution with these boundaries."""
-    return tuple(n if b == "periodic" else 2 * n for n, b in zip(shape(axes), bounds, strict=True))
+    lengths = {"periodic": 1, "replicate": 3}
+    return tuple(lengths.get(b, 2) * n for n, b in zip(shape(axes), bounds, strict=True))
 
 
 def spectrum(samples: Array | np.ndarray, axes: Axes, bounds: Sequence[str], dtype: DTypeLike) -> Array:
@@ -132,6 +133,8 @@ def spectrum(samples: Array | np.ndarray, axes: Axes, bounds: Sequence[str], dty
         if bounds[d] == "zero":  # lags longer than the field have no effect
             keep = np.abs(lags) < axes[d].samples
             kernel, lags = jnp.take(kernel, np.flatnonzero(keep), axis=d), lags[keep]
+        elif bounds[d] == "replicate":  # one length beyond an end all values are the outermost one
+            lags = np.clip(lags, -axes[d].samples, axes[d].samples)
         wrap = np.zeros((size, len(lags)))
         np.add.at(wrap, (lags % size, np.arange(len(lags))), 1.0)
         kernel = along(jnp.asarray(wrap, dtype), kernel, d)
@@ -146,5 +149,9 @@ def spectral(kernel: Array, y: Array, axes: Axes, bounds: Sequence[str], sizes: 
     for d, b in enumerate(bounds):
         if b == "reflect":
             y = jnp.concatenate([y, jnp.flip(y, d)], axis=d)
+        elif b == "replicate":
+            sides = [(n[d], n[d]) if k == d else (0, 0) for k in range(y.ndim)]
+            y = jnp.pad(y, sides, mode="edge")
     full = jnp.fft.irfftn(jnp.fft.rfftn(y, sizes) * kernel, sizes)
-    return full[tuple(slice(0, k) for k in n)].astype(y.dtype)
+    starts = [k if b == "replicate" else 0 for k, b in zip(n, bounds, strict=True)]
+    return full[tuple(slice(a, a + k) for a, k in zip(starts, n, strict=True))].astype(y.dtype)

@@ -29,20 +29,42 @@ def translated(content, name="file.json"):
 
 
 def ports(parts):
-    """Return for each slot of cedar the port that shows it, and by how many iterations it is ahead.
+    """Return for each slot of cedar the port that shows it, and by how many iterations it is behind.
 
-    What cedar gives in iteration n is at the end of step n if it is a state after the update, or never
-    changes, and at its beginning if it follows from the state before.
+    What cedar gives in iteration n is in deodar's record at the end of step n if it is a state after the
+    update, or never changes, and at its beginning if it follows from the state before. A step that reads both
+    kinds has no time in the record at which it can be compared.
     """
     found = {}
     for path, piece in parts.pieces.items():
         label, group = ".".join(path), path[:-1]
         for slot, outlet in piece.outlets.items():
             port = f"{display((*group, outlet.name))}.{outlet.port}"
-            found[f"{label}.{slot}"] = (port, int(path in parts.wiring.place and not outlet.state))
+            at = 0 if outlet.state else behind(parts, path)
+            if at is not None:
+                found[f"{label}.{slot}"] = (port, at)
         if isinstance(piece.elements[0], Field):
             found[f"{label}.activation"] = (f"{display(path)}.activation", 0)
     return found
+
+
+def behind(parts, path, seen=()):
+    """Return by how many iterations the record of a step is behind; None if its inputs disagree."""
+    wiring = parts.wiring
+    if path not in wiring.place or path in seen:
+        return 0 if path not in wiring.place else 1
+    if wiring.runs_alone(path):
+        return 1
+    found = set()
+    for wire in wiring.into.get(path, ()):
+        outlet = parts.pieces[wire.source].outlets.get(wire.source_slot)
+        if wire.source not in wiring.place or outlet is None:
+            continue
+        if wiring.lag(wire.source, path):
+            found.add(1)
+        else:
+            found.add(0 if outlet.state else behind(parts, wire.source, (*seen, path)))
+    return found.pop() if len(found) == 1 else 1 if not found else None
 
 
 def run(content, steps, dt, slots=None):
@@ -52,9 +74,9 @@ def run(content, steps, dt, slots=None):
     record = sorted({port for port, _ in known.values()})
     data = dd.simulate(model, steps * dt, dt=dt, record=record, every=dt, precision="float64", seed=0)
     out = {}
-    for slot, (port, behind) in known.items():
+    for slot, (port, late) in known.items():
         values = data[port].values
-        if behind:
+        if late:
             values = np.concatenate([np.full_like(values[:1], np.nan), values[:-1]])
         out[slot] = values
     return out

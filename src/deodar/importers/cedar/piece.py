@@ -59,7 +59,6 @@ class StepPiece:
         sums: input slots that add up any number of connections.
         wanted: size that an input slot requires, with one number allowed in its place if it is in `sums`.
         needs: input slots without which cedar does not run the step.
-        zero: whether the outputs are 0 while all inputs are.
         stops: why cedar does not run the step; "" if it does.
         verdict, why: verdict and reason of the step itself in the report.
     """
@@ -71,7 +70,6 @@ class StepPiece:
     sums: frozenset[str] = frozenset()
     wanted: dict[str, Counts] = dc.field(default_factory=dict[str, Counts])
     needs: tuple[str, ...] = ()
-    zero: bool = True
     stops: str = ""
     verdict: Verdict = "carried"
     why: str = ""

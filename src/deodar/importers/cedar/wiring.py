@@ -223,13 +223,14 @@ class CedarWiring:
         return self.register(path, outlet, lag), "output", "previous"
 
     def begins_zero(self, path: StepPath) -> bool:
-        """Return whether an output is 0 before the first iteration."""
+        """Return whether an output is 0 before the first iteration.
+
+        Only what a source feeds, possibly through other steps, is computed when a file is loaded.
+        """
         if path not in self.zeros:
             self.zeros[path] = True  # inside a loop
-            piece, arriving = self.pieces[path], self.into.get(path, ())
-            looped = self.runs_alone(path)
-            self.zeros[path] = looped or (
-                path in self.place and piece.zero and all(self.begins_zero(w.source) for w in arriving)
+            self.zeros[path] = path in self.place and (
+                self.runs_alone(path) or all(self.begins_zero(w.source) for w in self.into.get(path, ()))
             )
         return self.zeros[path]
 

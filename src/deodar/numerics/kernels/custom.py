@@ -40,8 +40,8 @@ class Custom(Kernel):
         amplitude: factor.
         spacing: distance of neighbouring samples in axis units, one value or one for each axis; none: the
             field's grid step (the kernel then changes with the grid).
-        boundary: `periodic`, `zero` or `reflect`, one value or one for each axis; none: `periodic` on
-            periodic axes, `zero` on others.
+        boundary: `periodic`, `zero`, `reflect` or `replicate`, one value or one for each axis; none:
+            `periodic` on periodic axes, `zero` on others.
 
     Shapes:
         weights: one odd number of samples for each axis of the field.
@@ -91,8 +91,6 @@ class Custom(Kernel):
 
     def validate_axes(self, axes: Axes) -> Iterator[str]:
         yield from super().validate_axes(axes)
-        if "replicate" in (self.boundary or ()):
-            yield "boundary is 'replicate', which a kernel given as an array does not have; take 'reflect'"
         if isinstance(self.spacing, tuple) and len(self.spacing) != len(axes):
             yield f"spacing has {len(self.spacing)} values for {len(axes)} axes"
         shape = self.weights.shape if isinstance(self.weights, FrozenArray) else ()

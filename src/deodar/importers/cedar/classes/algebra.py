@@ -28,16 +28,13 @@ DROPPED = 4_294_967_295
 REDUCTIONS = {"SUM": "sum", "AVERAGE": "mean", "MAXIMUM": "max", "MINIMUM": "min"}
 
 
-def one_to_one(
-    element: Element, slot: str, out: str, dims: Counts, zero: bool = True, why: str = ""
-) -> StepPiece:
+def one_to_one(element: Element, slot: str, out: str, dims: Counts, why: str = "") -> StepPiece:
     """Return the translation of a step with one input and one output of the same element."""
     return StepPiece(
         [element],
         {slot: [[InputSlot(element.name)]]},
         {out: OutputSlot(element.name, dims)},
         needs=(slot,),
-        zero=zero,
         why=why or type(element).__name__,
     )
 
@@ -64,7 +61,7 @@ def add_constant(b: SourceStep) -> StepPiece:
     """Translate AddConstant: a sum with a boost."""
     dims = b.first("input")
     offset = Boost(b.named("constant"), (), b.values.number("constant", 0.0))
-    piece = one_to_one(Sum(name=b.label), "input", "output", dims, zero=False, why="Sum with a Boost")
+    piece = one_to_one(Sum(name=b.label), "input", "output", dims, why="Sum with a Boost")
     piece.elements.append(offset)
     piece.inner.append((offset.name, b.label))
     return piece
@@ -86,7 +83,6 @@ def convert_range(b: SourceStep) -> StepPiece:
         {"converted output": OutputSlot(b.label, dims)},
         [(scaled.name, b.label), (offset.name, b.label)],
         needs=("input",),
-        zero=False,
         why="Gain, and Sum with a Boost",
     )
 
@@ -235,7 +231,7 @@ def _require_valid(mapping: dict[int, int], given: int, count: int) -> None:
 def transfer(b: SourceStep) -> StepPiece:
     """Translate TransferFunction."""
     element = Sigmoid(sigmoid(b.values, "function", Absolute(100.0, 0.0)), name=b.label)
-    return one_to_one(element, "input", "sigmoided output", b.first("input"), zero=False)
+    return one_to_one(element, "input", "sigmoided output", b.first("input"))
 
 
 def transpose(b: SourceStep) -> StepPiece:

@@ -237,7 +237,6 @@ def clamp(b: SourceStep) -> StepPiece:
         {"thresholded input": OutputSlot(b.label, given)},
         list(itertools.pairwise(names)),
         needs=("input",),
-        zero=False,
         why="Envelope with a Boost for each limit",
     )
     for (side, value), name in zip(sides, names, strict=True):
@@ -275,7 +274,7 @@ def variable_gauss(b: SourceStep) -> StepPiece:
         boundary=None if not any(a.periodic for a in b.axes(dims)) else ["zero"] * len(dims),
         name=b.label,
     )
-    piece = one_to_one(element, "centers", "box", dims, zero=False)
+    piece = one_to_one(element, "centers", "box", dims)
     piece.wanted = {"centers": () if len(dims) == 1 else (len(dims),)}
     return piece
 

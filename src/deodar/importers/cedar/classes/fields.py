@@ -210,7 +210,6 @@ def rate_to_space(b: SourceStep) -> StepPiece:
         {"output": OutputSlot(b.label, dims)},
         wanted={"input": () if count == 1 else (count,)},
         needs=("input",),
-        zero=False,
         why="SpaceCode",
     )
 

@@ -42,12 +42,12 @@ def logarithm(b: SourceStep) -> StepPiece:
     base = b.values.number("base", math.e, TINY)
     if base == 1:
         raise Refused("its base is 1")
-    return _scaled(b, Pointwise("log", name=b.named("ln")), 1 / math.log(base), "result", zero=False)
+    return _scaled(b, Pointwise("log", name=b.named("ln")), 1 / math.log(base), "result")
 
 
-def _scaled(b: SourceStep, inside: Element, factor: float, out: str, zero: bool) -> StepPiece:
+def _scaled(b: SourceStep, inside: Element, factor: float, out: str) -> StepPiece:
     """Return a function with a factor; the Gain has the step's name."""
-    piece = one_to_one(inside, "input", out, b.first("input"), zero)
+    piece = one_to_one(inside, "input", out, b.first("input"))
     piece.elements.insert(0, Gain(factor, name=b.label))
     piece.inner.append((inside.name, b.label))
     piece.outlets = {out: OutputSlot(b.label, b.first("input"))}
@@ -59,14 +59,14 @@ def sinus(b: SourceStep) -> StepPiece:
     """Translate Sinus: A sin(x + shift)."""
     amplitude, shift = b.values.number("amplitude", 1.0), b.values.number("phase shift", 0.0)
     function = "cos" if b.values.flag("make cos", False) else "sin"
-    piece = _scaled(b, Pointwise(function, name=b.named(function)), amplitude, "result", zero=False)
+    piece = _scaled(b, Pointwise(function, name=b.named(function)), amplitude, "result")
     return _shifted(b, piece, "phase shift (optional)", shift)
 
 
 def linear(b: SourceStep) -> StepPiece:
     """Translate LinearFunction: slope (x + shift)."""
     slope, shift = b.values.number("slope", 1.0), b.values.number("horizontal shift", 0.0)
-    piece = one_to_one(Gain(slope, name=b.label), "input", "result", b.first("input"), zero=False)
+    piece = one_to_one(Gain(slope, name=b.label), "input", "result", b.first("input"))
     return _shifted(b, piece, "horizontal shift (optional)", shift)
 
 

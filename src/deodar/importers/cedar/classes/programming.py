@@ -68,7 +68,6 @@ def count(b: SourceStep) -> StepPiece:
         {"output": OutputSlot(b.label, ())},
         [(above.name, b.label)],
         needs=("input",),
-        zero=False,
         why="Sigmoid with Step, summed",
     )
 
@@ -96,7 +95,6 @@ def switch(b: SourceStep) -> StepPiece:
         {"mixture": OutputSlot(b.label, first)},
         [(one, b.label), (two, b.label), (minus, rest), (unit, rest), (rest, two, "factor")],
         needs=("input 1", "input 2", "factor"),
-        zero=False,
         why="two Product, summed",
     )
     if b.values.flag("make binary", False):
@@ -152,7 +150,6 @@ def timer(b: SourceStep) -> StepPiece:
         [clock, unit],
         outlets={"time": OutputSlot(b.label, (), state=True)},
         inner=[(unit.name, b.label)],
-        zero=False,
         why="Integrator",
     )
 
@@ -198,7 +195,6 @@ def _signal(b: SourceStep, function: str) -> StepPiece:
             (clock.name, angle.name, "input", "current"),
             (unit.name, clock.name),
         ],
-        zero=False,
         why="Integrator as clock, and Pointwise",
     )
 

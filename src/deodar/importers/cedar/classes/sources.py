@@ -146,7 +146,7 @@ def _matrix(b: SourceStep) -> tuple[int, ...]:
 
 
 def _source(b: SourceStep, element: Element, slot: str, dims: tuple[int, ...], why: str) -> StepPiece:
-    return StepPiece([element], outlets={slot: OutputSlot(b.label, dims)}, zero=False, why=why)
+    return StepPiece([element], outlets={slot: OutputSlot(b.label, dims)}, why=why)
 
 
 def _same(values: list[float]) -> float | list[float]:

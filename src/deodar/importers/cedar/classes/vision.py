@@ -70,7 +70,6 @@ def picture(b: SourceStep) -> StepPiece:
         [order, turned, seen],
         outlets={slot: OutputSlot(b.label, dims)},
         inner=[(seen.name, turned.name), (turned.name, b.label)],
-        zero=False,
         verdict="approximated",
         why=f"Sensor of {SIZE[1]} x {SIZE[0]} pixels; open a world with a picture{asked}: --world {world}",
     )
@@ -182,7 +181,6 @@ def threshold(b: SourceStep) -> StepPiece:
         {"thresholded input": OutputSlot(b.label, dims)},
         [(both.name, b.label)],
         needs=("input",),
-        zero=False,
         verdict="approximated",
         why="Sigmoid with Step; at a limit itself the result may differ",
     )
