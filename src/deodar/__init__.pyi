@@ -50,6 +50,7 @@ from deodar.couplings.homography import Homography as Homography
 from deodar.couplings.hue_saturation_value import HueSaturationValue as HueSaturationValue
 from deodar.couplings.interaction import Interaction as Interaction
 from deodar.couplings.logarithm import Logarithm as Logarithm
+from deodar.couplings.maximum_position import MaximumPosition as MaximumPosition
 from deodar.couplings.obstacle_repulsion import ObstacleRepulsion as ObstacleRepulsion
 from deodar.couplings.peak_position import PeakPosition as PeakPosition
 from deodar.couplings.pointwise import Pointwise as Pointwise

@@ -59,9 +59,15 @@ CORNERS = ((104.598, 25.68), (22.402, 25.68), (7.003, 81.672), (119.997, 81.672)
 order (left, near), (right, near), (right, far), (left, far) as the robot sees them.
 """
 
-TAU, PERCEPTUAL_TAU, STEEP = 100.0, 60.0, 15.0
-"""Time scales of the CoS field and of the perceptual field, ms, and the slope of their sigmoid. The peak of a
-slower perceptual field would remain farther behind an object that moves.
+PERCEPTUAL_TAU, SATISFACTION_TAU, STEEP = 80.0, 200.0, 15.0
+"""Time scales of the perceptual field and of the CoS field, ms, and the slope of their sigmoid. The peak of a
+slower perceptual field would remain farther behind an object that moves; a faster CoS field would end the
+reach while the tool passes the peak.
+"""
+
+INHIBITION = 30.0
+"""Global inhibition of the perceptual field: with 26 two small, equal objects kept two weak peaks for 2 s in one
+of a hundred scenes.
 """
 
 NODE_TAU, NODE_STEEP = 50.0, 20.0
@@ -79,7 +85,7 @@ USER = 3.0
 
 STRENGTHS = {
     "camera": 2.6,
-    "target": 0.08,
+    "target": 0.1,
     "satisfied": 4000.0,
     "release of the field": -2.0,
     "release of the nodes": -6.0,
@@ -153,7 +159,7 @@ def pointing(
             resting_level=-5.0,
             sigmoid=sigmoid,
             kernel=[Gaussian(18.0, (0.03, 0.03, 18.0), normalized=True)],
-            global_inhibition=26.0,
+            global_inhibition=INHIBITION,
             noise=strength_of_noise(noise, PERCEPTUAL_TAU, [x, y, hue]),
             quadrature=QUADRATURE,
         )
@@ -162,12 +168,12 @@ def pointing(
         Field(
             "satisfaction",
             plane,
-            tau=TAU,
+            tau=SATISFACTION_TAU,
             resting_level=-5.0,
             sigmoid=sigmoid,
             kernel=[Gaussian(12.0, 0.025, normalized=True)],
             global_inhibition=500.0,
-            noise=strength_of_noise(noise, TAU, plane),
+            noise=strength_of_noise(noise, SATISFACTION_TAU, plane),
             quadrature=QUADRATURE,
         )
     )

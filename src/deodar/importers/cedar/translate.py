@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from pathlib import PurePath
-from typing import Any
 
+from deodar.element import Element
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DeodarError
 from deodar.importers._beside import Beside, nothing
@@ -28,8 +29,8 @@ from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar.model.model import Model
 
-NEVER = edit.MOST_TICKS
-"""Step in ticks of an element that does not run: a million steps."""
+STILL = {"tau": 1e12, "tau_build": 1e12, "tau_decay": 1e12, "rate": 0.0}
+"""Values at which a state does not change: an element that cedar does not run."""
 
 
 def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing) -> Imported:
@@ -162,18 +163,25 @@ class StepTranslation:
 
     def added(self, doc: Document) -> tuple[Document, dict[StepPath, Entry]]:
         """Return a document with all elements and groups, and the entries by path."""
-        elements: list[tuple[Any, StepPath, int]] = []
+        elements: list[tuple[Element, StepPath, int]] = []
         for path, piece in self.pieces.items():
-            every = NEVER if path in self.halted and not isinstance(piece.elements[0], Placeholder) else 1
-            elements += [
-                (element, path[:-1], every if k == 0 else 1) for k, element in enumerate(piece.elements)
-            ]
+            first, *others = piece.elements
+            if path in self.halted:
+                own = {f.name for f in dc.fields(first)}  # pyright: ignore
+                first = dc.replace(first, **{k: v for k, v in STILL.items() if k in own})
+            elements += [(element, path[:-1], 1) for element in (first, *others)]
         elements += [(element, group, 1) for group, element in self.wiring.extra]
         doc, entries = edit.add_all(doc, elements)
         for group in self.architecture.root.all_groups():
             if group.path and group.path not in doc.groups:
                 doc = edit.group(doc, group.path)
         return doc, {entry.names: entry for entry in entries}
+
+    def stilled(self, path: StepPath) -> str:
+        """Return what keeps an element still, and the value that lets it run."""
+        element = self.pieces[path].elements[0]
+        values = [f"{name} is {getattr(element, name):g}" for name in STILL if hasattr(element, name)]
+        return f"it does not change: of the file, {', '.join(values)}" if values else "it has no inputs"
 
     def lines(self) -> list[Line]:
         """Return all lines of the report."""
@@ -183,7 +191,7 @@ class StepTranslation:
                 "element",
                 self.steps[path].kind,
                 "approximated",
-                f"cedar does not run it: {why}. Here its step is {NEVER} ticks; a step of 1 lets it run",
+                f"cedar does not run it: {why}. Here {self.stilled(path)}",
             )
             for path, why in self.halted.items()
             if not isinstance(self.pieces[path].elements[0], Placeholder)

@@ -24,7 +24,7 @@ SPREAD = 8.0
 """Largest difference of an object's hue from that of its colour, degrees."""
 
 SIDES = ("left", "right")
-TUNING, TEST, BAND = 0, 30_000, 40_000
+TUNING, TEST, BAND = 0, 100_000, 120_000
 """First seed of the scenes that parameters may be tuned on, of those that test them, and of those beyond the
 range for which the architecture is made.
 """

@@ -33,6 +33,7 @@ DECLARED = frozenset(
         "cedar.dynamics.Preshape",
         "cedar.dynamics.HebbianConnection",
         "cedar.dynamics.SerialOrder",
+        "cedar.dynamics.HarmonicOscillator",
         "cedar.processing.steps.Timer",
         "cedar.processing.sources.Picture",
         "cedar.processing.sources.Video",

@@ -11,13 +11,17 @@ import numpy as np
 
 from deodar.couplings.axis_weights import AxisWeights
 from deodar.couplings.envelope import Envelope
+from deodar.couplings.gain import Gain
+from deodar.couplings.pointwise import Pointwise
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
+from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.space_code import SpaceCode
 from deodar.couplings.sum import Sum
 from deodar.couplings.weights import Weights
 from deodar.element import Element
 from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.algebra import one_to_one
 from deodar.importers.cedar.file import items, text
@@ -25,8 +29,11 @@ from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.interpolation import WAYS, matrix
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece, sizes
 from deodar.numerics.axes import Axis
+from deodar.numerics.sigmoids.step import Step
 
 MOST_SCALARS = 255
+EDGE = 1e-6
+"""By how much an edge lies before its sample: deodar's step is 1 only above its threshold."""
 
 
 def along_axes(
@@ -251,14 +258,75 @@ def masked(b: SourceStep) -> StepPiece:
     given, mask = b.first("input"), b.first("mask")
     if given != mask:
         raise Refused(f"the sizes {list(given)} and {list(mask)} differ")
-    piece = StepPiece(
-        [Product(name=b.label)],
-        {"input": [[InputSlot(b.label)]], "mask": [[InputSlot(b.label, "factor")]]},
+    size, there = Pointwise("abs", name=b.named("size")), Sigmoid(Step(0.0), name=b.named("not zero"))
+    return StepPiece(
+        [Product(name=b.label), there, size],
+        {"input": [[InputSlot(b.label)]], "mask": [[InputSlot(size.name)]]},
         {"masked": OutputSlot(b.label, given)},
+        [(size.name, there.name), (there.name, b.label, "factor")],
         needs=("input", "mask"),
-        verdict="approximated",
-        why="Product, which is the same for masks of 0 and 1",
+        why="Product with a Sigmoid of the mask",
     )
+
+
+def variable_box(b: SourceStep) -> StepPiece:
+    """Translate VariableBox: a box whose left end, or middle, is the input; along each axis a product of two
+    steps.
+    """
+    dims = sizes(b.values, 50, 4)
+    widths = b.values.numbers("widths", 10.0, len(dims), 0.0)
+    amplitude, level = b.values.number("amplitude", 1.0), b.values.number("reference level", 0.0)
+    middle = b.values.flag("center at input", False)
+    if b.values.flag("no peak if NaN", False):
+        b.values.say("no peak if NaN", "carried", "no value is undefined here")
+    axes = b.axes(dims)
+    if not dims:
+        raise Unfit("it has no dimension")
+    height, base = Gain(amplitude - level, name=b.named("height")), Boost(b.named("level"), axes, level)
+    piece = StepPiece(
+        [Sum(name=b.label), height, base],
+        {"left bounds": [[]]},
+        {"box": OutputSlot(b.label, dims)},
+        [(height.name, b.label), (base.name, b.label)],
+        wanted={"left bounds": () if len(dims) == 1 else (len(dims),)},
+        needs=("left bounds",),
+        why="a product of Sigmoid with Step along each axis",
+    )
+    last = ""
+    for d, (axis, width) in enumerate(zip(axes, widths, strict=True)):
+        places, shift = (
+            Pattern(b.named(f"{axis.name} places"), [axis], axis.points),
+            width / 2 if middle else 0.0,
+        )
+        inside = Sum(name=b.named(f"{axis.name} inside"))
+        # a sample at the left end itself is inside, one at the right end is not
+        begun = Sigmoid(Step(-shift - EDGE), name=b.named(f"{axis.name} begun"))
+        ended = Sigmoid(Step(width - shift - EDGE), name=b.named(f"{axis.name} ended"))
+        minus, both = Gain(-1.0, name=b.named(f"{axis.name} without")), Sum(name=b.named(f"{axis.name} box"))
+        left = Gain(-1.0, name=b.named(f"{axis.name} left"))
+        entry = Weights(-np.eye(len(dims))[d], (), name=left.name) if len(dims) > 1 else left
+        piece.elements += [places, inside, begun, ended, minus, both, entry]
+        piece.inlets["left bounds"][0].append(InputSlot(entry.name))
+        piece.inner += [
+            (places.name, inside.name),
+            (entry.name, inside.name),
+            (inside.name, begun.name),
+            (inside.name, ended.name),
+            (ended.name, minus.name),
+            (begun.name, both.name),
+            (minus.name, both.name),
+        ]
+        wide = Project(axes, "sum", name=b.named(f"{axis.name} everywhere"))
+        piece.elements.append(wide)
+        piece.inner.append((both.name, wide.name))
+        if last:
+            product = Product(name=b.named(f"up to {axis.name}"))
+            piece.elements.append(product)
+            piece.inner += [(last, product.name), (wide.name, product.name, "factor")]
+            last = product.name
+        else:
+            last = wide.name
+    piece.inner.append((last, height.name))
     return piece
 
 
@@ -327,6 +395,7 @@ CLASSES = {
     "cedar.processing.steps.Clamp": clamp,
     "cedar.processing.Mask": masked,
     "cedar.processing.steps.VariableGauss": variable_gauss,
+    "cedar.processing.steps.VariableBox": variable_box,
     "cedar.processing.ScalarsToVector": to_vector,
     "cedar.processing.VectorToScalars": to_scalars,
 }

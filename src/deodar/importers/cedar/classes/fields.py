@@ -19,6 +19,8 @@ from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 from deodar.numerics.sigmoids.absolute import Absolute
 
 MOST_DIMENSIONS = 4
+LEAST = 1e-9
+"""Sum of an input up to which there is no peak: cedar divides by any sum above 0."""
 
 DEFAULT_KERNEL = ("cedar.aux.kernel.Gauss", {"amplitude": "1"})
 """The kernel of a field whose file states none: amplitude 1, width 3."""
@@ -163,7 +165,9 @@ def space_to_rate(b: SourceStep) -> StepPiece:
         if "tau" in values.body:
             values.say("tau", "carried", "without effect: the output jumps to the position")
         # cedar gives the position; deodar's gain is in axis units per unit of the output
-        element = RateCode([axis], gain=1 / gain, offset=-lower / gain, name=b.label)
+        element = RateCode(
+            [axis], gain=1 / gain, offset=-lower / gain, least=LEAST, absent=lower, name=b.label
+        )
         why = "RateCode"
     verdict = "approximated" if cyclic else "carried"
     if cyclic:
@@ -197,7 +201,7 @@ def rate_to_space(b: SourceStep) -> StepPiece:
     own = ["periodic" if a.periodic else "zero" for a in axes]
     code = SpaceCode(
         axes,
-        values.number("sigma", 3.0, 1e-6),
+        values.numbers("sigma", 3.0, count, 1e-6),
         values.number("amplitude", 1.0),
         gains,
         offsets,

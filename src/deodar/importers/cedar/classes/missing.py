@@ -61,7 +61,7 @@ def placeholder(
         {slot: [[InputSlot(name)]] for slot in ins},
         {slot: OutputSlot(name, dims, state=True) for slot in outs},
         sums=frozenset(ins),
-        stops=stops or "it has no counterpart",
+        stops=stops,
         verdict="dropped",
         why=f"Placeholder: {what}",
     )

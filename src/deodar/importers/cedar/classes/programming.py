@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from deodar.couplings.delay import Delay
 from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.gain import Gain
-from deodar.couplings.peak_position import PeakPosition
+from deodar.couplings.maximum_position import MaximumPosition
 from deodar.couplings.pointwise import Pointwise
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
 from deodar.couplings.rate_code import RateCode
 from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.sum import Sum
+from deodar.couplings.threshold import Threshold
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.integrator import Integrator
@@ -26,6 +30,9 @@ SECOND = 1e-3
 
 
 FLOAT_TYPES = ("Float", "Double")
+
+LEAST = 1e-9
+"""Sum of an input up to which there is no peak."""
 
 
 def noop(b: SourceStep) -> StepPiece:
@@ -106,26 +113,34 @@ def switch(b: SourceStep) -> StepPiece:
 
 
 def position(b: SourceStep) -> StepPiece:
-    """Translate PositionOfMaximum by the mean position of the peak."""
+    """Translate PositionOfMaximum: of the largest sample, or the mean of what is above a threshold."""
     dims = b.first("input")
     if not dims:
         raise Refused("its input is one number")
     kind = b.values.word("position type", "Maximum", ("Maximum", "Centroid", "Cyclic Mean"))
-    least = b.values.number("Peak detection threshold", 0.1, 1e-9)
-    if "Centroid detection threshold" in b.values.body:
-        b.values.say("Centroid detection threshold", "approximated", "all samples count")
+    least = b.values.number("Peak detection threshold", 0.1)
+    above = b.values.number("Centroid detection threshold", 0.1)
     if b.values.flag("NaN if no peak", False):
         b.values.say("NaN if no peak", "approximated", "0 is given")
-    axes = b.axes(dims)
-    single = len(dims) == 1
-    element: Element = (
-        PeakPosition(axes[0], least, name=b.label)
-        if single
-        else RateCode(list(axes), least=least, name=b.label)
-    )
-    piece = one_to_one(element, "input", "output", () if single else (len(dims),))
-    piece.verdict = "approximated"
-    piece.why = f"{type(element).__name__}: the mean position of the input, not its {kind.lower()}"
+    axes, many = b.axes(dims), len(dims) > 1
+    name = b.named("of all axes") if many else b.label
+    element: Element = MaximumPosition(least, name=name)
+    if kind != "Maximum":
+        element = RateCode(list(axes), least=LEAST, name=name)
+    piece = one_to_one(element, "input", "output", (len(dims),) if many else ())
+    if many:
+        # the numbers are along an axis of their own, which cedar calls the first dimension
+        axis = b.axes((len(dims),))[0]
+        piece.elements.insert(0, Project([axis], "sum", {"component": axis.name}, name=b.label))
+        piece.inner.append((name, b.label))
+        piece.outlets["output"] = OutputSlot(b.label, (len(dims),))
+    if kind == "Centroid":
+        over = Threshold(above, name=b.named("above the threshold"))
+        piece.elements.append(over)
+        piece.inner.append((over.name, name))
+        piece.inlets["input"] = [[InputSlot(over.name)]]
+    if kind == "Cyclic Mean" and not all(a.periodic for a in axes):
+        piece.verdict, piece.why = "approximated", "RateCode, whose mean is cyclic only on a periodic axis"
     return piece
 
 
@@ -135,7 +150,6 @@ def delay(b: SourceStep) -> StepPiece:
     steps = b.values.whole("number of time steps", 1, 1, 100_000)
     line = DelayLine(b.label, b.axes(dims), steps * b.dt, steps)
     piece = one_to_one(line, "input", "output", dims)
-    piece.outlets["output"] = OutputSlot(b.label, dims, state=True)
     return piece
 
 
@@ -213,6 +227,118 @@ def integration(b: SourceStep) -> StepPiece:
     return piece
 
 
+def differentiation(b: SourceStep) -> StepPiece:
+    """Translate NumericalDifferentiation: the change in a step by its length in seconds."""
+    dims = b.first("input")
+    if "delay (optional)" in b.ins:
+        raise Unfit("it reads 'delay (optional)'")
+    if b.values.flag("use five points", False):
+        b.values.say("use five points", "approximated", "two points are used")
+    for name in ("ignore time steps smaller than", "ignore time steps larger than"):
+        if name in b.values.body:
+            b.values.say(name, "carried", "steps have one length here")
+    speed = 1 / (SECOND * b.dt)
+    before, minus = Delay(b.axes(dims), name=b.named("before")), Gain(-1.0, name=b.named("minus"))
+    change = Sum(name=b.named("change"))
+    piece = one_to_one(Gain(speed, name=b.label), "input", "differentiated result", dims)
+    piece.elements += [change, before, minus]
+    piece.inlets["input"] = [[InputSlot(change.name), InputSlot(before.name)]]
+    piece.inner += [(before.name, minus.name), (minus.name, change.name), (change.name, b.label)]
+    piece.verdict, piece.why = "approximated", "the change of the input; in the first step from 0"
+    return piece
+
+
+def smoothing(b: SourceStep) -> StepPiece:
+    """Translate ExponentialSmoothing: a level and a trend, l' = a x + (1 - a) (l + b), b' = c (l' - l) + (1 -
+    c) b.
+    """
+    dims, axes = b.first("input"), b.axes(b.first("input"))
+    a = b.values.number("data smoothing factor", 0.1, 0.0, 1.0)
+    c = b.values.number("trend smoothing factor", 0.1, 0.0, 1.0)
+    level, trend = Sum(name=b.named("level")), Sum(name=b.named("trend"))
+    old_level, old_trend = (
+        Delay(axes, name=b.named("level before")),
+        Delay(axes, name=b.named("trend before")),
+    )
+    factors = {
+        "of the input": (a, "", level.name),
+        "of the level before": (1 - a, old_level.name, level.name),
+        "of the trend before": (1 - a, old_trend.name, level.name),
+        "of the new level": (c, level.name, trend.name),
+        "of the old level": (-c, old_level.name, trend.name),
+        "of the old trend": (1 - c, old_trend.name, trend.name),
+    }
+    piece = StepPiece(
+        [Sum(name=b.label), level, trend, old_level, old_trend],
+        outlets={"forecast": OutputSlot(b.label, dims)},
+        inner=[
+            (level.name, b.label),
+            (trend.name, b.label),
+            (level.name, old_level.name),
+            (trend.name, old_trend.name),
+        ],
+        needs=("input",),
+        verdict="approximated",
+        why="Sum of a level and a trend, which begin at 0 and not at the first input",
+    )
+    for what, (factor, source, target) in factors.items():
+        gain = Gain(factor, name=b.named(what))
+        piece.elements.append(gain)
+        piece.inner.append((gain.name, target))
+        if source:
+            piece.inner.append((source, gain.name))
+        else:
+            piece.inlets["input"] = [[InputSlot(gain.name)]]
+    return piece
+
+
+def oscillator(b: SourceStep) -> StepPiece:
+    """Translate HarmonicOscillator: p'' = -K (p - lambda) - 2 D sqrt(K) p', in seconds, speed first."""
+    for slot in ("overwriteInput", "overwritePeakDetector"):
+        if slot in b.ins:
+            raise Unfit(f"it reads {slot!r}")
+    count = b.values.whole("dimensionality", 2, 1, 7)
+    if b.values.flag("cyclic restrictions", False):
+        raise Unfit("it has cyclic restrictions")
+    dims = () if count == 1 else (count,)
+    axes = b.axes(dims)
+    start = np.array(b.values.numbers("Initial Position", 4.0, count))
+    stiffness, damping = b.values.number("K", 4.0, 0.0), b.values.number("D", 1.0, 0.0)
+    if "B" in b.values.body:
+        b.values.say("B", "carried", "without effect, as in cedar")
+    place = Integrator(
+        b.label, axes, SECOND, start=start if dims else None, initial=0.0 if dims else start[0]
+    )
+    speed = Integrator(b.named("speed"), axes, SECOND)
+    force = Sum(name=b.named("force"))
+    pull, drag = (
+        Gain(stiffness, name=b.named("pull")),
+        Gain(-2 * damping * math.sqrt(stiffness), name=b.named("drag")),
+    )
+    away = Gain(-stiffness, name=b.named("away"))
+    return StepPiece(
+        [place, speed, force, pull, drag, away],
+        {"lambda": [[InputSlot(pull.name)]]},
+        {
+            "p": OutputSlot(b.label, dims, state=True),
+            "pDot": OutputSlot(speed.name, dims, state=True),
+            "pDotDot": OutputSlot(force.name, dims),
+        },
+        [
+            (place.name, away.name),
+            (speed.name, drag.name),
+            (pull.name, force.name),
+            (drag.name, force.name),
+            (away.name, force.name),
+            (force.name, speed.name),
+            (speed.name, place.name, "input", "current"),
+        ],
+        wanted={"lambda": dims},
+        needs=("lambda",),
+        why="two Integrator",
+    )
+
+
 CLASSES = {
     "cedar.processing.steps.Noop": noop,
     "cedar.processing.steps.NoopLooped": noop,
@@ -227,4 +353,7 @@ CLASSES = {
     "cedar.processing.sources.SinusSignal": sinus_signal,
     "cedar.processing.sources.StepSignal": step_signal,
     "cedar.processing.steps.NumericalIntegration": integration,
+    "cedar.processing.steps.NumericalDifferentiation": differentiation,
+    "cedar.processing.steps.ExponentialSmoothing": smoothing,
+    "cedar.dynamics.HarmonicOscillator": oscillator,
 }
