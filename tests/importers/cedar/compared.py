@@ -53,9 +53,9 @@ def behind(parts, path, seen=()):
     wiring = parts.wiring
     if path not in wiring.place or path in seen:
         return 0 if path not in wiring.place else 1
-    if wiring.runs_alone(path):
-        return 1
-    found = set()
+    if any(wire[3:] == ("current",) for wire in parts.pieces[path].inner):
+        return 0
+    found = {1} if parts.pieces[path].elements[0].stateful else set()
     for wire in wiring.into.get(path, ()):
         outlet = parts.pieces[wire.source].outlets.get(wire.source_slot)
         if wire.source not in wiring.place or outlet is None:

@@ -168,4 +168,6 @@ def sizes(values: StepValues, default: int, most: int, name: str = "sizes") -> C
         if name in values.body:
             values.say(name, "carried", "none for one number")
         return ()
-    return tuple(int(n) for n in values.numbers(name, default, count, 1, 1e6))
+    dims = tuple(int(n) for n in values.numbers(name, default, count, 1, 1e6))
+    # a matrix with one row or one column has one dimension in cedar, and one with both none
+    return tuple(n for n in dims if n > 1) if count <= 2 else dims

@@ -8,9 +8,9 @@ other one. Steps that no looped step feeds are computed when the file is loaded.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
-from deodar.importers.cedar.file import CedarGroup, CedarStep, StepPath
+from deodar.importers.cedar.file import CedarGroup, StepPath
 from deodar.importers.report import Line
 
 FIRST = ("default thread", "default trigger")
@@ -19,19 +19,19 @@ FIRST = ("default thread", "default trigger")
 
 def sequence(
     root: CedarGroup,
-    looped: Callable[[CedarStep], bool],
+    looped: Collection[StepPath],
     feeds: Mapping[StepPath, Iterable[StepPath]],
 ) -> tuple[dict[StepPath, int], list[Line]]:
     """Return the place of each step that runs in an iteration, and report lines about the triggers.
 
     Args:
         root: the root group.
-        looped: whether a step is looped.
+        looped: the looped steps.
         feeds: the steps that read a step.
     """
     lines: list[Line] = []
     steps = {step.path: step for step in root.all_steps()}
-    walk = _Iteration({path: looped(step) for path, step in steps.items()}, feeds)
+    walk = _Iteration({path: path in looped for path in steps}, feeds)
     for name in _listeners(root, looped, lines):
         if name in root.steps:
             walk.run((name,))
@@ -40,10 +40,12 @@ def sequence(
     return walk.place, lines
 
 
-def _listeners(root: CedarGroup, looped: Callable[[CedarStep], bool], lines: list[Line]) -> list[str]:
+def _listeners(root: CedarGroup, looped: Collection[StepPath], lines: list[Line]) -> list[str]:
     """Return the looped elements of the root in the order in which triggers call them."""
-    members = [name for name, step in root.steps.items() if looped(step)]
-    members += [name for name, group in root.groups.items() if any(looped(s) for s in group.all_steps())]
+    members = [name for name, step in root.steps.items() if step.path in looped]
+    members += [
+        name for name, group in root.groups.items() if any(s.path in looped for s in group.all_steps())
+    ]
     first = list(members)
     others: list[list[str]] = []
     for trigger in root.triggers:

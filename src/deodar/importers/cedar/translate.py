@@ -85,8 +85,9 @@ class StepTranslation:
         self.unknown: set[StepPath] = set()
         self.pieces = self.translated()
         self.halted = halts(self.pieces, self.steps, self.wires)
-        place, order_lines = sequence(root, lambda step: step.kind in LOOPED, feeds)
-        self.wiring = CedarWiring(self.pieces, self.wires, place, self.halted, self.names, self.grid)
+        looped = frozenset(path for path, step in self.steps.items() if step.kind in LOOPED)
+        place, order_lines = sequence(root, looped, feeds)
+        self.wiring = CedarWiring(self.pieces, self.wires, place, self.halted, self.names, self.grid, looped)
         self.wiring.connect_all()
         self.said += [*clock_lines, *wire_lines, *order_lines]
 

@@ -127,6 +127,7 @@ class CedarWiring:
         halted: steps that cedar does not run, and why.
         names: names in use in each group.
         grid: axes of the sizes.
+        looped: steps that cedar calls by a trigger.
     """
 
     def __init__(
@@ -137,12 +138,14 @@ class CedarWiring:
         halted: Mapping[StepPath, str],
         names: Mapping[StepPath, FreeNames],
         grid: SampleGrid,
+        looped: frozenset[StepPath],
     ) -> None:
         self.pieces = pieces
         self.place = place
         self.halted = halted
         self.names = names
         self.grid = grid
+        self.looped = looped
         self.into: dict[StepPath, list[StepWire]] = {}
         for wire in wires:
             self.into.setdefault(wire.target, []).append(wire)
@@ -230,13 +233,9 @@ class CedarWiring:
         if path not in self.zeros:
             self.zeros[path] = True  # inside a loop
             self.zeros[path] = path in self.place and (
-                self.runs_alone(path) or all(self.begins_zero(w.source) for w in self.into.get(path, ()))
+                path in self.looped or all(self.begins_zero(w.source) for w in self.into.get(path, ()))
             )
         return self.zeros[path]
-
-    def runs_alone(self, path: StepPath) -> bool:
-        """Return whether a step has a state, whose output cedar sets to 0 at the start."""
-        return any(e.stateful for e in self.pieces[path].elements[:1])
 
     def copy(self, path: StepPath, lag: int) -> dict[str, str]:
         """Return the names of a copy of a step's elements whose values are those of `lag` iterations ago."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from deodar.couplings.axis_weights import AxisWeights
 from deodar.couplings.rate_code import RateCode
 from deodar.couplings.space_code import SpaceCode
 from deodar.element import Element
@@ -15,6 +18,7 @@ from deodar.importers.cedar.piece import InputSlot, OutputSlot, SourceStep, Step
 from deodar.importers.cedar.sigmoids import sigmoid
 from deodar.importers.cedar.values import StepValues
 from deodar.importers.cedar.wiring import BUFFER
+from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 from deodar.numerics.sigmoids.absolute import Absolute
 
@@ -155,13 +159,20 @@ def space_to_rate(b: SourceStep) -> StepPiece:
         values.say(
             "NaN if no peak", "approximated", "the last position remains" if not jumps else "0 is given"
         )
-    inlets = {"input": [[InputSlot(b.label)]]}
+    inlets, extra, inner = {"input": [[InputSlot(b.label)]]}, list[Element](), list[tuple[str, ...]]()
     if not cyclic and not jumps:
         element: Element = Attractor(b.label, axis, tau, gain=gain, offset=lower)
         why = "Attractor"
     elif gain == 0:
         raise Unfit("its limits are equal")
     else:
+        if cyclic:
+            # cedar spreads the samples over a whole turn, whatever the field's own border
+            turn = Axis("turn", 0, dims[0], dims[0], periodic=True)
+            ring = AxisWeights(np.eye(dims[0]), turn, axis.name, name=b.named("ring"))
+            extra, inner = [ring], [(ring.name, b.label)]
+            inlets = {"input": [[InputSlot(ring.name)]]}
+            axis, gain = turn, (upper - lower) / dims[0]
         if "tau" in values.body:
             values.say("tau", "carried", "without effect: the output jumps to the position")
         # cedar gives the position; deodar's gain is in axis units per unit of the output
@@ -169,18 +180,13 @@ def space_to_rate(b: SourceStep) -> StepPiece:
             [axis], gain=1 / gain, offset=-lower / gain, least=LEAST, absent=lower, name=b.label
         )
         why = "RateCode"
-    verdict = "approximated" if cyclic else "carried"
-    if cyclic:
-        why += (
-            ", whose mean is cyclic only on a periodic axis" if not axis.periodic else ", by the cyclic mean"
-        )
     return StepPiece(
-        [element],
+        [element, *extra],
         inlets,
         {"output": OutputSlot(b.label, (), state=why == "Attractor")},
+        inner,
         wanted={"input": dims},
         needs=("input",),
-        verdict=verdict,
         why=why,
     )
 

@@ -84,8 +84,8 @@ def hebbian(b: SourceStep) -> StepPiece:
         inner,
         wanted={"source node": source, "target field": target, "reward signal": ()},
         needs=("source node", "target field", "reward signal"),
-        verdict="carried" if exact and not (rule_why or start_why) else "approximated",
-        why=why,
+        verdict="approximated",
+        why=f"{why}; the output has the weights before the update",
     )
 
 

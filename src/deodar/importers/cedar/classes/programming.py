@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
+from deodar.couplings.axis_weights import AxisWeights
 from deodar.couplings.delay import Delay
 from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.gain import Gain
@@ -23,6 +25,7 @@ from deodar.elements.integrator import Integrator
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.algebra import one_to_one
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
+from deodar.numerics.axes import Axis
 from deodar.numerics.sigmoids.step import Step
 
 SECOND = 1e-3
@@ -126,7 +129,8 @@ def position(b: SourceStep) -> StepPiece:
     name = b.named("of all axes") if many else b.label
     element: Element = MaximumPosition(least, name=name)
     if kind != "Maximum":
-        element = RateCode(list(axes), least=LEAST, name=name)
+        own = [Axis(f"turn {a.name}", 0, a.samples, a.samples, periodic=True) for a in axes]
+        element = RateCode(own if kind == "Cyclic Mean" else list(axes), least=LEAST, name=name)
     piece = one_to_one(element, "input", "output", (len(dims),) if many else ())
     if many:
         # the numbers are along an axis of their own, which cedar calls the first dimension
@@ -139,9 +143,20 @@ def position(b: SourceStep) -> StepPiece:
         piece.elements.append(over)
         piece.inner.append((over.name, name))
         piece.inlets["input"] = [[InputSlot(over.name)]]
-    if kind == "Cyclic Mean" and not all(a.periodic for a in axes):
-        piece.verdict, piece.why = "approximated", "RateCode, whose mean is cyclic only on a periodic axis"
+    if isinstance(element, RateCode) and kind == "Cyclic Mean":
+        _on_rings(b, piece, element, axes)
     return piece
+
+
+def _on_rings(b: SourceStep, piece: StepPiece, element: RateCode, axes: Sequence[Axis]) -> None:
+    """Let a read-out see its input over whole turns, as cedar's cyclic mean does, whatever the border."""
+    last = element.name
+    for axis, turn in zip(axes, element.axes, strict=True):
+        ring = AxisWeights(np.eye(axis.samples), turn, axis.name, name=b.named(f"ring of {axis.name}"))
+        piece.elements.append(ring)
+        piece.inner.append((ring.name, last))
+        last = ring.name
+    piece.inlets["input"] = [[InputSlot(last)]]
 
 
 def delay(b: SourceStep) -> StepPiece:
@@ -154,16 +169,19 @@ def delay(b: SourceStep) -> StepPiece:
 
 
 def timer(b: SourceStep) -> StepPiece:
-    """Translate Timer: seconds since the start."""
-    for slot in ("run signal (optional)", "reset signal (optional)"):
-        if slot in b.ins:
-            raise Unfit(f"it waits for {slot!r}")
-    clock = Integrator(b.label, (), SECOND)
-    unit = Boost(b.named("one"), (), 1.0)
+    """Translate Timer: seconds for which its run signal is on; without one it is never computed."""
+    if "reset signal (optional)" in b.ins:
+        raise Unfit("it reads 'reset signal (optional)'")
+    clock, runs = Integrator(b.label, (), SECOND), Sigmoid(Step(0.5), name=b.named("runs"))
+    outlets = {"time": OutputSlot(b.label, (), state=True)}
+    if "run signal (optional)" not in b.ins:
+        return StepPiece([clock], outlets=outlets, why="Integrator that nothing moves, as in cedar")
     return StepPiece(
-        [clock, unit],
-        outlets={"time": OutputSlot(b.label, (), state=True)},
-        inner=[(unit.name, b.label)],
+        [clock, runs],
+        {"run signal (optional)": [[InputSlot(runs.name)]]},
+        outlets,
+        [(runs.name, b.label)],
+        wanted={"run signal (optional)": ()},
         why="Integrator",
     )
 
@@ -335,7 +353,8 @@ def oscillator(b: SourceStep) -> StepPiece:
         ],
         wanted={"lambda": dims},
         needs=("lambda",),
-        why="two Integrator",
+        verdict="approximated",
+        why="two Integrator; earlier steps read the initial position in the first step, cedar may give 0",
     )
 
 

@@ -35,15 +35,20 @@ def gauss(b: SourceStep) -> StepPiece:
     """Translate GaussInput; a cyclic one takes the shorter distance."""
     dims = sizes(b.values, 50, MOST_DIMENSIONS)
     axes = b.axes(dims)
+    amplitude, wraps = b.values.number("amplitude", 1.0), b.values.flag("cyclic", False)
+    if not dims:
+        wide, at = b.values.numbers("sigma", 3.0, 1, 1e-6)[0], b.values.numbers("centers", 24.0, 1)[0]
+        b.values.say("amplitude", "carried", "its value at the only sample")
+        lone = Boost(b.label, (), amplitude * math.exp(-0.5 * (at / wide) ** 2))
+        return _source(b, lone, "Gauss input", (), "Boost")
     sigmas = b.values.numbers("sigma", 3.0, len(dims), 1e-6)
     centers = b.values.numbers("centers", 24.0, len(dims))
-    wraps = b.values.flag("cyclic", False)
     element = GaussianStimulus(
         b.label,
         axes,
         center=centers or 0.0,
         sigma=_same(sigmas),
-        amplitude=b.values.number("amplitude", 1.0),
+        amplitude=amplitude,
         boundary=_boundary(axes, wraps),
     )
     return _source(b, element, "Gauss input", dims, "GaussianStimulus")
