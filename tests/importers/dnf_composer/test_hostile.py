@@ -287,3 +287,16 @@ def test_a_word_of_another_tool_as_a_name_does_not_mislead(tmp_path):
         element("k", "gauss kernel", KERNEL, ["simulator"]),
     ]
     assert read(written(tmp_path, parts)).report.tool == "dnf-composer"
+
+
+@pytest.mark.parametrize("peak", [[5, 5, 1e308, 1e-308], [1e308, 5, 1, 1], [5, 5, 1, 1e-300]])
+def test_peaks_of_extreme_numbers_are_finite_or_refused(peak, tmp_path):
+    values = {**COUPLING, "circular": True, "normalized": True, "couplings": [peak]}
+    own = read(written(tmp_path, [element("k", "gauss field coupling", values)])).model["k"].element
+    assert isinstance(own, Placeholder) or np.isfinite(own.weights.data).all()
+
+
+def test_stimuli_of_extreme_numbers_are_added_without_a_crash(tmp_path):
+    extreme = {**BELL, "amplitude": 1e308, "width": 1e-308, "normalized": True}
+    parts = [element("s", "gauss stimulus", extreme), element("b", "gauss stimulus", BELL, ["s"])]
+    read(written(tmp_path, parts)).model.check()

@@ -44,7 +44,8 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
         beside: reads the weights of couplings, which lie in the folder of the file.
     """
     simulation = file.parse(content)
-    translation = SimulationTranslation(simulation, beside)
+    with np.errstate(all="ignore"):  # what is not finite is reported, or refused by an element
+        translation = SimulationTranslation(simulation, beside)
     report = ImportReport("dnf-composer", name, translation.lines())
     title = simulation.name or PurePath(name).stem
     doc = edit.describe(

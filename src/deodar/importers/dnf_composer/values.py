@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from deodar.importers._foreign import Foreign
-from deodar.importers._values import ForeignValues
+from deodar.importers._values import LARGEST, ForeignValues
 from deodar.importers.dnf_composer.file import number
 from deodar.numerics.kernels.gaussian import NARROWEST
 from deodar.parameters import show
@@ -71,7 +71,7 @@ class StoredValues(ForeignValues):
             return []
         entries = cast("list[Any]", given) if isinstance(given, list) else [given]
         rows = [
-            [v for n in cast("list[Any]", row) if (v := number(n)) is not None]
+            [min(max(v, -LARGEST), LARGEST) for n in cast("list[Any]", row) if (v := number(n)) is not None]
             for row in entries
             if isinstance(row, list) and len(cast("list[Any]", row)) == width
         ]

@@ -56,6 +56,8 @@ def gauss_field_coupling(b: StoredElement) -> Piece:
             for n, position in ((came, x / spacing), (count, y / b.spacing("d_x")))
         )
         weights += height * np.outer(a, z)
+    if not np.isfinite(weights).all() or np.abs(weights).max(initial=0.0) > LARGEST:
+        raise Unfit("its weights are not finite")
     if len(good) < len(peaks):
         why = f"{len(peaks) - len(good)} of {len(peaks)} entries are not above 0, and are left out"
         b.values.say("couplings", "approximated", why)
