@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import jax
 import numpy as np
 
 from deodar.exporters.cosivina.layout import is_row, size
@@ -32,7 +33,8 @@ def conversion(
     """Return the elements through which an array gets other dimensions; none if it is expanded by itself.
 
     Args:
-        source, target: dimensions with their axes.
+        source: dimensions of the array, with their axes.
+        target: dimensions that it must have or into which it must fit.
         rename: names of axes of the source and their names in the target.
         reduce: how axes that the target does not have are contracted.
         whole: whether all dimensions of the target must be present in the result.
@@ -104,7 +106,8 @@ def _resampled(source: Dims, target: Dims, names: Mapping[str, str], interpolati
     wanted = next(b for b in target if b is not None and b.name == names[axis.name])
     if more or not is_row(source):
         raise NoConversion("cosivina cannot resample a plane")
-    weights = np.asarray(resampling.weights(axis, wanted.points, interpolation, "float64"))
+    with jax.enable_x64(True):
+        weights = np.asarray(resampling.weights(axis, wanted.points, interpolation, "float64"))
     return (
         "WeightMatrix",
         {"size": [axis.samples, wanted.samples], "weights": weights.T.tolist()},

@@ -36,7 +36,7 @@ class Draft:
         self.nodes = nodes
         self.step, self.start = doc.step, doc.t0
         self.place = {e.id: k for k, e in enumerate(doc.entries)}
-        self.labels = {e.id: e.path if len(e.names) > 1 else e.names[0] for e in doc.entries}
+        self.labels = {e.id: e.path if e.group else e.names[-1] for e in doc.entries}
         self.names = FreeNames(self.labels.values())
         self.wires = Wires(doc, nodes)
         self.parts: list[Part] = []
@@ -58,7 +58,6 @@ class Draft:
     def readers(self, ident: str, port: str = "output") -> int:
         """Return the number of connections that read a port."""
         return sum(c.source == ident and c.source_port == port for c in self.doc.connections)
-
 
     def passes_on(self, ident: str) -> bool:
         """Return whether an element only passes its input on, to kernels that multiply its transform."""
@@ -148,7 +147,7 @@ class Given:
         dims: Dims | None = None,
         free: bool = False,
     ) -> None:
-        """Let a component of a part be what readers of a port read; `of` is another entry that it contains."""
+        """Let a component of a part be what readers of a port read; `of` is an entry that it contains."""
         node = self.draft.nodes[of or self.id]
         state = node.shows_state(port)
         there = layout(node.axes(port)) if dims is None else dims

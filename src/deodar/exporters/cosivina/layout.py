@@ -1,11 +1,12 @@
 """The dimensions of an array of cosivina for the axes of the document, and positions in samples.
 
-Axes of an imported file keep their dimension: `y` is the first, `x` the second, `z` and `w` follow. Other axes
-are taken in their order: one axis is a row, two are the rows and columns of a plane.
+Axes of an imported file keep their dimension: `y` is the first, `x` the second, `z` and `w` follow. Other
+axes are taken in their order: one axis is a row, two are the rows and columns of a plane.
 """
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 
@@ -19,15 +20,13 @@ from deodar.parameters import PerAxis
 
 def layout(axes: Axes) -> Dims:
     """Return the axis of each dimension, at least two; None for a dimension of one sample."""
-    places = [_imported(a) for a in axes]
-    if all(p is not None for p in places) and sorted(set(places), key=str) and _rising(places):
-        found: list[Axis | None] = [None] * max(2, *(int(p or 0) + 1 for p in places))
+    places = [p for a in axes if (p := _imported(a)) is not None]
+    if axes and len(places) == len(axes) and all(p < q for p, q in itertools.pairwise(places)):
+        found: list[Axis | None] = [None] * max(2, places[-1] + 1)
         for p, a in zip(places, axes, strict=True):
-            found[int(p or 0)] = a
+            found[p] = a
         return tuple(found)
-    if len(axes) < 2:
-        return (None, axes[0] if axes else None)
-    return tuple(axes)
+    return tuple(axes) if len(axes) > 1 else (None, axes[0] if axes else None)
 
 
 def size(dims: Dims) -> list[int]:
@@ -72,7 +71,3 @@ def _imported(axis: Axis) -> int | None:
     if found is None or axis != plain or found[2] not in ("", str(axis.samples)):
         return None
     return NAMES.index(found[1])
-
-
-def _rising(places: Sequence[int | None]) -> bool:
-    return all((a or 0) < (b or 0) for a, b in zip(places, places[1:], strict=False))

@@ -12,7 +12,7 @@ import heapq
 from collections.abc import Sequence
 
 from deodar.exporters.cosivina.layout import size
-from deodar.exporters.cosivina.part import Link, Part, Place
+from deodar.exporters.cosivina.part import Part, Place
 from deodar.importers.cosivina.names import FreeNames
 
 

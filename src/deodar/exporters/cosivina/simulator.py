@@ -45,7 +45,6 @@ def write(model: Model, name: str) -> Exported:
     if problems:
         raise ModelError(problems)
     draft = Draft(doc, {n.id: n for n in nodes})
-    draft.lines += _surroundings(doc)
     for entry in doc.entries:
         if entry.id in draft.claimed:
             continue
@@ -64,6 +63,7 @@ def write(model: Model, name: str) -> Exported:
         _connect(draft, c)
     for part in list(draft.parts):
         _add_up(draft, part)
+    draft.lines += _surroundings(doc)
     parts = ordered(draft.parts, draft.names)
     return Exported(_text(doc, parts), ImportReport("cosivina", name, draft.lines))
 
@@ -202,5 +202,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in cast("dict[str, Any]", value).items()}
     return value
-
-

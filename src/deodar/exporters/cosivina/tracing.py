@@ -73,7 +73,7 @@ class Wires:
             return dc.replace(found, count=int(element.factor))
         return dc.replace(found, fits=True)
 
-    # -------------------------------------------------------------------------------------- what is recognised
+    # ------------------------------------------------------------------------------------- what is recognised
 
     def _nothing(self, e: Entry) -> bool:
         element = e.element

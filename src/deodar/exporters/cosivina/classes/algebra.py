@@ -13,15 +13,20 @@ from deodar.elements.boost import Boost
 from deodar.elements.pattern import Pattern
 from deodar.exporters.cosivina.classes.kernels import shift_input
 from deodar.exporters.cosivina.classes.shapes import diagonal_sum, sum_dimension
+from deodar.exporters.cosivina.classes.sigmoids import logistic
 from deodar.exporters.cosivina.classes.stimuli import periods, timed_boosts
 from deodar.exporters.cosivina.draft import Given, Unwritable
+from deodar.numerics.sigmoids.absolute import Absolute
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.sigmoids.step import Step
 
 
 def gain(b: Given) -> None:
     """Write ScaleInput; with the sum before it, SumDimension or DiagonalSum."""
-    factor = b.element.factor  # type: ignore[attr-defined]
+    element = b.element
+    assert isinstance(element, Gain)
+    factor = element.factor
     for before in b.draft.followers(b.id, "sum"):
         wires = b.draft.wires.into.get((b.id, "input"), [])
         if [c.source for c in wires] == [before.id] and b.draft.readers(before.id) == 1:
@@ -79,11 +84,14 @@ def product(b: Given) -> None:
 
 def sigmoid(b: Given) -> None:
     """Write Sigmoid or HalfWaveRectification."""
-    found = b.element.sigmoid  # type: ignore[attr-defined]
-    if isinstance(found, Logistic):
-        part = b.sized("Sigmoid", {"beta": found.beta, "threshold": found.threshold})
-    elif found == SemiLinear(1.0, 0.0):
+    element = b.element
+    assert isinstance(element, Sigmoid)
+    found = element.sigmoid
+    if found == SemiLinear(1.0, 0.0):
         part = b.sized("HalfWaveRectification", {})
+    elif isinstance(found, (Logistic, Absolute, Step)):
+        beta, threshold = logistic(b, found)
+        part = b.sized("Sigmoid", {"beta": beta, "threshold": threshold})
     else:
         raise Unwritable(f"cosivina has no {type(found).__name__} of an input; it has the Logistic")
     b.take(part)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -13,24 +12,19 @@ from deodar.elements.memory_trace import MemoryTrace
 from deodar.elements.placeholder import Placeholder
 from deodar.elements.rate_node import RateNode
 from deodar.exporters.cosivina.classes.kernels import field_kernels
+from deodar.exporters.cosivina.classes.sigmoids import logistic
 from deodar.exporters.cosivina.classes.stimuli import noise_part
 from deodar.exporters.cosivina.draft import Given, Unwritable
 from deodar.exporters.cosivina.inverse import inverse
 from deodar.exporters.cosivina.layout import size
-from deodar.numerics.sigmoids.absolute import Absolute
-from deodar.numerics.sigmoids.logistic import Logistic
-from deodar.numerics.sigmoids.step import Step
 from deodar.parameters import FrozenArray
-
-STEEP = 1000.0
-"""Steepness of the logistic sigmoid that stands for a step."""
 
 
 def field(b: Given) -> None:
     """Write NeuralField; kernels, global inhibition and noise of the field are elements of their own."""
     element = b.element
     assert isinstance(element, Field)
-    beta, threshold = _sigmoid(b, element.sigmoid)
+    beta, threshold = logistic(b, element.sigmoid)
     values = {"tau": element.tau, "h": element.resting_level - threshold, "beta": beta}
     part = b.sized("NeuralField", values, sums=True)
     if threshold:
@@ -59,7 +53,7 @@ def rate_node(b: Given) -> None:
     """Write SingleNodeDynamics."""
     element = b.element
     assert isinstance(element, RateNode)
-    beta, threshold = _sigmoid(b, element.sigmoid)
+    beta, threshold = logistic(b, element.sigmoid)
     if threshold:
         b.say("sigmoid", "approximated", "cosivina's threshold is 0; the resting level is lower by it")
         b.approximate(f"its activation is lower by the threshold {threshold:g} of its sigmoid")
@@ -92,7 +86,9 @@ def memory_trace(b: Given) -> None:
         b.say("start", "dropped", "cosivina begins with 0")
         b.approximate("it begins with 0")
     step = b.draft.step
-    build, decay = (inverse(lambda v: max(v * step, 1e-6), t, t / step) for t in (element.tau_build, element.tau_decay))
+    build, decay = (
+        inverse(lambda v: max(v * step, 1e-6), t, t / step) for t in (element.tau_build, element.tau_decay)
+    )
     part = b.sized("MemoryTrace", {"tauBuild": build, "tauDecay": decay, "threshold": element.threshold})
     b.take(part)
     b.show(part)
@@ -119,25 +115,6 @@ def placeholder(b: Given) -> None:
     element = b.element
     assert isinstance(element, Placeholder)
     raise Unwritable(f"it stands for {element.missing or 'a missing element'}, whose parameters are not here")
-
-
-def _sigmoid(b: Given, found: Any) -> tuple[float, float]:
-    """Return the steepness and the threshold of the logistic sigmoid that cosivina has."""
-    if isinstance(found, Logistic):
-        return found.beta, found.threshold
-    kind, threshold = type(found).__name__, float(found.threshold)
-    beta = 2 * found.beta if isinstance(found, Absolute) else STEEP if isinstance(found, Step) else math.nan
-    if math.isnan(beta):
-        b.say("sigmoid", "dropped", f"cosivina's field has the Logistic alone; its default replaces {kind}")
-        b.approximate(f"its sigmoid is not the {kind}")
-        return Logistic().beta, threshold
-    b.say(
-        "sigmoid",
-        "approximated",
-        f"cosivina's field has the Logistic alone; beta {beta:g} replaces {kind}",
-    )
-    b.approximate(f"a Logistic replaces its {kind}")
-    return beta, threshold
 
 
 KINDS = {

@@ -143,4 +143,3 @@ def _bell(part: TruncatedGaussian | Gaussian, kernel: Kernel, axes: Axes, exact:
     for a, s in zip(axes, per_axis(part.sigma, axes), strict=True):
         amplitude *= 1 / float(integral(s, a.step)) if part.normalized else float(unresolved(s, a.step))
     return Bell(amplitude, sigmas, rings, False, REACH)
-

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 
 from deodar.couplings.convolve import Convolve
@@ -62,9 +63,7 @@ def interact(b: Given) -> None:
     parts = (
         [part]
         if part
-        else _parts(
-            b, axes, element.kernel, element.global_inhibition, "", sums=True, plane=len(sides) == 2
-        )
+        else _parts(b, axes, element.kernel, element.global_inhibition, "", sums=True, plane=len(sides) == 2)
     )
     part = _joined(b, parts)
     for p in parts:
@@ -287,7 +286,7 @@ def _matrix(b: Given, axes: Axes, dims: Dims, kernels: Sequence[Kernel], label: 
     with jax.enable_x64(True):
         weights = interaction.mix(kernels, axes, interaction.prepare(kernels, axes, "float64"))
         count = axes[0].samples
-        columns = [np.asarray(interaction.apply(weights, axes, one)) for one in np.eye(count)]
+        columns = [np.asarray(interaction.apply(weights, axes, jnp.asarray(one))) for one in np.eye(count)]
     b.reasons.append(f"a matrix holds the weights of {names}")
     values = {"size": [count, count], "weights": np.stack(columns).tolist()}
     return b.part("WeightMatrix", values, label=label, beside=beside)

@@ -6,18 +6,31 @@ import math
 from collections.abc import Sequence
 from typing import Any, cast
 
+import jax
 import numpy as np
 
 from deodar.couplings.gain import Gain
 from deodar.couplings.space_code import SpaceCode
 from deodar.couplings.sum import Sum
+from deodar.element import Setting
+from deodar.elements._stimulus import Stimulus
 from deodar.elements.boost import Boost
+from deodar.elements.box_stimulus import BoxStimulus
 from deodar.elements.gaussian_stimulus import GaussianStimulus
 from deodar.elements.noise import Noise
 from deodar.elements.pattern import Pattern
 from deodar.elements.time_series import TimeSeries
 from deodar.exporters.cosivina.draft import Given, Unwritable
-from deodar.exporters.cosivina.layout import circular, is_row, layout, position, positions, size, width, widths
+from deodar.exporters.cosivina.layout import (
+    circular,
+    is_row,
+    layout,
+    position,
+    positions,
+    size,
+    width,
+    widths,
+)
 from deodar.exporters.cosivina.part import Part
 from deodar.importers.cosivina.classes.stimuli import LETTERS
 from deodar.importers.cosivina.sizes import Dims
@@ -38,8 +51,8 @@ def gaussian(b: Given) -> None:
     axes, dims = tuple(element.axes), b.dims()
     rank = 1 if is_row(dims) else len(dims)
     timed = bool(element.windows)
-    if rank > len(LETTERS) or (timed and rank > MOST_TIMED):
-        raise Unwritable(f"cosivina has no {'timed ' * timed}Gaussian stimulus over {rank} dimensions")
+    if rank > (MOST_TIMED if timed else len(LETTERS)):
+        return sampled(b)
     amplitude = element.amplitude / (cell(axes) if element.normalized else 1)
     values: dict[str, Any] = {"amplitude": amplitude, "normalized": element.normalized}
     places = dict(zip([a.name for a in axes], positions(axes, element.center), strict=True))
@@ -95,6 +108,17 @@ def pattern(b: Given) -> None:
     _pattern(b, element.amplitude * _data(element.values), element.windows)
 
 
+def sampled(b: Given) -> None:
+    """Write the samples of a stimulus that cosivina does not have as a CustomStimulus."""
+    element = b.element
+    assert isinstance(element, Stimulus)
+    axes = tuple(element.axes)
+    with jax.enable_x64(True):
+        values = np.asarray(element.pattern(Setting({}, {"output": axes}, "float64")))
+    b.reasons.append(f"the samples of the {type(element).__name__}")
+    _pattern(b, np.broadcast_to(values, shape(axes)), element.windows)
+
+
 def series(b: Given) -> None:
     """Write CustomStimulusSequence: patterns that are each shown until the next."""
     element = b.element
@@ -113,8 +137,8 @@ def series(b: Given) -> None:
     if len(dims) > 2:
         raise Unwritable("cosivina shows patterns that are rows or planes")
     given = values.reshape(len(ticks), *size(dims))
-    patterns: Any = given[:, 0].tolist() if dims[0] is None else array(np.moveaxis(given, 0, -1))
-    if dims[0] is not None:
+    patterns: Any = given[:, 0].tolist() if is_row(dims) else array(np.moveaxis(given, 0, -1))
+    if not is_row(dims):
         b.approximate("cosivina forgets, when it reads a file, that the patterns are planes")
     part = b.part(
         "CustomStimulusSequence",
@@ -144,7 +168,7 @@ def space_code(b: Given) -> None:
         "inputOffset": position(axis, offset),
         "sigma": width(axis, sigma),
         "amplitude": element.amplitude / (axis.step if element.normalized else 1),
-        "circular": circular(element.axes, element.boundary)[0],
+        "circular": circular((axis,), element.boundary)[0],
         "normalized": element.normalized,
     }
     part = b.sized("ScalarToGaussian", values)
@@ -198,7 +222,9 @@ def noise_part(b: Given, axes: Axes, strength: float, length: PerAxis, label: st
     return part
 
 
-def kernel_values(dims: Dims, sigmas: dict[str, float], rings: dict[str, bool], part: str = "") -> dict[str, Any]:
+def kernel_values(
+    dims: Dims, sigmas: dict[str, float], rings: dict[str, bool], part: str = ""
+) -> dict[str, Any]:
     """Return the widths of a kernel, and whether it wraps, under cosivina's names."""
     rank = 1 if is_row(dims) else len(dims)
     out: dict[str, Any] = {}
@@ -249,6 +275,7 @@ def _data(values: Any) -> np.ndarray:
 
 KINDS = {
     GaussianStimulus: gaussian,
+    BoxStimulus: sampled,
     Boost: boost,
     Pattern: pattern,
     TimeSeries: series,
