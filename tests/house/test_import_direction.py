@@ -36,6 +36,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "experiments",
         "importers architectures",
         "exporters",
+        "compat",
         "figures",
         "papers",
         "server",

@@ -42,9 +42,6 @@ def save(data: xarray.Dataset, path: str | Path, force: bool = False) -> Path:
         OutputExists: the file exists, and `force` is not given.
         OutputError: it cannot be written.
     """
-    # only this format needs it
-    from scipy.io import savemat
-
     path = output.claim(path, force)
     taken = {TABLE}
     rows: list[list[Any]] = []
@@ -64,11 +61,21 @@ def save(data: xarray.Dataset, path: str | Path, force: bool = False) -> Path:
     for k, row in enumerate(rows):
         table[k, :] = row
     arrays[TABLE] = table
-    output.write(
-        path,
-        lambda beside: savemat(str(beside), arrays, appendmat=False, long_field_names=True, oned_as="row"),
-    )
+    write(arrays, path)
     return path
+
+
+def write(values: Mapping[str, Any], path: Path) -> None:
+    """Write variables of MATLAB: arrays, lists of structures; an existing file is replaced.
+
+    Raises:
+        OutputError: the file cannot be written.
+    """
+    # only this format needs it
+    from scipy.io import savemat
+
+    options: Mapping[str, Any] = {"appendmat": False, "long_field_names": True, "oned_as": "row"}
+    output.write(path, lambda beside: savemat(str(beside), dict(values), **options))
 
 
 def load_mat(path: str | Path, name: str = "") -> np.ndarray:

@@ -27,7 +27,9 @@ def elements(content: bytes) -> list[tuple[str, str, dict[str, Any], list[tuple[
     return out
 
 
-def largest_difference(model: dd.Model, fields: list[str], steps: int, component: str = "activation") -> float:
+def largest_difference(
+    model: dd.Model, fields: list[str], steps: int, component: str = "activation"
+) -> float:
     """Return the largest difference between deodar's trajectory and that of the exported file."""
     content = write(model, "file.json").content
     body = json.loads(content)["simulator"]
