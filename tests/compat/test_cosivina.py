@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -35,38 +36,34 @@ from tests.exporters.cosivina.files import elements
 from tests.importers.cosivina.files import SAMPLES, element, text
 from tests.importers.cosivina.oracle import Sim
 
-FTR, SPT = 30, 40
 
-
-def coupling():
+def coupling(ftr=30, spt=40):
     """Two rows coupled to a plane, as scripts write it."""
     sim = Simulator()
-    sim.addElement(
-        GaussStimulus2D("stimulus v1", (FTR, SPT), 5, 5, 0, round(1 / 4 * FTR), round(1 / 4 * SPT), 0, 1)
-    )
-    sim.addElement(GaussStimulus1D("stimulus s1", (1, SPT), 5, 0, round(1 / 4 * SPT), True))
-    sim.addElement(GaussStimulus1D("stimulus s2", (1, SPT), 5, 0, round(3 / 4 * SPT), True))
-    sim.addElement(SumInputs("stimulus sum s", (1, SPT)), ["stimulus s1", "stimulus s2"])
-    sim.addElement(GaussStimulus1D("stimulus f1", (1, FTR), 5, 0, round(1 / 4 * FTR), True))
-    sim.addElement(NeuralField("field v", (FTR, SPT), 20, -5, 4), ["stimulus v1"])
-    sim.addElement(NeuralField("field s", (1, SPT), 20, -5, 4), "stimulus sum s")
-    sim.addElement(NeuralField("field f", (1, FTR), 20, -5, 4), "stimulus f1")
-    sim.addElement(
-        KernelFFT("v -> v", (FTR, SPT), [3, 3], 0, [5, 5], 0, 0, [True, True]), "field v", "output", "field v"
-    )
-    sim.addElement(SumAllDimensions("sum v", (FTR, SPT)), "field v", "output")
-    sim.addElement(
-        LateralInteractions1D("s -> s", (1, SPT), 3, 0, 6, 0, 0, True), "field s", "output", "field s"
-    )
-    sim.addElement(
-        LateralInteractions1D("f -> f", (1, FTR), 3, 0, 6, 0, 0, True), "field f", "output", "field f"
-    )
-    sim.addElement(GaussKernel1D("v -> s", (1, SPT), 3, 0, True), "sum v", "verticalSum", "field s")
-    sim.addElement(GaussKernel1D("v -> f", (1, FTR), 3, 0, True), "sum v", "horizontalSum", "field f")
-    sim.addElement(GaussKernel1D("s -> v", (1, SPT), 3, 0, True), "field s", "output", "field v")
-    sim.addElement(GaussKernel1D("f -> v", (1, FTR), 3, 0, True), "field f", "output")
-    sim.addElement(Transpose("transpose f -> v", (FTR, 1)), "f -> v", "output", "field v")
-    sim.addElement(NormalNoise("noise s", (1, SPT), 0), [], [], "field s")
+    wide, exc, inh = (ftr, spt), 5, 10
+    for k, share in ((1, 1 / 4), (2, 3 / 4)):
+        at = round(share * ftr), round(share * spt)
+        sim.addElement(GaussStimulus2D(f"stimulus v{k}", wide, exc, exc, 0, *at, 0, 1))
+    for name, n in (("s", spt), ("f", ftr)):
+        for k, share in ((1, 1 / 4), (2, 3 / 4)):
+            sim.addElement(GaussStimulus1D(f"stimulus {name}{k}", (1, n), exc, 0, round(share * n), True))
+        sim.addElement(SumInputs(f"stimulus sum {name}", (1, n)), [f"stimulus {name}1", f"stimulus {name}2"])
+    sim.addElement(NeuralField("field v", wide, 20, -5, 4), ["stimulus v1", "stimulus v2"])
+    sim.addElement(NeuralField("field s", (1, spt), 20, -5, 4), "stimulus sum s")
+    sim.addElement(NeuralField("field f", (1, ftr), 20, -5, 4), "stimulus sum f")
+    kernel = KernelFFT("v -> v", wide, [exc, exc], 0, [inh, inh], 0, 0, [True, True])
+    sim.addElement(kernel, "field v", "output", "field v")
+    sim.addElement(SumAllDimensions("sum v", wide), "field v", "output")
+    for name, n in (("s", spt), ("f", ftr)):
+        lateral = LateralInteractions1D(f"{name} -> {name}", (1, n), exc, 0, inh, 0, 0, True)
+        sim.addElement(lateral, f"field {name}", "output", f"field {name}")
+    sim.addElement(GaussKernel1D("v -> s", (1, spt), exc, 0, True), "sum v", "verticalSum", "field s")
+    sim.addElement(GaussKernel1D("v -> f", (1, ftr), exc, 0, True), "sum v", "horizontalSum", "field f")
+    sim.addElement(GaussKernel1D("s -> v", (1, spt), exc, 0, True), "field s", "output", "field v")
+    sim.addElement(GaussKernel1D("f -> v", (1, ftr), exc, 0, True), "field f", "output")
+    sim.addElement(Transpose("transpose f -> v", (ftr, 1)), "f -> v", "output", "field v")
+    for name, size in (("s", (1, spt)), ("f", (1, ftr)), ("v", wide)):
+        sim.addElement(NormalNoise(f"noise {name}", size, 0), [], [], f"field {name}")
     return sim
 
 
@@ -192,6 +189,20 @@ def test_published_settings_run_from_their_file(path):
             )
             compared += 1
     assert compared
+
+
+def test_a_script_that_loads_published_settings_gives_the_activations_of_the_port():
+    path = next(p for p in SAMPLES if "Coupling" in p.stem)
+    sim = coupling(100, 100)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sim.loadSettings(path)
+    with np.load(path.with_suffix(".npz")) as z:
+        reference = {tuple(key.split("|")): z[key] for key in z}
+    for step in (1, 5, 20):
+        sim.run(step)
+        for label in ("field v", "field s", "field f"):
+            assert abs(sim.getComponent(label, "activation") - reference[label, str(step)]).max() < 1e-9
 
 
 def test_parameters_change_while_it_runs_and_states_stay(tmp_path):
