@@ -106,7 +106,7 @@ def load_mat(path: str | Path, name: str = "") -> np.ndarray:
         raise RecordError(
             "is a file of MATLAB 7.3", where=str(path), fix="Save it in MATLAB with: save(NAME, '-v7')"
         ) from None
-    except (OSError, ValueError, TypeError, KeyError, IndexError) as error:
+    except Exception as error:  # a damaged file may raise any exception
         what = getattr(error, "strerror", None) or "it is not a file of MATLAB, or damaged"
         raise RecordError(f"cannot be read: {what}", where=str(path)) from None
     held = _components({k: v for k, v in found.items() if not k.startswith("__")})
