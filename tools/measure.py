@@ -68,9 +68,14 @@ def trees(root: Path) -> Trees:
 
 
 def doubled(modules: Trees) -> list[str]:
-    """Names of classes and aliases that more than one module defines at its top level."""
+    """Names of classes and aliases that more than one module defines at its top level.
+
+    Modules of `compat` have the names of other tools, whatever else has them.
+    """
     where: dict[str, list[str]] = defaultdict(list)
     for path, module in modules.items():
+        if path.startswith("compat"):
+            continue
         for name in {*_classes(module), *_aliases(module)}:
             where[name].append(path)
     return [f"{name}: {', '.join(paths)}" for name, paths in sorted(where.items()) if len(paths) > 1]

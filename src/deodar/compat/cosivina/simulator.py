@@ -20,8 +20,8 @@ from deodar.importers.report import ImportReport
 from deodar.model import output
 from deodar.recording import mat
 
-Names = str | Sequence[str] | None
-"""A name, several, or none."""
+Labels = str | Sequence[str] | None
+"""A label or component, several, or none."""
 
 
 class Simulator:
@@ -59,10 +59,10 @@ class Simulator:
     def addElement(
         self,
         element: Element,
-        inputLabels: Names = None,
-        inputComponents: Names = None,
-        targetLabels: Names = None,
-        componentsForTargets: Names = None,
+        inputLabels: Labels = None,
+        inputComponents: Labels = None,
+        targetLabels: Labels = None,
+        componentsForTargets: Labels = None,
     ) -> None:
         """Add an element behind the others, and connect it.
 
@@ -87,7 +87,7 @@ class Simulator:
             target.addInput(element.label, component)
         self._running = None
 
-    def addConnection(self, inputLabels: Names, inputComponents: Names, targetLabel: str) -> None:
+    def addConnection(self, inputLabels: Labels, inputComponents: Labels, targetLabel: str) -> None:
         """Add connections from existing elements to one existing element."""
         target = self._element(targetLabel)
         for label, component in self._sources(inputLabels, inputComponents):
@@ -301,7 +301,7 @@ class Simulator:
             raise UnknownName(f"no element has the label {label!r}", fix=did_you_mean(label, self._by))
         return self._by[label]
 
-    def _sources(self, labels: Names, given: Names) -> list[tuple[str, str]]:
+    def _sources(self, labels: Labels, given: Labels) -> list[tuple[str, str]]:
         """Return label and component of each source."""
         sources = [self._element(label) for label in _listed(labels)]
         listed = _listed(given) or [""] * len(sources)
@@ -326,11 +326,11 @@ def _warn(what: Sequence[str]) -> None:
         warnings.warn("; ".join(what), RunWarning, stacklevel=3)
 
 
-def _listed(names: Names) -> list[str]:
+def _listed(names: Labels) -> list[str]:
     return [names] if isinstance(names, str) else list(names or ())
 
 
-def _components(source: Element, count: int, given: Names) -> list[str]:
+def _components(source: Element, count: int, given: Labels) -> list[str]:
     """Return the component for each of some readers; "" means the default one."""
     names = _listed(given) or [""] * count
     if len(names) != count:

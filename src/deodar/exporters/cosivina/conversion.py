@@ -14,7 +14,7 @@ from deodar.importers.cosivina.sizes import Dims
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axis
 
-Step = tuple[str, dict[str, Any], Dims]
+ConversionStep = tuple[str, dict[str, Any], Dims]
 """Class, parameters and output dimensions of an element."""
 
 
@@ -29,7 +29,7 @@ def conversion(
     reduce: str = "integral",
     whole: bool = False,
     interpolation: str = "linear",
-) -> list[Step]:
+) -> list[ConversionStep]:
     """Return the elements through which an array gets other dimensions; none if it is expanded by itself.
 
     Args:
@@ -42,7 +42,7 @@ def conversion(
     """
     names = {a.name: (rename or {}).get(a.name, a.name) for a in source if a is not None}
     here = [a.name for a in target if a is not None]
-    steps: list[Step] = []
+    steps: list[ConversionStep] = []
     lost = [d for d, a in enumerate(source) if a is not None and names[a.name] not in here]
     if lost:
         step = _contracted(source, target, lost, names, reduce)
@@ -68,7 +68,7 @@ def _fits(source: Dims, target: Dims, names: Mapping[str, str]) -> bool:
 
 def _contracted(
     source: Dims, target: Dims, lost: Sequence[int], names: Mapping[str, str], reduce: str
-) -> Step:
+) -> ConversionStep:
     gone = [a for d in lost if (a := source[d]) is not None]
     factors = {
         "integral": math.prod(a.step for a in gone),
@@ -101,7 +101,7 @@ def _other_grid(a: Axis | None, names: Mapping[str, str], target: Dims) -> bool:
     )
 
 
-def _resampled(source: Dims, target: Dims, names: Mapping[str, str], interpolation: str) -> Step:
+def _resampled(source: Dims, target: Dims, names: Mapping[str, str], interpolation: str) -> ConversionStep:
     (axis, *more) = [a for a in source if a is not None]
     wanted = next(b for b in target if b is not None and b.name == names[axis.name])
     if more or not is_row(source):
@@ -115,7 +115,7 @@ def _resampled(source: Dims, target: Dims, names: Mapping[str, str], interpolati
     )
 
 
-def _expanded(source: Dims, target: Dims, names: Mapping[str, str]) -> Step:
+def _expanded(source: Dims, target: Dims, names: Mapping[str, str]) -> ConversionStep:
     """Return the element that moves dimensions to their places, and fills the others with copies."""
     at = {b.name: d for d, b in enumerate(target) if b is not None}
     mapping = [None if a is None else at[names[a.name]] for a in source]

@@ -10,7 +10,7 @@ from deodar.couplings.interaction import Interaction
 from deodar.couplings.project import Project
 from deodar.element import Element
 from deodar.exporters.cosivina.layout import circular, layout, size, widths
-from deodar.exporters.cosivina.part import Inlet, Link, Outlet, Part
+from deodar.exporters.cosivina.part import FilePart, PartInput, PartLink, PartOutput
 from deodar.exporters.cosivina.tracing import Wires
 from deodar.importers.cosivina.classes.kernels import WHOLE
 from deodar.importers.cosivina.names import FreeNames
@@ -39,9 +39,9 @@ class Draft:
         self.labels = {e.id: e.path if e.group else e.names[-1] for e in doc.entries}
         self.names = FreeNames(self.labels.values())
         self.wires = Wires(doc, nodes)
-        self.parts: list[Part] = []
-        self.outlets: dict[tuple[str, str], Outlet] = {}
-        self.inlets: dict[tuple[str, str], list[Inlet]] = {}
+        self.parts: list[FilePart] = []
+        self.outlets: dict[tuple[str, str], PartOutput] = {}
+        self.inlets: dict[tuple[str, str], list[PartInput]] = {}
         self.claimed: dict[str, str] = dict.fromkeys(self.wires.extra, "")
         self.lines: list[Line] = []
 
@@ -103,7 +103,7 @@ class Given:
         self.verdict: Verdict = "carried"
         self.reasons: list[str] = []
         self.said: dict[str, Line] = {}
-        self.made: list[Part] = []
+        self.made: list[FilePart] = []
         self.used: list[tuple[str, str]] = []
 
     @property
@@ -126,20 +126,20 @@ class Given:
         label: str = "",
         sums: bool = False,
         beside: int = 0,
-    ) -> Part:
+    ) -> FilePart:
         """Add an element to the file; without a label it has that of the entry."""
         name = self.draft.names.new(label) if label else self.label
-        part = Part(name, kind, dict(values), (self.draft.place[self.id], beside), sums=sums)
+        part = FilePart(name, kind, dict(values), (self.draft.place[self.id], beside), sums=sums)
         self.made.append(part)
         return part
 
-    def sized(self, kind: str, values: Mapping[str, Any], dims: Dims | None = None, **more: Any) -> Part:
+    def sized(self, kind: str, values: Mapping[str, Any], dims: Dims | None = None, **more: Any) -> FilePart:
         """Add an element with a size, by default that of the output."""
         return self.part(kind, {"size": size(self.dims() if dims is None else dims), **values}, **more)
 
     def show(
         self,
-        part: Part,
+        part: FilePart,
         port: str = "output",
         component: str = "output",
         *,
@@ -151,19 +151,19 @@ class Given:
         node = self.draft.nodes[of or self.id]
         state = node.shows_state(port)
         there = layout(node.axes(port)) if dims is None else dims
-        self.draft.outlets[of or self.id, port] = Outlet(part, component, there, state, free)
+        self.draft.outlets[of or self.id, port] = PartOutput(part, component, there, state, free)
 
     def take(
-        self, part: Part, port: str = "input", slot: int = 0, *, of: str = "", dims: Dims | None = None
+        self, part: FilePart, port: str = "input", slot: int = 0, *, of: str = "", dims: Dims | None = None
     ) -> None:
         """Let a part take what is connected to a port."""
         there = layout(self.draft.nodes[of or self.id].axes(port)) if dims is None else dims
-        self.draft.inlets.setdefault((of or self.id, port), []).append(Inlet(part, there, slot))
+        self.draft.inlets.setdefault((of or self.id, port), []).append(PartInput(part, there, slot))
 
     def inner(
         self,
-        part: Part,
-        source: Part,
+        part: FilePart,
+        source: FilePart,
         *,
         component: str = "output",
         slot: int = 0,
@@ -171,7 +171,7 @@ class Given:
         dims: Dims | None = None,
     ) -> None:
         """Connect two parts of this entry."""
-        part.links.append(Link(source, component, slot, after, self.dims() if dims is None else dims))
+        part.links.append(PartLink(source, component, slot, after, self.dims() if dims is None else dims))
 
     def claim(self, others: Sequence[Entry]) -> None:
         """State that other entries are contained in the parts of this one."""

@@ -12,29 +12,29 @@ import heapq
 from collections.abc import Sequence
 
 from deodar.exporters.cosivina.layout import size
-from deodar.exporters.cosivina.part import Part, Place
+from deodar.exporters.cosivina.part import FilePart, ListPlace
 from deodar.importers.cosivina.names import FreeNames
 
 
-def ordered(parts: Sequence[Part], names: FreeNames) -> list[Part]:
+def ordered(parts: Sequence[FilePart], names: FreeNames) -> list[FilePart]:
     """Return the parts in an order that fits their links, near the preferred places; add relays where there
     is none.
     """
-    waiting: dict[Part, set[Part]] = {p: set() for p in parts}
+    waiting: dict[FilePart, set[FilePart]] = {p: set() for p in parts}
     for p in parts:
         for link in p.links:
             if link.part is p or link.after is None or link.part not in waiting:
                 continue
             first, second = (p, link.part) if link.after else (link.part, p)
             waiting[second].add(first)
-    followers: dict[Part, list[Part]] = {p: [] for p in parts}
+    followers: dict[FilePart, list[FilePart]] = {p: [] for p in parts}
     for p, before in waiting.items():
         for q in before:
             followers[q].append(p)
     number = {p: k for k, p in enumerate(parts)}
-    ready: list[tuple[Place, int, Part]] = [(p.place, number[p], p) for p in parts if not waiting[p]]
+    ready: list[tuple[ListPlace, int, FilePart]] = [(p.place, number[p], p) for p in parts if not waiting[p]]
     heapq.heapify(ready)
-    out: list[Part] = []
+    out: list[FilePart] = []
     left = dict.fromkeys(parts)
     while left:
         if not ready:
@@ -56,21 +56,21 @@ def ordered(parts: Sequence[Part], names: FreeNames) -> list[Part]:
 
 
 def _relayed(
-    left: Sequence[Part], waiting: dict[Part, set[Part]], names: FreeNames
-) -> tuple[Part, list[Part]]:
+    left: Sequence[FilePart], waiting: dict[FilePart, set[FilePart]], names: FreeNames
+) -> tuple[FilePart, list[FilePart]]:
     """Return the first part that waits only for readers of its previous value, and the relays from which they
     now read it.
     """
     there = set(left)
     free = (p for p in sorted(left, key=lambda p: p.place) if _computable(p, there))
     p = next(free)
-    relays: dict[str, Part] = {}
+    relays: dict[str, FilePart] = {}
     for r in waiting[p] & there:
         for k, link in enumerate(r.links):
             if link.part is not p or not link.after:
                 continue
             if link.component not in relays:
-                relays[link.component] = Part(
+                relays[link.component] = FilePart(
                     names.new(f"{p.label} before"),
                     "SumInputs",
                     {"size": size(link.dims)},
@@ -82,6 +82,6 @@ def _relayed(
     return p, list(relays.values())
 
 
-def _computable(p: Part, left: set[Part]) -> bool:
+def _computable(p: FilePart, left: set[FilePart]) -> bool:
     """Return whether everything that a part reads in the same step has been listed."""
     return not any(link.part in left and link.after is False for link in p.links)

@@ -7,12 +7,12 @@ from typing import Any
 
 from deodar.importers.cosivina.sizes import Dims
 
-Place = tuple[int, int]
+ListPlace = tuple[int, int]
 """Preferred position in the list of elements: that of the entry of the document, and a position beside it."""
 
 
 @dc.dataclass(eq=False)
-class Part:
+class FilePart:
     """An element of the file.
 
     Attributes:
@@ -25,13 +25,13 @@ class Part:
     label: str
     kind: str
     values: dict[str, Any]
-    place: Place
-    links: list[Link] = dc.field(default_factory=list["Link"])
+    place: ListPlace
+    links: list[PartLink] = dc.field(default_factory=list["PartLink"])
     sums: bool = False
 
 
 @dc.dataclass(frozen=True)
-class Outlet:
+class PartOutput:
     """A component that other elements read.
 
     Attributes:
@@ -42,7 +42,7 @@ class Outlet:
         free: whether the value is the same before and after the part is computed, or equivalent (noise).
     """
 
-    part: Part
+    part: FilePart
     component: str
     dims: Dims
     state: bool = False
@@ -50,16 +50,16 @@ class Outlet:
 
 
 @dc.dataclass(frozen=True)
-class Inlet:
+class PartInput:
     """An input of a part: its slot, and the dimensions into which a source must fit."""
 
-    part: Part
+    part: FilePart
     dims: Dims
     slot: int = 0
 
 
 @dc.dataclass(frozen=True)
-class Link:
+class PartLink:
     """One input of a part.
 
     Attributes:
@@ -70,7 +70,7 @@ class Link:
         dims: dimensions of the source.
     """
 
-    part: Part
+    part: FilePart
     component: str
     slot: int
     after: bool | None

@@ -17,7 +17,7 @@ from deodar.exporters.cosivina.conversion import NoConversion, conversion
 from deodar.exporters.cosivina.draft import Draft, Given, Unwritable
 from deodar.exporters.cosivina.layout import size
 from deodar.exporters.cosivina.order import ordered
-from deodar.exporters.cosivina.part import Inlet, Link, Outlet, Part
+from deodar.exporters.cosivina.part import FilePart, PartInput, PartLink, PartOutput
 from deodar.exporters.cosivina.tracing import Traced
 from deodar.exporters.exported import Exported
 from deodar.importers.report import ImportReport, Line
@@ -111,20 +111,20 @@ def _connect(draft: Draft, c: Connection) -> None:
     draft.lines.append(Line(target, "connection", what, "carried"))
 
 
-def _link(draft: Draft, outlet: Outlet, inlet: Inlet, found: Traced) -> None:
+def _link(draft: Draft, outlet: PartOutput, inlet: PartInput, found: Traced) -> None:
     """Connect an outlet to an inlet, through the elements that its dimensions need."""
     part, component, dims, after = outlet.part, outlet.component, outlet.dims, _after(draft, outlet, found)
     steps = [] if found.fits else conversion(dims, inlet.dims)
     for kind, values, there in steps:
         label = draft.names.new(f"{part.label} to {inlet.part.label}")
         place = (inlet.part.place[0], inlet.part.place[1] - 1)
-        between = Part(label, kind, values, place, [Link(part, component, 0, after, dims)])
+        between = FilePart(label, kind, values, place, [PartLink(part, component, 0, after, dims)])
         draft.parts.append(between)
         part, component, dims, after = between, "output", there, False
-    inlet.part.links += [Link(part, component, inlet.slot, after, dims)] * found.count
+    inlet.part.links += [PartLink(part, component, inlet.slot, after, dims)] * found.count
 
 
-def _after(draft: Draft, outlet: Outlet, found: Traced) -> bool | None:
+def _after(draft: Draft, outlet: PartOutput, found: Traced) -> bool | None:
     """Return whether a source is listed after its reader; None if the order has no effect."""
     if outlet.free or _noisy(draft, found.source):
         return None
@@ -142,7 +142,7 @@ def _noisy(draft: Draft, ident: str) -> bool:
     return isinstance(element, Convolve) and bool(sources) and all(_noisy(draft, c.source) for c in sources)
 
 
-def _add_up(draft: Draft, part: Part) -> None:
+def _add_up(draft: Draft, part: FilePart) -> None:
     """Put a sum before an input that takes one array, where several are connected."""
     if part.sums:
         return
@@ -151,7 +151,7 @@ def _add_up(draft: Draft, part: Part) -> None:
         if len(several) < 2:
             continue
         dims = max((link.dims for link in several), key=lambda d: math.prod(size(d)))
-        total = Part(
+        total = FilePart(
             draft.names.new(f"inputs of {part.label}"),
             "SumInputs",
             {"size": size(dims)},
@@ -161,10 +161,10 @@ def _add_up(draft: Draft, part: Part) -> None:
         )
         draft.parts.append(total)
         rest = [link for link in part.links if link.slot != slot]
-        part.links = [*rest, Link(total, "output", slot, False, dims)]
+        part.links = [*rest, PartLink(total, "output", slot, False, dims)]
 
 
-def _text(doc: Document, parts: Sequence[Part]) -> bytes:
+def _text(doc: Document, parts: Sequence[FilePart]) -> bytes:
     elements = [_entry(p) for p in parts]
     body = {
         "deltaT": _plain(doc.step),
@@ -176,7 +176,7 @@ def _text(doc: Document, parts: Sequence[Part]) -> bytes:
     return codec.text({"simulator": body}).encode() + b"\n"
 
 
-def _entry(part: Part) -> dict[str, Any]:
+def _entry(part: FilePart) -> dict[str, Any]:
     links = sorted(part.links, key=lambda link: link.slot)
     inputs = [{"label": link.part.label, "component": link.component} for link in links]
     return {

@@ -8,7 +8,7 @@ from deodar.elements.history import History
 from deodar.elements.sampled_history import SampledHistory
 from deodar.exporters.cosivina.draft import Given
 from deodar.exporters.cosivina.layout import layout
-from deodar.exporters.cosivina.part import Part
+from deodar.exporters.cosivina.part import FilePart
 from deodar.importers.cosivina.classes.fields import MOST_COUNTED
 from deodar.importers.cosivina.sizes import Dims
 from deodar.numerics.axes import Axis
@@ -47,7 +47,7 @@ def sampled(b: Given) -> None:
     _stored(b, part, element.slots, layout(tuple(element.axes)), element.empty)
 
 
-def _stored(b: Given, part: Part, slots: Axis, dims: Dims, empty: str) -> None:
+def _stored(b: Given, part: FilePart, slots: Axis, dims: Dims, empty: str) -> None:
     """Show what is stored: the slots are the rows of a row, and the last dimension of a plane."""
     kept = None if slots.samples == 1 else slots
     there: Dims = (kept, dims[1]) if dims[0] is None else dims if kept is None else (*dims, kept)

@@ -19,7 +19,7 @@ from deodar.exporters.cosivina.classes.gaussians import Bell, bells
 from deodar.exporters.cosivina.classes.stimuli import kernel_values
 from deodar.exporters.cosivina.draft import Given, Unwritable
 from deodar.exporters.cosivina.layout import circular, is_row, layout, widths
-from deodar.exporters.cosivina.part import Part
+from deodar.exporters.cosivina.part import FilePart
 from deodar.importers.cosivina.sizes import Dims
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
@@ -40,17 +40,15 @@ def convolve(b: Given) -> None:
     element = b.element
     assert isinstance(element, Convolve)
     moved = _as_shift(b, element.kernel)
-    if moved is not None:
-        part = b.sized("ShiftInput", moved)
+    if moved is None:
+        parts = _parts(b, b.axes(), element.kernel, 0.0, KernelWish())
     else:
-        parts = _parts(b, b.axes(), element.kernel, 0.0, "")
-        part = _joined(b, parts)
-        for p in parts:
-            b.take(p)
-        b.show(part)
-        return
-    b.take(part)
-    b.show(part)
+        parts = [b.sized("ShiftInput", moved)]
+        if moved["amplitude"] != 1:
+            b.approximate("cosivina does not apply the amplitude of a ShiftInput")
+    for p in parts:
+        b.take(p)
+    b.show(_joined(b, parts))
 
 
 def interact(b: Given) -> None:
@@ -63,7 +61,9 @@ def interact(b: Given) -> None:
     parts = (
         [part]
         if part
-        else _parts(b, axes, element.kernel, element.global_inhibition, "", sums=True, plane=len(sides) == 2)
+        else _parts(
+            b, axes, element.kernel, element.global_inhibition, KernelWish(sums=True, plane=len(sides) == 2)
+        )
     )
     part = _joined(b, parts)
     for p in parts:
@@ -89,7 +89,7 @@ def interact(b: Given) -> None:
     b.show(total, "total", dims=(None, None))
 
 
-def field_kernels(b: Given, part: Part) -> None:
+def field_kernels(b: Given, part: FilePart) -> None:
     """Write the interaction of a field with itself."""
     element = b.element
     assert isinstance(element, Field)
@@ -98,7 +98,7 @@ def field_kernels(b: Given, part: Part) -> None:
     axes = tuple(element.axes)
     label = f"{b.label} -> {b.label}"
     try:
-        parts = _parts(b, axes, element.kernel, element.global_inhibition, label, beside=-1)
+        parts = _parts(b, axes, element.kernel, element.global_inhibition, KernelWish(label, beside=-1))
     except Unwritable as error:
         b.say("kernel", "dropped", str(error))
         b.approximate(f"its kernel is not written: {error}")
@@ -175,38 +175,49 @@ def _shift_values(
     }
 
 
+@dc.dataclass(frozen=True)
+class KernelWish:
+    """How the elements of several kernels are written.
+
+    Attributes:
+        label: label of each, with a number; "": the first one has that of the entry.
+        sums: whether the first one must have the sum of its input as a component.
+        plane: whether a row has the class of a plane.
+        beside: preferred position beside the entry.
+    """
+
+    label: str = ""
+    sums: bool = False
+    plane: bool = False
+    beside: int = 0
+
+
 def _parts(
-    b: Given,
-    axes: Axes,
-    kernels: Sequence[Kernel],
-    inhibition: float,
-    label: str,
-    *,
-    sums: bool = False,
-    plane: bool = False,
-    beside: int = 0,
-) -> list[Part]:
+    b: Given, axes: Axes, kernels: Sequence[Kernel], inhibition: float, wish: KernelWish
+) -> list[FilePart]:
     """Add the elements of a sum of kernels and of global inhibition; their outputs add up."""
     dims = layout(axes)
 
     def name(k: int) -> str:
-        return label or (f"{b.label} part" if k else "")
+        return wish.label or (f"{b.label} part" if k else "")
 
-    if not axes and label:  # on a node kernels are self-excitation
+    if not axes and wish.label:  # on a node kernels are self-excitation
         strength = sum(float(t.amplitude) for k in kernels for t in k.terms()) - inhibition
-        return [b.sized("ScaleInput", {"amplitude": strength}, dims, label=label, beside=beside)]
-    parts: list[Part] = []
+        return [b.sized("ScaleInput", {"amplitude": strength}, dims, label=wish.label, beside=wish.beside)]
+    parts: list[FilePart] = []
     found = bells(b, axes, dims, kernels)
     pairs = _pairs(found.bells)
-    if (inhibition or sums) and not pairs:
+    if (inhibition or wish.sums) and not pairs:
         pairs = [(Bell.nothing(axes, found.normalized), Bell.nothing(axes, found.normalized))]
     for k, (up, down) in enumerate(pairs):
-        lateral = k == 0 and (inhibition or sums)
+        lateral = k == 0 and (inhibition or wish.sums)
         overall = -inhibition * cell(axes) if lateral else None
-        kind, values = _difference(dims, axes, up, down, overall, plane)
-        parts.append(b.sized(kind, values, dims, label=name(len(parts)), beside=beside))
+        kind, values = _difference(dims, axes, up, down, overall, wish.plane)
+        parts.append(b.sized(kind, values, dims, label=name(len(parts)), beside=wish.beside))
     if found.others:
-        parts.append(_matrix(b, axes, dims, found.others, name(len(parts)), beside))
+        parts.append(_matrix(b, axes, dims, found.others, name(len(parts)), wish.beside))
+    if not parts:
+        raise Unwritable("it has no kernel")
     return parts
 
 
@@ -278,7 +289,7 @@ def _widths(
     return kernel_values(dims, by, rings, part)
 
 
-def _matrix(b: Given, axes: Axes, dims: Dims, kernels: Sequence[Kernel], label: str, beside: int) -> Part:
+def _matrix(b: Given, axes: Axes, dims: Dims, kernels: Sequence[Kernel], label: str, beside: int) -> FilePart:
     """Add a matrix of the weights between all samples of a row, for kernels that cosivina does not have."""
     names = ", ".join(sorted({type(k).__name__ for k in kernels}))
     if not is_row(dims) or len(axes) != 1:
@@ -292,7 +303,7 @@ def _matrix(b: Given, axes: Axes, dims: Dims, kernels: Sequence[Kernel], label: 
     return b.part("WeightMatrix", values, label=label, beside=beside)
 
 
-def _joined(b: Given, parts: list[Part]) -> Part:
+def _joined(b: Given, parts: list[FilePart]) -> FilePart:
     """Return the part that readers read: the only one, or a sum of all."""
     if len(parts) == 1:
         return parts[0]
@@ -304,7 +315,7 @@ def _joined(b: Given, parts: list[Part]) -> Part:
     return total
 
 
-def _transformed(b: Given, element: Interaction) -> Part | None:
+def _transformed(b: Given, element: Interaction) -> FilePart | None:
     """Add KernelFFT or its inverse half, if the kernels are those that it has."""
     axes = b.axes()
     if not b.draft.endless(element, axes):
@@ -327,7 +338,7 @@ def _transformed(b: Given, element: Interaction) -> Part | None:
     return b.sized("KernelFFT", {**values, "circular": [[v] for v in rings] or 1, "paddingFactor": 5})
 
 
-def _discrete(b: Given, element: Interaction) -> Part | None:
+def _discrete(b: Given, element: Interaction) -> FilePart | None:
     """Add LateralInteractionsDiscrete, if the kernel is a single sample."""
     kernels = element.kernel
     if len(kernels) != 1 or not isinstance(kernels[0], TruncatedGaussian):

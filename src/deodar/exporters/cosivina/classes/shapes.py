@@ -7,7 +7,7 @@ from deodar.couplings.diagonal_sum import DiagonalSum
 from deodar.couplings.gain import Gain
 from deodar.couplings.project import Project
 from deodar.couplings.resample import Resample
-from deodar.exporters.cosivina.conversion import NoConversion, Step, conversion
+from deodar.exporters.cosivina.conversion import ConversionStep, NoConversion, conversion
 from deodar.exporters.cosivina.draft import Given, Unwritable
 from deodar.exporters.cosivina.layout import is_row, layout, size
 from deodar.importers.cosivina.sizes import Dims
@@ -131,7 +131,7 @@ def _through(
             b.show(part, dims=dims)
 
 
-def _unchanged(dims: Dims) -> Step:
+def _unchanged(dims: Dims) -> ConversionStep:
     """Return an element that passes a row or an array of more dimensions on."""
     if is_row(dims):
         return "ExpandDimension2D", {"expandDimension": 1, "size": size(dims)}, dims

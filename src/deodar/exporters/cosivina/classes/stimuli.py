@@ -31,7 +31,7 @@ from deodar.exporters.cosivina.layout import (
     width,
     widths,
 )
-from deodar.exporters.cosivina.part import Part
+from deodar.exporters.cosivina.part import FilePart
 from deodar.importers.cosivina.classes.stimuli import LETTERS
 from deodar.importers.cosivina.sizes import Dims
 from deodar.leaves import per_axis
@@ -189,7 +189,7 @@ def noise(b: Given) -> None:
     b.show(part, free=True)
 
 
-def noise_part(b: Given, axes: Axes, strength: float, length: PerAxis, label: str = "") -> Part:
+def noise_part(b: Given, axes: Axes, strength: float, length: PerAxis, label: str = "") -> FilePart:
     """Add noise of a strength to the file, and its correlation in space; return the last part."""
     lengths = per_axis(length, axes)
     dims = layout(axes)
