@@ -200,3 +200,22 @@ def _drawn(p):
     """Return the parameters of a pattern that is one sample of noise, in steps of 2."""
     rng = np.random.default_rng(4)
     return {"size": p["size"], "pattern": p["amplitude"] * rng.normal(size=p["size"]) / np.sqrt(2.0)}
+
+
+@pytest.mark.parametrize(("sigma", "far"), [(6, 1e-9), (10, 1e-4), (20, 1e-9)])
+def test_a_gaussian_that_wraps_around_its_ring_is_exact_approximated_or_a_matrix(sigma, far):
+    m = dd.Model("ring")
+    kernel = [dd.Gaussian(20, 4, normalized=True), dd.Gaussian(-15, sigma, normalized=True)]
+    u = m.add(dd.Field("u", [RING], kernel=kernel))
+    m.add(dd.GaussianStimulus("cue", [RING], center=25, sigma=5, amplitude=8)) >> u
+    made = write(m, "file.json")
+    kinds = [kind for _, kind, _, _ in elements(made.content) if "Neural" not in kind and "Stim" not in kind]
+    assert (
+        kinds
+        == {6: ["MexicanHatKernel1D"], 10: ["MexicanHatKernel1D"], 20: ["GaussKernel1D", "WeightMatrix"]}[
+            sigma
+        ]
+    )
+    assert made.report.faithful == (sigma != 10)
+    found = largest_difference(m, ["u"], 60)
+    assert found < far and (sigma != 10 or found > 1e-9)

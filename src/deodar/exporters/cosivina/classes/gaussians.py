@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 from collections.abc import Sequence
 
 from deodar.exporters.cosivina.draft import Given
@@ -22,6 +23,11 @@ REACH = 10.0
 
 ALONE = 7.5
 """Half a ring, in widths, from which the images of a Gaussian have no effect (6e-13 of its height)."""
+
+NEAR = 4.0
+"""Half a ring, in widths, from which a Gaussian without its images is an approximation (3e-4 of its height);
+below, a matrix holds its weights.
+"""
 
 
 @dc.dataclass(frozen=True)
@@ -82,12 +88,12 @@ def bells(b: Given, axes: Axes, dims: Dims, kernels: Sequence[Kernel]) -> Bells:
     for kernel in kernels:
         parts = _gaussians(kernel)
         ends = boundaries(kernel.boundary, axes)
-        wide = is_row(dims) and not isinstance(parts[0] if parts else None, TruncatedGaussian)
-        if not parts or (wide and not all(_alone(p, axes, ends) for p in parts)) or "reflect" in ends:
+        half = min((_half(p, axes, ends) for p in parts if isinstance(p, Gaussian)), default=math.inf)
+        if not parts or "reflect" in ends or (is_row(dims) and half < NEAR):
             others.append(kernel)
             continue
-        if not wide and not all(_alone(p, axes, ends) for p in parts if isinstance(p, Gaussian)):
-            b.approximate("a kernel as wide as its ring is written without its further images")
+        if half < ALONE:
+            b.approximate(f"a kernel has no images on its ring, {math.exp(-0.5 * half**2):.0e} of its height")
         found.append((kernel, parts))
     exact = all(_normalizable(p, axes, boundaries(k.boundary, axes)) for k, ps in found for p in ps)
     out = [_bell(p, k, axes, exact) for k, ps in found for p in ps]
@@ -108,11 +114,15 @@ def _gaussians(kernel: Kernel) -> list[TruncatedGaussian | Gaussian]:
     return []
 
 
-def _alone(part: TruncatedGaussian | Gaussian, axes: Axes, ends: Sequence[str]) -> bool:
-    """Return whether the images of a Gaussian on a ring have no effect."""
-    return all(
-        end != "periodic" or a.samples >= 2 * ALONE * s
-        for a, end, s in zip(axes, ends, widths(axes, part.sigma), strict=True)
+def _half(part: Gaussian, axes: Axes, ends: Sequence[str]) -> float:
+    """Return half of the ring on which a Gaussian is widest, in widths; infinite without a ring."""
+    return min(
+        (
+            a.samples / (2 * max(s, NARROWEST))
+            for a, end, s in zip(axes, ends, widths(axes, part.sigma), strict=True)
+            if end == "periodic"
+        ),
+        default=math.inf,
     )
 
 
@@ -121,7 +131,7 @@ def _normalizable(part: TruncatedGaussian | Gaussian, axes: Axes, ends: Sequence
     if isinstance(part, TruncatedGaussian):
         return part.normalized
     return part.normalized and all(
-        a.samples - 1 >= ALONE * s * (2 if end == "periodic" else 1)
+        a.samples - 1 >= (2 * NEAR if end == "periodic" else ALONE) * s
         for a, end, s in zip(axes, ends, widths(axes, part.sigma), strict=True)
     )
 
