@@ -9,6 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.exporters.cosivina import write
+from deodar.importers.cosivina import read
 from tests.exporters.cosivina.files import elements, largest_difference
 from tests.importers.cosivina.oracle import Sim
 
@@ -136,7 +137,8 @@ MODELS = [selection, memory, broad, coupled, node, planes, couplings, later]
 @pytest.mark.parametrize("make", MODELS)
 def test_the_exported_file_gives_the_trajectory(make):
     model, fields = make()
-    assert write(model, "file.json").report.faithful
+    made = write(model, "file.json")
+    assert made.report.faithful and read(made.content, "file.json").report.faithful
     assert largest_difference(model, fields, 80) < 1e-9
 
 
