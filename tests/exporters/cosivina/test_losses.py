@@ -146,3 +146,19 @@ def test_connections_into_one_input_are_added_up_before_it():
     found = {label: (kind, inputs) for label, kind, _, inputs in elements(write(m, "f").content)}
     assert found["k"][1] == [("inputs of k", "output")]
     assert found["inputs of k"][0] == "SumInputs" and len(found["inputs of k"][1]) == 3
+
+
+def test_the_gaussians_of_a_field_are_written_without_its_other_kernels():
+    plane = [X, dd.Axis("y", 0, 9, samples=10)]
+    m = model_of(dd.Field("u", plane, kernel=[dd.Gaussian(1, 2), dd.Box(1, 3)], global_inhibition=0.1))
+    found = {label: (kind, inputs) for label, kind, _, inputs in elements(write(m, "f").content)}
+    assert found["u -> u"] == ("LateralInteractions2D", [("u", "output")])
+    assert found["u"] == ("NeuralField", [("u -> u", "output")])
+    assert ("u", "parameter", "kernel", "dropped") in lost(m)
+
+
+def test_a_field_of_four_dimensions_is_written_without_its_kernel():
+    axes = [dd.Axis(name, 0, 2, samples=3) for name in "abcd"]
+    m = model_of(dd.Field("u", axes, kernel=[dd.Gaussian(1, 2)]))
+    assert [kind for _, kind, _, _ in elements(write(m, "f").content)] == ["NeuralField"]
+    assert ("u", "parameter", "kernel", "dropped") in lost(m)

@@ -96,7 +96,7 @@ def couplings():
     y = dd.Axis("x", 0, 10, samples=20, periodic=True)
     u = m.add(dd.Field("u", [x], kernel=[dd.Box(2, 3), dd.Gaussian(1, 0.5)], global_inhibition=0.1))
     w = m.add(dd.Field("w", [x]))
-    c = m.add(dd.Field("c", [y]))
+    c = m.add(dd.Field("c", [y], resting_level=-1))
     m.add(dd.Pattern("p", [x], np.linspace(0, 5, 40))) >> u
     u >> dd.Shift(2) >> w
     u >> dd.Sigmoid(dd.Logistic(2, 0.3)) >> w

@@ -179,7 +179,7 @@ class Given:
             self.draft.claimed[e.id] = self.label
 
     def say(self, parameter: str, verdict: Verdict, why: str) -> None:
-        """Report a parameter that is not carried, or how it is carried; the element is then approximated."""
+        """Report a parameter that is not carried, or how it is carried."""
         self.said[parameter] = Line(self.entry.path, "parameter", parameter, verdict, why)
 
     def approximate(self, why: str) -> None:

@@ -96,12 +96,12 @@ def field_kernels(b: Given, part: FilePart) -> None:
     if not element.kernel and not element.global_inhibition:
         return
     axes = tuple(element.axes)
-    label = f"{b.label} -> {b.label}"
+    label, made = f"{b.label} -> {b.label}", len(b.made)
     try:
         parts = _parts(b, axes, element.kernel, element.global_inhibition, KernelWish(label, beside=-1))
     except Unwritable as error:
-        b.say("kernel", "dropped", str(error))
-        b.approximate(f"its kernel is not written: {error}")
+        del b.made[made:]
+        _lost(b, str(error))
         return
     for p in parts:
         b.inner(p, part, after=True)
@@ -175,6 +175,12 @@ def _shift_values(
     }
 
 
+def _lost(b: Given, why: str) -> None:
+    """Report kernels of a field that are not written."""
+    b.say("kernel", "dropped", why)
+    b.approximate(f"a kernel of it is not written: {why}")
+
+
 @dc.dataclass(frozen=True)
 class KernelWish:
     """How the elements of several kernels are written.
@@ -215,8 +221,13 @@ def _parts(
         kind, values = _difference(dims, axes, up, down, overall, wish.plane)
         parts.append(b.sized(kind, values, dims, label=name(len(parts)), beside=wish.beside))
     if found.others:
-        parts.append(_matrix(b, axes, dims, found.others, name(len(parts)), wish.beside))
-    if not parts:
+        try:
+            parts.append(_matrix(b, axes, dims, found.others, name(len(parts)), wish.beside))
+        except Unwritable as error:
+            if not wish.label:
+                raise
+            _lost(b, str(error))
+    if not parts and not wish.label:
         raise Unwritable("it has no kernel")
     return parts
 

@@ -17,7 +17,7 @@ from deodar.importers.cosivina.classes.weights import REWARDED
 from deodar.numerics.axes import cell, shape
 from deodar.parameters import FrozenArray
 
-RETRY = "cosivina has weights from a row to a row; put a Project before and behind them"
+ROWS = "cosivina has weights from a row to a row; put a Project before and behind them"
 
 
 def weights(b: Given) -> None:
@@ -27,7 +27,7 @@ def weights(b: Given) -> None:
     if not isinstance(element.weights, FrozenArray):
         raise Unwritable("its weights are in another file, which is not loaded")
     if not is_row(b.dims()) or not is_row(b.dims("input")):
-        raise Unwritable(RETRY)
+        raise Unwritable(ROWS)
     came = b.axes("input")
     rows, columns = math.prod(shape(came)), math.prod(shape(b.axes()))
     given = np.asarray(element.weights.data, np.float64).reshape(columns, rows).T
@@ -42,7 +42,7 @@ def adaptive(b: Given) -> None:
     element = b.element
     assert isinstance(element, AdaptiveWeights)
     if not is_row(b.dims()) or not is_row(b.dims("input")):
-        raise Unwritable(RETRY)
+        raise Unwritable(ROWS)
     if cell(b.axes("input")) != 1:
         raise Unwritable("cosivina learns weights of samples; its axes here have another step than 1")
     if element.initial or element.start is not None:
