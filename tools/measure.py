@@ -34,7 +34,7 @@ LOOSE = {"Any", "object"}
 OPTIMISER = re.compile(r"\b([Ww]aves?|WAVES|REST|sharing|to_waves|from_waves|at\.(choices|shared|waves))\b")
 """Words of the compiler."""
 DEEP = re.compile(
-    r"^\s*(?:>>> |\.\.\. )?((?:from deodar\b[\w.]* import|import deodar\.)[^\n#]*)", re.MULTILINE
+    r"^\s*(?:>>> |\.\.\. )?((?:from deodar\b(?!\.compat)[\w.]* import|import deodar\.)[^\n#]*)", re.MULTILINE
 )
 
 
@@ -68,9 +68,14 @@ def trees(root: Path) -> Trees:
 
 
 def doubled(modules: Trees) -> list[str]:
-    """Names of classes and aliases that more than one module defines at its top level."""
+    """Names of classes and aliases that more than one module defines at its top level.
+
+    Modules of `compat` have the names of other tools, whatever else has them.
+    """
     where: dict[str, list[str]] = defaultdict(list)
     for path, module in modules.items():
+        if path.startswith("compat"):
+            continue
         for name in {*_classes(module), *_aliases(module)}:
             where[name].append(path)
     return [f"{name}: {', '.join(paths)}" for name, paths in sorted(where.items()) if len(paths) > 1]

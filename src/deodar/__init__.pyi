@@ -130,6 +130,7 @@ from deodar.experiments.measures import Measure as Measure
 from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.run import run_trial as run_trial
+from deodar.exporters.exporting import export as export
 from deodar.figures._files import save_figure as save_figure
 from deodar.figures.path import animate_path as animate_path
 from deodar.figures.path import path_figure as path_figure
@@ -168,6 +169,7 @@ from deodar.numerics.windows import Window as Window
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record
+from deodar.recording.mat import load_mat as load_mat
 from deodar.recording.probe import Probe as Probe
 from deodar.registry import register as register
 from deodar.session.session import Session as Session

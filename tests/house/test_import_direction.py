@@ -35,6 +35,8 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "analysis",
         "experiments",
         "importers architectures",
+        "exporters",
+        "compat",
         "figures",
         "papers",
         "server",

@@ -32,6 +32,11 @@ def test_a_name_of_two_classes_or_aliases_is_found_with_its_modules(tmp_path: Pa
     assert measure.doubled(measure.trees(root)) == ["Box: a.py, b.py", "Tree: a.py, b.py"]
 
 
+def test_modules_in_the_words_of_other_tools_may_repeat_names(tmp_path: Path) -> None:
+    root = package(tmp_path, a="class Box: ...", compat="class Box: ...")
+    assert measure.doubled(measure.trees(root)) == []
+
+
 def test_any_is_counted_through_aliases_and_not_in_metadata(tmp_path: Path) -> None:
     root = package(
         tmp_path,

@@ -41,13 +41,13 @@ class DrawnFigure(NamedTuple):
     stem: str
 
 
-def add_record(parser: argparse.ArgumentParser) -> None:
-    """Add the record and its variables."""
+def add_record(parser: argparse.ArgumentParser, more: str = "") -> None:
+    """Add the record and its variables; `more` says what else the first argument may be."""
     parser.add_argument(
         "record",
         type=Path,
         metavar="RECORD",
-        help="a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml)",
+        help=f"a record (.zarr, .nc), a folder that deodar run wrote, or the file of a figure (.toml){more}",
     )
     parser.add_argument(
         "variables",

@@ -1,4 +1,4 @@
-"""The command `deodar export RECORD`."""
+"""The command `deodar export`: a record in another format, a video, or a model for another tool."""
 
 from __future__ import annotations
 
@@ -9,29 +9,43 @@ from collections.abc import Callable
 from pathlib import Path
 
 from deodar import codec
-from deodar.cli import _figure, _options
+from deodar.cli import _figure, _options, _report
 from deodar.cli._bar import Bar
 
-HELP = "write a record in another format, or what deodar plot draws of it as a video"
+HELP = (
+    "write a record in another format, what deodar plot draws of it as a video, or a model as a file of"
+    " another tool (cosivina)"
+)
 EPILOG = """\
 netcdf, csv and zarr hold the values; cedar is a folder with one CSV file for each variable, as cedar's
-recorder writes it. gif, mp4 (extra video) and png (a folder of numbered files) show what deodar plot draws,
-frame by frame: a line moves over panels of time, and snapshots, projections and paths show each time."""
+recorder writes it, and mat a file of MATLAB. gif, mp4 (extra video) and png (a folder of numbered files) show
+what deodar plot draws, frame by frame: a line moves over panels of time, and snapshots, projections and paths
+show each time.
+cosivina writes a model instead of a record, with a report of what was carried, approximated or dropped;
+`deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. Status 1 with --strict if anything
+was not carried."""
 
-DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr", "cedar": ""}
+DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr", "cedar": "", "mat": ".mat"}
+TOOLS = {"cosivina": ".json"}
 VIDEOS = {"gif": ".gif", "mp4": ".mp4", "png": ""}
 """Formats, and the endings of their names; the others are folders."""
+
+DRAWN = ("kind", "at", "axes", "reduce", "place", "value_range", "speed")
+SELECTED = ("trial", "where", "time_range", "every")
+"""Options that select what is drawn, and what of a record is written."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    _figure.add_record(parser)
+    _figure.add_record(parser, "; with --to cosivina a model")
     parser.add_argument(
         "--to",
-        choices=(*DATA, *VIDEOS),
+        choices=(*DATA, *VIDEOS, *TOOLS),
         metavar="FORMAT",
-        help="netcdf, csv, zarr, cedar, gif, mp4 or png (default: given by the ending of --out)",
+        help=(
+            "netcdf, csv, zarr, cedar, mat, gif, mp4, png or cosivina (default: given by the ending of --out)"
+        ),
     )
     parser.add_argument(
         "--out", "-o", type=Path, metavar="PATH", help="file or folder (default: NAME-export-001, ... here)"
@@ -50,6 +64,11 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PIXELS",
         help="of a video: width in pixels (default 960)",
     )
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="of a model: fail, and write nothing, if anything is approximated or dropped",
+    )
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.add_force(parser)
     _options.add_json(parser)
@@ -57,8 +76,13 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Write the file and print its path."""
+    """Write the file and print its path; status 1 if `--strict` prevents that."""
+    _named_first(args)
     format, out = _target(args)
+    if format in TOOLS:
+        return _write_model(args, format, out)
+    if args.strict:
+        args.wrong(f"--strict is about a model, and --to {format} writes a record")
     if format in VIDEOS:
         every, args.every = args.every, None  # of the frames, not of the samples in a panel
         drawn = _figure.drawn(args)
@@ -81,11 +105,11 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
     # start-up time: this brings JAX
     from deodar.recording import places
 
-    endings = DATA | VIDEOS
+    endings = DATA | VIDEOS | TOOLS
     format, out = args.to, args.out
     if format is None:
         ending = "" if out is None else out.suffix.lower()
-        found = [name for name, known in endings.items() if known and known == ending]
+        found = [name for name, known in endings.items() if known and known == ending and name not in TOOLS]
         if not found:
             args.wrong("the format is missing: end --out in .nc, .csv, .zarr, .gif or .mp4, or give --to")
         format = found[0]
@@ -93,10 +117,42 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
         what = f"a name that ends in {endings[format]}" if endings[format] else "the name of a folder"
         args.wrong(f"--to {format} needs {what}, not {out}")
     if out is None:
-        figure = args.record.suffix.lower() == ".toml"
-        name = args.record.stem if figure else _figure.stem(args.record)
+        figure = args.record.suffix.lower() == ".toml" or format in TOOLS
+        name = args.record.stem.rpartition(":")[2] if figure else _figure.stem(args.record)
         out = places.free(Path(), f"{name}-export", endings[format])
     return format, out
+
+
+def _named_first(args: argparse.Namespace) -> None:
+    """Read `export cosivina MODEL` as `export MODEL --to cosivina`."""
+    name = str(args.record)
+    if name in TOOLS and len(args.variables) == 1 and args.to in (None, name) and not args.record.exists():
+        args.to, args.record, args.variables = name, Path(args.variables[0]), []
+
+
+def _write_model(args: argparse.Namespace, format: str, out: Path) -> int:
+    """Write a model as a file of another tool, and show the report."""
+    # start-up time: these bring JAX
+    from deodar.exporters.exporting import exported
+    from deodar.importers.opening import load
+    from deodar.model import output
+
+    if args.variables:
+        args.wrong(f"--to {format} writes a whole model, not {', '.join(args.variables)}")
+    given = [name for name in (*DRAWN, *SELECTED) if getattr(args, name) is not None]
+    if given:
+        args.wrong(f"--{given[0].replace('_', '-')} is about a record, and --to {format} writes a model")
+    output.claim(out, args.force)
+    done = exported(load(args.record), out.name, format)
+    failed = args.strict and not done.report.faithful
+    if not failed:
+        output.write(out, done.content)
+    if args.json:
+        print(codec.text({**done.report.data(), "out": None if failed else str(out)}))
+        return int(failed)
+    _report.show(done.report)
+    print("Nothing was written: --strict." if failed else f"Written: {_options.shown(out)}")
+    return int(failed)
 
 
 def _shown(bar: Bar) -> Callable[[int, int], None]:
@@ -116,11 +172,11 @@ def _shown(bar: Bar) -> Callable[[int, int], None]:
 def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
     """Write the values of the selected part of a record; return the names of its variables."""
     # start-up time: these bring JAX
-    from deodar.recording import cedar, files
+    from deodar.recording import cedar, files, mat
 
     if args.record.suffix.lower() == ".toml":
         args.wrong(f"{args.record} describes a figure, and --to {format} writes the values of a record")
-    for option in ("kind", "at", "axes", "reduce", "place", "value_range", "speed"):
+    for option in DRAWN:
         if getattr(args, option) is not None:
             args.wrong(f"--{option.replace('_', '-')} selects what is drawn, and --to {format} writes values")
     data = files.open_record(args.record)
@@ -128,6 +184,8 @@ def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
     part = _figure.selected(args, data, names)
     if format == "cedar":
         cedar.save(part, out, args.force)
+    elif format == "mat":
+        mat.save(part, out, args.force)
     else:
         files.save_record(part, out, format, args.force)
     return names

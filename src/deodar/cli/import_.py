@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from deodar import codec
-from deodar.cli import _options
+from deodar.cli import _options, _report
 from deodar.model import output
-
-if TYPE_CHECKING:
-    from deodar.importers.report import ImportReport
 
 HELP = (
     "make a document from a file of another tool (cosivina, dnf-composer), with a report of what was carried,"
@@ -61,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
         written = str(args.out) if args.out is not None and not failed else None
         print(codec.text({**done.report.data(), "problems": found, "out": written}))
         return int(failed)
-    _show(done.report)
+    _report.show(done.report)
     for severity, title in (
         ("problem", "It does not run as it is:"),
         ("warning", "It runs, but this is probably a mistake:"),
@@ -73,38 +69,3 @@ def run(args: argparse.Namespace) -> int:
     elif args.out is not None:
         print(f"Written: {_options.shown(args.out)}")
     return int(failed)
-
-
-def _show(report: ImportReport) -> None:
-    # start-up time: only a terminal needs rich
-    from rich import box
-    from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
-
-    console = Console()
-    if not console.is_terminal:  # a pipe has no width
-        console = Console(width=160)
-    console.print(f"{escape(report.file)} ({report.tool}): {report.summary()}.", highlight=False)
-    elements = [line for line in report.lines if line.part == "element"]
-    if elements:
-        table = Table("element", "class", "became", "verdict", box=box.SIMPLE_HEAD)
-        for line in elements:
-            table.add_row(*(escape(text) for text in (line.where, line.what, line.why, line.verdict)))
-        console.print(table)
-    components = [line for line in report.lines if line.part == "component" and line.verdict == "carried"]
-    if components:
-        table = Table("element", "component", "here", box=box.SIMPLE_HEAD)
-        for line in components:
-            table.add_row(*(escape(text) for text in (line.where, line.what, line.why)))
-        console.print(table)
-    losses = [line for line in report.losses if line.part != "element"]
-    if losses:
-        table = Table("where", "what", "verdict", "why", box=box.SIMPLE_HEAD)
-        for line in losses:
-            table.add_row(
-                *(escape(text) for text in (line.where, f"{line.part} {line.what}", line.verdict, line.why))
-            )
-        console.print(table)
-    for bug in report.bugs:
-        console.print(f"Known error of {report.tool}: {escape(bug)}.", highlight=False)

@@ -1,4 +1,4 @@
-"""The report of an import: a verdict for each element, parameter and connection of a file."""
+"""The report of an import or an export: a verdict for each element, parameter and connection."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Line:
     Attributes:
         where: label of the element in the file; "" for the file itself.
         part: `element`, `parameter`, `connection`, `component` (of an element, if the model has it under
-            another name), `key` (of a JSON object, if it occurs more than once) or `file`.
+            another name), `key` (of a JSON object, if it occurs more than once), `group` or `file`.
         what: the class, the name of the parameter or component, the source, or the key.
         verdict: `carried` (the model does what the file states), `approximated`, or `dropped`.
         why: how it was approximated or why it was dropped; for a carried item, its counterpart.

@@ -1,0 +1,60 @@
+"""cosivina in its own words: scripts of its Python port run with another import line.
+
+`from deodar.compat.cosivina import *` takes the place of `from cosivina.nonumba import *`. A `Simulator`
+collects elements and connections as cosivina's JSON files hold them, the importer translates them, and a
+session of deodar runs the result in double precision.
+"""
+
+from __future__ import annotations
+
+from deodar.compat.cosivina import options
+from deodar.compat.cosivina.elements import (
+    BoostStimulus,
+    CustomStimulus,
+    Element,
+    ExpandDimension2D,
+    GaussKernel1D,
+    GaussKernel2D,
+    GaussStimulus1D,
+    GaussStimulus2D,
+    KernelFFT,
+    LateralInteractions1D,
+    LateralInteractions2D,
+    MexicanHatKernel1D,
+    MexicanHatKernel2D,
+    NeuralField,
+    NormalNoise,
+    PointwiseProduct,
+    ScaleInput,
+    SumAllDimensions,
+    SumDimension,
+    SumInputs,
+    Transpose,
+)
+from deodar.compat.cosivina.simulator import Simulator
+
+__all__ = [
+    "BoostStimulus",
+    "CustomStimulus",
+    "Element",
+    "ExpandDimension2D",
+    "GaussKernel1D",
+    "GaussKernel2D",
+    "GaussStimulus1D",
+    "GaussStimulus2D",
+    "KernelFFT",
+    "LateralInteractions1D",
+    "LateralInteractions2D",
+    "MexicanHatKernel1D",
+    "MexicanHatKernel2D",
+    "NeuralField",
+    "NormalNoise",
+    "PointwiseProduct",
+    "ScaleInput",
+    "Simulator",
+    "SumAllDimensions",
+    "SumDimension",
+    "SumInputs",
+    "Transpose",
+    "options",
+]

@@ -1,0 +1,1 @@
+"""Exporters to other tools' files: one folder per tool."""

@@ -1,0 +1,54 @@
+"""Write a model as a file of another tool."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from deodar.errors import UnknownName, did_you_mean
+from deodar.exporters import cosivina
+from deodar.exporters.exported import Exported
+from deodar.importers.report import ImportReport
+from deodar.model import output
+from deodar.model.model import Model
+
+TOOLS = {cosivina.NAME: cosivina}
+"""The exporters by name: each has `NAME`, `ENDING` and `write(model, name) -> Exported`."""
+
+
+def export(model: Model, path: str | Path, to: str = "cosivina", force: bool = False) -> ImportReport:
+    """Write a model as a file of another tool (cosivina); the report lists what was not carried.
+
+    The file computes what the model computes, where the report says `carried`. A model that `load` made of a
+    file of cosivina is the same model after it was exported and loaded again.
+
+    Args:
+        model: the model; it must be free of problems.
+        path: the file to write, `.json` for cosivina.
+        to: name of the tool.
+        force: whether to replace an existing file.
+
+    Returns:
+        The report: a verdict for each element, parameter and connection of the model.
+
+    Raises:
+        UnknownName: deodar has no exporter of that name.
+        ModelError: the model has problems; the error lists all.
+        OutputExists: the file exists, and `force` is not given.
+        OutputError: it cannot be written.
+    """
+    place = output.claim(path, force)
+    made = exported(model, place.name, to)
+    output.write(place, made.content)
+    return made.report
+
+
+def exported(model: Model, name: str, to: str = "cosivina") -> Exported:
+    """Return the content of the file of another tool, and the report, without writing it.
+
+    Raises:
+        UnknownName: deodar has no exporter of that name.
+        ModelError: the model has problems; the error lists all.
+    """
+    if to not in TOOLS:
+        raise UnknownName(f"there is no exporter {to!r}", fix=did_you_mean(to, TOOLS))
+    return TOOLS[to].write(model, name)
