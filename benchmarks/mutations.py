@@ -3,9 +3,9 @@ R]`, by default 2,000, 0 and 10.
 
 Takes documents of deodar (`examples/`) and files of cedar, cosivina and dnf-composer (in the tests, and one
 with every class of cosivina), changes their text or their content at random places, and opens them. Each must
-give a model, or one error that lists problems. Any other exception, an error that says nothing, more than a minute
-of CPU time, or a model that is empty although nothing says so, is printed with what makes it again (`--only
-NAME:NUMBER`); then the status is 1.
+give a model, or one error that lists problems. Any other exception, an error that says nothing, more than a
+minute of CPU time, or a model that is empty although nothing says so, is printed with what makes it again
+(`--only NAME:NUMBER`); then the status is 1.
 """
 
 from __future__ import annotations

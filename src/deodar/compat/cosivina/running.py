@@ -15,9 +15,9 @@ import numpy as np
 from deodar.couplings.delay import Delay
 from deodar.errors import UnknownName, did_you_mean
 from deodar.exporters.cosivina.layout import size
+from deodar.importers._names import FreeNames
+from deodar.importers._piece import Outlet, axes
 from deodar.importers.cosivina import file
-from deodar.importers.cosivina.names import FreeNames
-from deodar.importers.cosivina.piece import Outlet, axes
 from deodar.importers.cosivina.translate import Translation, read
 from deodar.importers.report import ImportReport
 from deodar.model import edit

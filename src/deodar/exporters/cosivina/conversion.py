@@ -10,7 +10,7 @@ import jax
 import numpy as np
 
 from deodar.exporters.cosivina.layout import is_row, size
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers._piece import Dims
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axis
 

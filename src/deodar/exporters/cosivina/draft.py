@@ -12,9 +12,9 @@ from deodar.element import Element
 from deodar.exporters.cosivina.layout import circular, layout, size, widths
 from deodar.exporters.cosivina.part import FilePart, PartInput, PartLink, PartOutput
 from deodar.exporters.cosivina.tracing import Wires
+from deodar.importers._names import FreeNames
+from deodar.importers._piece import Dims
 from deodar.importers.cosivina.classes.kernels import WHOLE
-from deodar.importers.cosivina.names import FreeNames
-from deodar.importers.cosivina.sizes import Dims
 from deodar.importers.report import Line, Verdict
 from deodar.model.document import Document, Entry
 from deodar.model.resolve import Node

@@ -10,7 +10,8 @@ import itertools
 import re
 from collections.abc import Sequence
 
-from deodar.importers.cosivina.sizes import NAMES, Dims
+from deodar.importers._piece import Dims
+from deodar.importers.cosivina.sizes import NAMES
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.convolution import boundaries

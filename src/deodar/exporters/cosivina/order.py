@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 from deodar.exporters.cosivina.layout import size
 from deodar.exporters.cosivina.part import FilePart, ListPlace
-from deodar.importers.cosivina.names import FreeNames
+from deodar.importers._names import FreeNames
 
 
 def ordered(parts: Sequence[FilePart], names: FreeNames) -> list[FilePart]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from typing import Any
 
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers._piece import Dims
 
 ListPlace = tuple[int, int]
 """Preferred position in the list of elements: that of the entry of the document, and a position beside it."""

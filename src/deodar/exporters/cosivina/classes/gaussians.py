@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from deodar.exporters.cosivina.draft import Given
 from deodar.exporters.cosivina.layout import circular, is_row, widths
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers._piece import Dims
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, cell
 from deodar.numerics.convolution import boundaries

@@ -9,8 +9,8 @@ from deodar.elements.sampled_history import SampledHistory
 from deodar.exporters.cosivina.draft import Given
 from deodar.exporters.cosivina.layout import layout
 from deodar.exporters.cosivina.part import FilePart
+from deodar.importers._piece import Dims
 from deodar.importers.cosivina.classes.fields import MOST_COUNTED
-from deodar.importers.cosivina.sizes import Dims
 from deodar.numerics.axes import Axis
 from deodar.numerics.windows import FOR_EVER
 from deodar.parameters import FrozenArray

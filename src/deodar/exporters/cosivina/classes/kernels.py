@@ -20,7 +20,7 @@ from deodar.exporters.cosivina.classes.stimuli import kernel_values
 from deodar.exporters.cosivina.draft import Given, Unwritable
 from deodar.exporters.cosivina.layout import circular, is_row, layout, widths
 from deodar.exporters.cosivina.part import FilePart
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers._piece import Dims
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.numerics import interaction

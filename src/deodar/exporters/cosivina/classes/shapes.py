@@ -10,7 +10,7 @@ from deodar.couplings.resample import Resample
 from deodar.exporters.cosivina.conversion import ConversionStep, NoConversion, conversion
 from deodar.exporters.cosivina.draft import Given, Unwritable
 from deodar.exporters.cosivina.layout import is_row, layout, size
-from deodar.importers.cosivina.sizes import Dims
+from deodar.importers._piece import Dims
 from deodar.model.document import Entry
 
 

@@ -32,8 +32,8 @@ from deodar.exporters.cosivina.layout import (
     widths,
 )
 from deodar.exporters.cosivina.part import FilePart
+from deodar.importers._piece import Dims
 from deodar.importers.cosivina.classes.stimuli import LETTERS
-from deodar.importers.cosivina.sizes import Dims
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.numerics.axes import Axes, cell, shape
