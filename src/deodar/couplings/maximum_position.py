@@ -39,7 +39,7 @@ class MaximumPosition(Coupling):
         no reference
     """
 
-    least: Annotated[float, Live("input", meaning="value that the largest sample must exceed")] = 0.1
+    least: Annotated[float, Live(meaning="value that the largest sample must exceed")] = 0.1
     absent: Annotated[float, Live("axis", meaning="position while there is none")] = 0.0
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}

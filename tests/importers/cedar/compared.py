@@ -7,7 +7,7 @@ import numpy as np
 import deodar as dd
 from deodar.elements.field import Field
 from deodar.importers.cedar import file, translate
-from deodar.importers.cedar.stored import StoredValues
+from deodar.importers.cedar.side_file import SideFile
 from deodar.model import edit
 from deodar.model.paths import display
 
@@ -22,7 +22,7 @@ def silent(doc):
 
 def translated(content, name="file.json"):
     """Return the translation of a file and its model without noise."""
-    parts = translate.StepTranslation(file.parse(content), False, StoredValues(name, lambda _: None))
+    parts = translate.StepTranslation(file.parse(content), False, SideFile(name, lambda _: None))
     model = translate.read(content, name).model
     model.history.commit(silent(model.document))
     return parts, model

@@ -13,7 +13,7 @@ from deodar.element import Element
 from deodar.importers._names import FreeNames
 from deodar.importers.cedar.file import CedarStep
 from deodar.importers.cedar.grid import Counts, SampleGrid
-from deodar.importers.cedar.stored import StoredValues
+from deodar.importers.cedar.side_file import SideFile
 from deodar.importers.cedar.values import StepValues
 from deodar.importers.report import Verdict
 from deodar.numerics.axes import Axis
@@ -92,7 +92,7 @@ class SourceStep:
         names: FreeNames,
         dt: float,
         bugs: bool,
-        stored: StoredValues,
+        stored: SideFile,
     ) -> None:
         self.step = step
         self.label = step.path[-1]

@@ -21,7 +21,7 @@ from deodar.importers.cedar.layout import layout
 from deodar.importers.cedar.links import linked
 from deodar.importers.cedar.piece import Refused, SourceStep, StepPiece
 from deodar.importers.cedar.sequence import sequence
-from deodar.importers.cedar.stored import StoredValues
+from deodar.importers.cedar.side_file import SideFile
 from deodar.importers.cedar.wiring import CedarWiring, StepWire, buffers, halts, step_wires
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
@@ -42,7 +42,7 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
         bugs: whether to reproduce known errors of cedar; none of them can be, and the report lists them.
         beside: reads other files of the folder: stored traces and weights, and linked groups.
     """
-    translation = StepTranslation(file.parse(content, beside), bugs, StoredValues(name, beside))
+    translation = StepTranslation(file.parse(content, beside), bugs, SideFile(name, beside))
     title = PurePath(name).stem
     doc = Document(title or "cedar")
     doc, by = translation.added(doc)
@@ -63,7 +63,7 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
 class StepTranslation:
     """The translations of a file's steps by path, their connections, and the report lines."""
 
-    def __init__(self, architecture: CedarFile, bugs: bool, stored: StoredValues) -> None:
+    def __init__(self, architecture: CedarFile, bugs: bool, stored: SideFile) -> None:
         self.stored = stored
         self.architecture = architecture
         self.bugs = bugs

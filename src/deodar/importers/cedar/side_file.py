@@ -21,7 +21,7 @@ from deodar.importers.report import Line
 ENDING = ".data"
 
 
-class StoredValues:
+class SideFile:
     """The stored arrays of a file by step and slot."""
 
     def __init__(self, name: str, beside: Beside) -> None:
