@@ -68,6 +68,7 @@ SCRIPT = [
     "save_record",
     "load_record",
     "open_record",
+    "load_cedar",
     "load_mat",
     "draw",
     "quote",

@@ -166,6 +166,7 @@ from deodar.numerics.sigmoids.logistic import Logistic as Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear as SemiLinear
 from deodar.numerics.sigmoids.step import Step as Step
 from deodar.numerics.windows import Window as Window
+from deodar.recording.cedar import load_cedar as load_cedar
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record

@@ -1,4 +1,4 @@
-"""Records as cedar's recorder writes them: one CSV file for each variable, one time in each row.
+"""Records as cedar's recorder writes them, in and out: one CSV file for each variable, one time in each row.
 
 The first line is `Mat,CV_32F,ROWS,COLUMNS`, with the number of samples along each axis (`CV_64F` in double
 precision). Each other line begins with the time in seconds, `0.02 s`; the values follow, of which those along
@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray
@@ -23,6 +25,13 @@ from deodar.recording.slabs import slabs
 
 BLOCK = 2**22
 """Number of values that are read at a time."""
+
+AXES = ("x", "y", "z", "w")
+MOST = 1_000_000
+"""Largest number of samples along an axis; more are an error of the file."""
+
+STAMP = re.compile(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?) ?s")
+"""A time as cedar writes it: `0.02 s`."""
 
 LEAST_AXES = 2
 """Number of sizes in the first line, at least; a line of n samples has the sizes n and 1."""
@@ -58,6 +67,81 @@ def save(data: xarray.Dataset, path: str | Path, force: bool = False) -> Path:
 
     places.write_folder(path, fill, force)
     return path
+
+
+def load_cedar(path: str | Path) -> xarray.Dataset:
+    """Read what cedar's recorder wrote: a folder of CSV files, or one of them.
+
+    Variables have the names of the files, of files in folders inside with the folder, `Trial_1/u_activation`.
+    Their dimensions are a time in ms and `AXIS of VARIABLE`, whose axes are x, y, z and w with samples at 0,
+    1, 2, ... Variables that were recorded at the same times share `time`; others have `time of VARIABLE`.
+
+    Args:
+        path: the folder, or a CSV file.
+
+    Raises:
+        RecordError: there is no such file, a folder has none, or a file is not as cedar writes it; the error
+            states the line.
+    """
+    path = Path(path)
+    files = [path] if path.is_file() else sorted(path.rglob("*.csv")) if path.is_dir() else []
+    if not files:
+        raise RecordError("is neither a CSV file nor a folder with some", where=str(path))
+    found: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+    for file in files:
+        name = file.stem if file == path else file.relative_to(path).with_suffix("").as_posix()
+        found[name] = _read(file)
+    shared = Counter(times.tobytes() for times, _ in found.values()).most_common(1)[0][0]
+    variables: dict[str, Any] = {}
+    coords: dict[str, Any] = {}
+    for name, (times, values) in found.items():
+        time = "time" if times.tobytes() == shared else f"time of {name}"
+        dims = [f"{axis} of {name}" for axis, _ in zip(AXES, values.shape[1:], strict=False)]
+        coords[time] = (time, times, {"units": "ms"})
+        coords |= {d: (d, np.arange(n, dtype=float)) for d, n in zip(dims, values.shape[1:], strict=True)}
+        variables[name] = ([time, *dims], values)
+    return xarray.Dataset(variables, coords, {"title": path.stem})
+
+
+def _read(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Return the times in ms and the values of one file, without axes of one sample.
+
+    Raises:
+        RecordError: it is not as cedar writes it.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise RecordError(f"cannot be read: {error}", where=str(path)) from None
+    head = [w.strip() for w in lines[0].split(",")] if lines else []
+    sizes = [int(w) for w in head[2:] if w.isdigit() and 0 < int(w) <= MOST]
+    if len(head) < 3 or head[0] != "Mat" or len(sizes) < len(head) - 2 or len(sizes) > len(AXES):
+        raise RecordError(
+            "is not a file of cedar's recorder",
+            where=str(path),
+            fix="Its first line is Mat,CV_32F,ROWS,COLUMNS",
+        )
+    times: list[float] = []
+    rows: list[list[float]] = []
+    for number, line in enumerate(lines[1:], 2):
+        words = line.split(",")
+        stamp = STAMP.fullmatch(words[0].strip())
+        try:
+            row = [float(w) for w in words[1:]]
+        except ValueError:
+            row = []
+        if stamp is None or len(row) != math.prod(sizes):
+            if number == len(lines):
+                break  # the last line of a recording that was cut off
+            raise RecordError(
+                f"line {number} is not a time in seconds and {math.prod(sizes)} numbers", where=str(path)
+            )
+        times.append(1000 * float(stamp[1]))
+        rows.append(row)
+    kept = [n for n in sizes if n > 1] if len(sizes) <= LEAST_AXES else sizes
+    values = np.array(rows, float).reshape(len(rows), *reversed(sizes))
+    values = np.transpose(values, (0, *range(len(sizes), 0, -1)))
+    return np.array(times), values.reshape(len(rows), *kept)
 
 
 def _seconds(name: str, variable: xarray.DataArray) -> float:
