@@ -176,6 +176,8 @@ def projection(b: SourceStep) -> StepPiece:
     how = b.values.word("compression type", "SUM", tuple(REDUCTIONS))
     mapping = _mapping(b, len(given))
     _require_valid(mapping, len(given), count)
+    if len(given) == 2 and count == 3 and (mapping[0], mapping[1]) == (2, 0) and new[0] != new[1]:
+        b.bug("two dimensions into three with exchanged axes leave slices empty")
     for source, target in mapping.items():
         new[target] = given[source]
     dims = tuple(new)
