@@ -69,6 +69,7 @@ SCRIPT = [
     "load_record",
     "open_record",
     "load_cedar",
+    "load_cedar_experiment",
     "load_mat",
     "draw",
     "quote",

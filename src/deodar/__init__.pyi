@@ -141,6 +141,7 @@ from deodar.figures.snapshot import snapshot as snapshot
 from deodar.figures.snapshots import snapshots as snapshots
 from deodar.figures.space_time import space_time as space_time
 from deodar.figures.time_course import time_course as time_course
+from deodar.importers.cedar.experiment import load_cedar_experiment as load_cedar_experiment
 from deodar.importers.opening import load as load
 from deodar.importers.opening import read as read
 from deodar.importers.presets import apply_preset as apply_preset
