@@ -28,7 +28,7 @@ def test_documents_of_deodar_need_no_importer(tmp_path):
     dd.save(model, tmp_path / "own.json")
     assert tool_of(tmp_path / "own.json") is None
     assert dd.load(tmp_path / "own.json").document == model.document
-    with pytest.raises(DocumentError, match=r"own\.json: is not a file of a tool.*Tools: cosivina"):
+    with pytest.raises(DocumentError, match=r"own\.json: is not a file of a tool.*Tools: cedar, cosivina"):
         read(tmp_path / "own.json")
 
 
@@ -61,6 +61,7 @@ def test_a_new_folder_adds_an_importer(tmp_path, monkeypatch):
     )
     (tmp_path / "file.txt").write_text("OTHER model")
     assert dd.load(tmp_path / "file.txt").name == "model" and set(tools()) == {
+        "cedar",
         "cosivina",
         "dnf-composer",
         "other",

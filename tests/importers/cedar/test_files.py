@@ -172,3 +172,33 @@ def test_a_connection_that_cedar_refuses_states_its_reason_and_stops_the_field(t
     assert any("cedar does not run it" in text for text in why(done, "u"))
     data = dd.simulate(done.model, 100, dt=10, record=["u.activation"], every=100)
     assert np.all(data["u.activation"].values == -2)
+
+
+def test_a_kernel_longer_than_the_field_stops_it_with_fftw_and_its_readers_get_zero(tmp_path):
+    fourier = {"engine": {"type": "cedar.aux.conv.FFTW"}}
+    small = {"name": "small", "dimensionality": "1", "sizes": ["9"], "lateral kernel convolution": fourier}
+    ends = {
+        "name": "node",
+        "dimensionality": "0",
+        "sizes": "",
+        "input noise gain": "0",
+        "lateral kernels": "",
+    }
+    area = {"name": "p", "output dimensionality": "0", "dimension mapping": {}}
+    small["input noise gain"] = "0"
+    steps = Many([(FIELD, small), (FIELD, ends), ("cedar.processing.Projection", area)])
+    wires = [
+        {"source": "small.sigmoided activation", "target": "p.input"},
+        {"source": "p.output", "target": "node.input"},
+    ]
+    done = opened(written({"steps": steps, "connections": wires}), tmp_path)
+    assert any("FFTW raises an exception for a kernel of [15] samples" in text for text in why(done, "small"))
+    data = dd.simulate(done.model, 100, dt=10, record=["small.activation", "node.activation"], every=100)
+    assert np.all(data["small.activation"].values == -5)
+    assert abs(data["node.activation"].values + 5).max() < 0.01
+
+
+def test_files_without_types_of_cedar_are_recognised(tmp_path):
+    done = opened({"required": "", "steps": {"TestModule": {"name": "a"}}}, tmp_path)
+    assert done.report.tool == "cedar"
+    assert why(done, "a") == ["Placeholder: has no counterpart"]

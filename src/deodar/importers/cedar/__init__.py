@@ -6,16 +6,17 @@ from deodar.importers.cedar.translate import read
 
 NAME = "cedar"
 
-KEYS = (b'"steps"', b'"triggers"', b'"groups"', b'"networks"')
+PARTS = (b'"steps"', b'"groups"', b'"networks"')
+OTHERS = (b'"triggers"', b'"connections"', b'"connectors"', b'"meta"', b'"required"', b'"promotedSlots"')
 
 
 def sniff(head: bytes) -> bool:
-    """Return whether a file begins like a cedar architecture: an object of steps, triggers or groups."""
+    """Return whether a file begins like a cedar architecture: an object of steps or groups, with types of
+    cedar or other keys of an architecture.
+    """
     if b'"deodar"' in head[:1000] or b'"simulator"' in head:
         return False
-    return (b'"cedar.' in head and any(key in head for key in KEYS)) or (
-        b'"meta"' in head[:200] and b'"format"' in head[:300] and any(key in head for key in KEYS)
-    )
+    return any(key in head for key in PARTS) and (b'"cedar.' in head or any(key in head for key in OTHERS))
 
 
 __all__ = ["NAME", "read", "sniff"]

@@ -173,6 +173,7 @@ class _FileReader:
     def __init__(self, beside: Beside) -> None:
         self.beside = beside
         self.lines: list[Line] = []
+        self.numbers: dict[tuple[StepPath, str], int] = {}
         self.steps = 0
         self.wires = 0
 
@@ -259,10 +260,10 @@ class _FileReader:
                     "its name contains a dot, where cedar splits it: connections to it do not exist",
                 )
             )
-        taken, again, n = {*group.steps, *group.groups}, name, 1
-        while again in taken:
-            n += 1
-            again = f"{name} ({n})"
+        again, key = name, (group.path, name)
+        while again in group.steps or again in group.groups:
+            self.numbers[key] = self.numbers.get(key, 1) + 1
+            again = f"{name} ({self.numbers[key]})"
         if again != name:
             self.lines.append(
                 Line(

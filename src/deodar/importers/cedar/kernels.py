@@ -39,6 +39,28 @@ def kernels(
     return [made for kind, values in found if (made := kernel(kind, values, axes, border)) is not None]
 
 
+def too_long(found: Sequence[tuple[str, StepValues]], axes: Sequence[Axis], border: CedarBorder) -> str:
+    """Return why FFTW refuses the kernels of a list; "" if it does not.
+
+    It raises an exception for a kernel with more samples than the array along any axis.
+    """
+    if not border.fourier:
+        return ""
+    for kind, values in found:
+        quiet = StepValues(values.body, values.where)
+        if kind.endswith("Gauss"):
+            limit = quiet.number("limit", 5.0, 1e-6, 1e3)
+            sizes = [
+                2 * (math.ceil(limit * s - 1e-9) // 2) + 1
+                for s in quiet.numbers("sigmas", 3.0, len(axes), NARROWEST)
+            ]
+        else:
+            sizes = [int(w) for w in quiet.numbers("widths", 5.0, len(axes), 1.0, 5000.0)]
+        if any(n > a.samples for n, a in zip(sizes, axes, strict=True)):
+            return f"FFTW raises an exception for a kernel of {sizes} samples, more than the array has"
+    return ""
+
+
 def kernel(kind: str, values: StepValues, axes: Sequence[Axis], border: CedarBorder) -> Kernel | None:
     """Return one kernel; None if deodar has none of this type, which is reported."""
     if "dimensionality" in values.body:

@@ -59,7 +59,8 @@ class StepPiece:
         sums: input slots that add up any number of connections.
         wanted: size that an input slot requires, with one number allowed in its place if it is in `sums`.
         needs: input slots without which cedar does not run the step.
-        stops: why cedar does not run the step; "" if it does.
+        stops: why cedar does not run the step, which then gives nothing; "" if it does.
+        fails: why the step ends with an exception when it runs, and gives 0; "" if it does not.
         verdict, why: verdict and reason of the step itself in the report.
     """
 
@@ -71,6 +72,7 @@ class StepPiece:
     wanted: dict[str, Counts] = dc.field(default_factory=dict[str, Counts])
     needs: tuple[str, ...] = ()
     stops: str = ""
+    fails: str = ""
     verdict: Verdict = "carried"
     why: str = ""
 

@@ -78,9 +78,11 @@ class StepTranslation:
         wires += buffers(root)
         self.wires = [w for w in wires if w.source in self.steps and w.target in self.steps]
         self.into: dict[StepPath, list[StepWire]] = {}
+        self.out: dict[StepPath, list[StepWire]] = {}
         feeds: dict[StepPath, list[StepPath]] = {}
         for wire in self.wires:
             self.into.setdefault(wire.target, []).append(wire)
+            self.out.setdefault(wire.source, []).append(wire)
             feeds.setdefault(wire.source, []).append(wire.target)
         self.unknown: set[StepPath] = set()
         self.pieces = self.translated()
@@ -94,18 +96,26 @@ class StepTranslation:
     def translated(self) -> dict[StepPath, StepPiece]:
         """Return the translations: first of steps with a size of their own, then of what follows."""
         found: dict[StepPath, StepPiece] = {}
-        waiting: list[CedarStep] = []
-        for step in self.steps.values():
-            if step.kind in DECLARED or step.kind not in CLASSES:
-                found[step.path] = self.piece(step, found)
-            else:
-                waiting.append(step)
-        while waiting:
-            ready = [s for s in waiting if all(w.source in found for w in self.into.get(s.path, ()))]
-            for step in ready or waiting:
-                why = "" if ready else "its size follows from a loop of steps without a size of their own"
-                found[step.path] = self.piece(step, found, why)
-            waiting = [s for s in waiting if s.path not in found]
+        lacks: dict[StepPath, int] = {}
+        for path, step in self.steps.items():
+            if step.kind in CLASSES and step.kind not in DECLARED:
+                lacks[path] = len(self.into.get(path, ()))
+        ready = [path for path in self.steps if not lacks.get(path)]
+        while len(found) < len(self.steps):
+            if not ready:
+                why = "its size follows from a loop of steps without a size of their own"
+                ready = [next(path for path in self.steps if path not in found)]
+                found[ready[0]] = self.piece(self.steps[ready[0]], found, why)
+            for path in ready:
+                if path not in found:
+                    found[path] = self.piece(self.steps[path], found)
+            after: list[StepPath] = []
+            for wire in (w for path in ready for w in self.out.get(path, ())):
+                if wire.target in lacks and wire.target not in found:
+                    lacks[wire.target] -= 1
+                    if not lacks[wire.target]:
+                        after.append(wire.target)
+            ready = after
         return {path: found[path] for path in self.steps}
 
     def piece(self, step: CedarStep, known: dict[StepPath, StepPiece], stops: str = "") -> StepPiece:
@@ -159,7 +169,7 @@ class StepTranslation:
     def missing(self, step: CedarStep, why: str = "", stops: str = "") -> StepPiece:
         """Return a placeholder for a step, with the slots that connections name."""
         ins = list(dict.fromkeys(w.target_slot for w in self.into.get(step.path, ())))
-        outs = list(dict.fromkeys(w.source_slot for w in self.wires if w.source == step.path))
+        outs = list(dict.fromkeys(w.source_slot for w in self.out.get(step.path, ())))
         return placeholder(step, list(CLASSES), ins, outs, why, stops)
 
     def added(self, doc: Document) -> tuple[Document, dict[StepPath, Entry]]:

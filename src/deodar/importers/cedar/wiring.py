@@ -17,10 +17,13 @@ are those of the iteration before.
 from __future__ import annotations
 
 import dataclasses as dc
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from deodar.couplings.delay import Delay
 from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.placeholder import Placeholder
 from deodar.importers._names import FreeNames
 from deodar.importers.cedar.file import CedarGroup, CedarStep, CedarWire, StepPath, text
 from deodar.importers.cedar.grid import Counts, SampleGrid
@@ -152,7 +155,8 @@ class CedarWiring:
         self.extra: list[tuple[StepPath, Element]] = []
         self.connections: list[PlacedWire] = []
         self.lines: list[Line] = []
-        self.zeros: dict[StepPath, bool] = {}
+        self.early = self.loaded(wires)
+        self.pending: list[tuple[StepPath, int]] = []
         self.copies: dict[tuple[StepPath, int], dict[str, str]] = {}
         self.registers: dict[tuple[StepPath, str, str, int], str] = {}
 
@@ -161,11 +165,12 @@ class CedarWiring:
         for path, piece in self.pieces.items():
             group = path[:-1]
             self.connections += inside(piece, group, {e.name: e.name for e in piece.elements})
-            counts: dict[str, int] = {}
+            counts = Counter[str]()
             for wire in self.into.get(path, ()):
-                k = counts.get(wire.target_slot, 0)
-                counts[wire.target_slot] = k + 1
-                self.connect(wire, k, piece)
+                self.connect(wire, counts[wire.target_slot], piece)
+                counts[wire.target_slot] += 1
+        while self.pending:
+            self.connect_copy(*self.pending.pop())
 
     def connect(self, wire: StepWire, k: int, piece: StepPiece) -> None:
         """Connect the k-th source of a slot, and report it."""
@@ -185,10 +190,6 @@ class CedarWiring:
             given = ", ".join(source.outlets) or "none"
             self.drop(where, wire, f"there is no output slot {wire.source_slot!r}; there is {given}")
             return
-        if wire.source in self.halted:
-            why = f"cedar does not run {wire.source[-1]!r}, and its output stays 0"
-            self.drop(where, wire, why)
-            return
         wanted = piece.wanted.get(wire.target_slot)
         if wanted is not None and not fits(outlet.dims, wanted, wire.target_slot in piece.sums):
             why = f"cedar refuses it: size {list(outlet.dims)} into {list(wanted)}"
@@ -199,7 +200,18 @@ class CedarWiring:
             self.connections.append(
                 ((wire.source[:-1], name), port, (wire.target[:-1], inlet.name), inlet.port, reads)
             )
-        self.lines.append(Line(where, "connection", wire.what, "carried", _way(reads)))
+        halted = wire.source in self.halted
+        why = f"cedar does not run {wire.source[-1]!r}; 0 arrives" if halted else _way(reads)
+        self.lines.append(Line(where, "connection", wire.what, "approximated" if halted else "carried", why))
+
+    def nothing(self, path: StepPath, outlet: OutputSlot) -> str:
+        """Return a boost of 0 in the place of an output of a step that cedar does not run."""
+        key = (path, outlet.name, outlet.port, 0)
+        if key not in self.registers:
+            group = path[:-1]
+            self.registers[key] = self.names[group].new(f"{outlet.name} stopped")
+            self.extra.append((group, Boost(self.registers[key], self.grid.axes(outlet.dims), 0.0)))
+        return self.registers[key]
 
     def drop(self, where: str, wire: StepWire, why: str) -> None:
         """Report a connection that is not made."""
@@ -211,6 +223,8 @@ class CedarWiring:
 
     def tap(self, path: StepPath, outlet: OutputSlot, lag: int) -> tuple[str, str, str]:
         """Return an element, its port, and what to read, for the value of `lag` iterations ago."""
+        if path in self.halted and not isinstance(self.pieces[path].elements[0], Placeholder):
+            return self.nothing(path, outlet), "output", ""
         if path not in self.place:
             return outlet.name, outlet.port, ""
         if outlet.state:
@@ -219,23 +233,27 @@ class CedarWiring:
             return self.register(path, outlet, lag - 1), "output", "previous"
         if not lag:
             return outlet.name, outlet.port, ""
-        if not self.begins_zero(path):
+        if path in self.early:
             return self.copy(path, lag)[outlet.name], outlet.port, ""
         if lag == 1:
             return outlet.name, outlet.port, "delayed"
         return self.register(path, outlet, lag), "output", "previous"
 
-    def begins_zero(self, path: StepPath) -> bool:
-        """Return whether an output is 0 before the first iteration.
-
-        Only what a source feeds, possibly through other steps, is computed when a file is loaded.
+    def loaded(self, wires: Sequence[StepWire]) -> set[StepPath]:
+        """Return the steps of an iteration that are computed when a file is loaded: what sources feed,
+        possibly through other steps. All others begin with 0.
         """
-        if path not in self.zeros:
-            self.zeros[path] = True  # inside a loop
-            self.zeros[path] = path in self.place and (
-                path in self.looped or all(self.begins_zero(w.source) for w in self.into.get(path, ()))
-            )
-        return self.zeros[path]
+        feeds: dict[StepPath, list[StepPath]] = {}
+        for wire in wires:
+            feeds.setdefault(wire.source, []).append(wire.target)
+        found: set[StepPath] = set()
+        stack = [path for path in self.pieces if path not in self.place]
+        while stack:
+            for target in feeds.get(stack.pop(), ()):
+                if target in self.place and target not in self.looped and target not in found:
+                    found.add(target)
+                    stack.append(target)
+        return found
 
     def copy(self, path: StepPath, lag: int) -> dict[str, str]:
         """Return the names of a copy of a step's elements whose values are those of `lag` iterations ago."""
@@ -245,21 +263,24 @@ class CedarWiring:
             self.copies[path, lag] = names
             self.extra += [(group, dc.replace(e, name=names[e.name])) for e in piece.elements]
             self.connections += inside(piece, group, names)
-            counts: dict[str, int] = {}
-            for wire in self.into.get(path, ()):
-                k = counts.get(wire.target_slot, 0)
-                counts[wire.target_slot] = k + 1
-                listed = piece.inlets.get(wire.target_slot, [])
-                k = 0 if wire.target_slot in piece.sums else k
-                outlet = self.pieces[wire.source].outlets.get(wire.source_slot)
-                if outlet is None or k >= len(listed) or wire.source in self.halted:
-                    continue
-                name, port, reads = self.tap(wire.source, outlet, lag + self.lag(wire.source, path))
-                for inlet in listed[k]:
-                    self.connections.append(
-                        ((wire.source[:-1], name), port, (group, names[inlet.name]), inlet.port, reads)
-                    )
+            self.pending.append((path, lag))
         return self.copies[path, lag]
+
+    def connect_copy(self, path: StepPath, lag: int) -> None:
+        """Connect the inputs of a copy, each to its value one iteration earlier than the step's own."""
+        piece, names, counts = self.pieces[path], self.copies[path, lag], Counter[str]()
+        for wire in self.into.get(path, ()):
+            k = 0 if wire.target_slot in piece.sums else counts[wire.target_slot]
+            counts[wire.target_slot] += 1
+            listed = piece.inlets.get(wire.target_slot, [])
+            outlet = self.pieces[wire.source].outlets.get(wire.source_slot)
+            if outlet is None or k >= len(listed):
+                continue
+            name, port, reads = self.tap(wire.source, outlet, lag + self.lag(wire.source, path))
+            self.connections += [
+                ((wire.source[:-1], name), port, (path[:-1], names[inlet.name]), inlet.port, reads)
+                for inlet in listed[k]
+            ]
 
     def register(self, path: StepPath, outlet: OutputSlot, lag: int) -> str:
         """Return the last of a chain of `lag` registers that delay an output by one step each."""
@@ -299,7 +320,7 @@ def halts(
 
     One input that does not fit stops the whole step, and so does one from a step that gives nothing.
     """
-    found: dict[StepPath, str] = {path: piece.stops for path, piece in pieces.items() if piece.stops}
+    found = {path: why for path, piece in pieces.items() if (why := piece.stops or piece.fails)}
     arriving: dict[StepPath, set[str]] = {}
     for wire in wires:
         piece, source = pieces[wire.target], pieces[wire.source]

@@ -16,7 +16,7 @@ from deodar.elements.boost import Boost
 from deodar.importers.cedar.border import border
 from deodar.importers.cedar.file import members, text
 from deodar.importers.cedar.grid import Counts
-from deodar.importers.cedar.kernels import kernels
+from deodar.importers.cedar.kernels import kernels, too_long
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar.importers.cedar.sigmoids import sigmoid
 from deodar.importers.cedar.values import number
@@ -161,7 +161,9 @@ def convolution(b: SourceStep) -> StepPiece:
     if not dims:
         factor = sum(float(getattr(k, "amplitude", 0.0)) for k in made)
         return one_to_one(Gain(factor, name=b.label), "matrix", "result", dims)
-    return one_to_one(Convolve(made, name=b.label), "matrix", "result", dims)
+    piece = one_to_one(Convolve(made, name=b.label), "matrix", "result", dims)
+    piece.fails = too_long(listed, axes, ends)
+    return piece
 
 
 def projection(b: SourceStep) -> StepPiece:

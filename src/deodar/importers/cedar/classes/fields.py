@@ -13,7 +13,7 @@ from deodar.elements.field import Field
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.border import border
-from deodar.importers.cedar.kernels import kernels
+from deodar.importers.cedar.kernels import kernels, too_long
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, SourceStep, StepPiece, sizes
 from deodar.importers.cedar.sigmoids import sigmoid
 from deodar.importers.cedar.values import StepValues
@@ -77,6 +77,7 @@ def neural_field(b: SourceStep) -> StepPiece:
         outlets,
         sums=frozenset({"input"}),
         wanted={"input": dims},
+        fails=too_long(listed, axes, ends),
         why="Field",
     )
 
