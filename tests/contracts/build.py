@@ -46,7 +46,7 @@ def candidates(element: Element) -> list[tuple[dd.Axis, ...]]:
     own: tuple[dd.Axis, ...] = tuple(getattr(element, "axes", ()))
     channel = dd.Axis("channel", 0, 2, 3)
     x, y = dd.Axis("x", 0, 20, samples=21), dd.Axis("y", 0, 8, samples=9)
-    return [(x,), own, (), (x, y), (*own[:1], channel), (*own[:2], channel), (*own, y)]
+    return [(x,), own, (), (x, y), (x, y, channel), (*own[:1], channel), (*own[:2], channel), (*own, y)]
 
 
 def source(name: str, axes: Axes, amplitude: float = 0.8, at: float = 0.4) -> Element:
