@@ -49,7 +49,7 @@ class AxisWeights(Coupling):
     weights: Annotated[ArrayLike, Rebuild(meaning="W, samples of the new axis first")] = FrozenArray(
         np.eye(21)
     )
-    axis: Annotated[Axis, Recompile(meaning="the new axis")] = needed("Axis('x', 0, 20, 21)")
+    axis: Annotated[Axis, Recompile(meaning="the new axis")] = needed("x")
     along: Annotated[str, Recompile(meaning="name of the axis of the input; empty: the same name")] = ""
 
     linear: ClassVar[bool] = True

@@ -27,7 +27,7 @@ class HueSaturationValue(Coupling):
 
     Equation:
         v = \max(r, g, b),\quad c = v - \min(r, g, b),\quad s = c / v
-        h = 60^\circ \cdot \begin{cases} (g - b) / c \bmod 6 & v = r \\ (b - r) / c + 2 & v = g \\
+        h = 60 \cdot \begin{cases} (g - b) / c \bmod 6 & v = r \\ (b - r) / c + 2 & v = g \\
             (r - g) / c + 4 & v = b \end{cases}
 
     Parameters:
