@@ -191,6 +191,8 @@ class Element(Part):
         reads_own_output: output ports that `advance` receives among its inputs, with their values of the same
             step.
         linear: whether the default output is linear in the one input.
+        jumps: whether the output changes in jumps while the input changes gradually; the studio then offers
+            other couplings first.
         convolution: the port that it convolves with its `kernels`, and the port that uses the integral; None:
             no convolution.
         scaled_by: the parameter that is the factor from `input` to `output`; "" if `output` is not a multiple
@@ -210,6 +212,7 @@ class Element(Part):
     stateful: ClassVar[bool] = False
     reads_own_output: ClassVar[tuple[str, ...]] = ()
     linear: ClassVar[bool] = False
+    jumps: ClassVar[bool] = False
     convolution: ClassVar[Convolution | None] = None
     scaled_by: ClassVar[str] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}

@@ -203,7 +203,7 @@ RAW: dict[str, tuple[bytes, tuple[str, ...]]] = {
     "a list": (b"[]", ("is not a deodar document: it holds list",)),
     "a number": (b"5", ("is not a deodar document: it holds int",)),
     "null": (b"null", ("is not a deodar document",)),
-    "of another program": (b'{"meta": {"format": 1}, "steps": {}}', ("has no key 'deodar'",)),
+    "of another program": (b'{"format": 1, "layers": {}}', ("has no key 'deodar'",)),
     "of another version": (
         b'{"deodar": 4, "elements": {}}',
         ("of version 4; this deodar reads versions 1 to 3", "pip install --upgrade"),

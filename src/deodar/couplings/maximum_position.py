@@ -42,6 +42,7 @@ class MaximumPosition(Coupling):
     least: Annotated[float, Live(meaning="value that the largest sample must exceed")] = 0.1
     absent: Annotated[float, Live("axis", meaning="position while there is none")] = 0.0
 
+    jumps: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:

@@ -140,7 +140,7 @@ def _offers(
             note = _converts(cls, values, axes, want)
             if note is not None and (best is None or (best[2] and not note)):
                 arrays = sum(p.form == "array" for p in parameters(cls))
-                rank = (bool(note), cls.stateful, arrays, len(parameters(cls)), cls.__name__)
+                rank = (bool(note), cls.stateful, cls.jumps, arrays, len(parameters(cls)), cls.__name__)
                 best = (cls, values, note, rank)
         if best is not None:
             found.append(best)

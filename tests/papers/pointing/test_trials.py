@@ -59,7 +59,7 @@ def test_the_same_architecture_points_with_another_arm():
 def test_every_live_parameter_is_changed_in_both_directions():
     changed = sensitivity.changes()
     nominal = dd.Session(dd.architectures.pointing(), world=dd.MuJoCo("table"))
-    values = {"satisfaction.tau": 80.0, "tool place.sigma": 0.016, "red.tau": 40.0}
+    values = {"satisfaction.tau": 160.0, "tool place.sigma": 0.016, "red.tau": 40.0}
     paths = {
         path: value for name, one in changed.items() if name.endswith("-20 %") for path, value in one.items()
     }
