@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TypeVar
+from collections.abc import Mapping
+from typing import Any, ClassVar, TypeVar
 
-from deodar.importers._foreign import Foreign
 from deodar.importers.report import Line, Verdict
 from deodar.parameters import show
 
@@ -16,11 +16,25 @@ Default = TypeVar("Default")
 
 
 class ForeignValues:
-    """The parameter values of an element, in the notation of a tool, which a subclass knows."""
+    """The parameter values of an element, in the notation of a tool, which a subclass knows.
 
-    def __init__(self, element: Foreign) -> None:
-        self.element = element
+    Attributes:
+        body: the parameters as the file has them.
+        where: label of the element.
+        lines: report lines by the name of the parameter.
+        ignored: parameters that change nothing of what an element computes, and are not reported.
+    """
+
+    ignored: ClassVar[tuple[str, ...]] = ()
+
+    def __init__(self, body: Mapping[str, Any], where: str) -> None:
+        self.body = body
+        self.where = where
         self.lines: dict[str, Line] = {}
+
+    def key(self, name: str) -> str:
+        """Return the name of a parameter in the report."""
+        return name
 
     def single(self, name: str) -> float | None:
         """Return a value of the file as one number; None if it is something else."""
@@ -28,7 +42,7 @@ class ForeignValues:
 
     def number(self, name: str, default: float, lower: float = -LARGEST, upper: float = LARGEST) -> float:
         """Return one number; a value that is not a number or out of bounds is replaced and reported."""
-        if name not in self.element.values:
+        if name not in self.body:
             return self.absent(name, default)
         value = self.single(name)
         if value is None or not math.isfinite(value):
@@ -46,18 +60,17 @@ class ForeignValues:
 
     def say(self, name: str, verdict: Verdict = "carried", why: str = "") -> None:
         """Add a report line about a parameter."""
-        self.lines[name] = Line(self.element.label, "parameter", name, verdict, why)
+        key = self.key(name)
+        self.lines[key] = Line(self.where, "parameter", key, verdict, why)
 
     def instead(self, name: str, default: Default) -> Default:
         """Return the default of a parameter whose value in the file has no meaning, and report it."""
-        self.say(name, "approximated", f"it is {show(self.element.values[name])}; {show(default)} is used")
+        self.say(name, "approximated", f"it is {show(self.body[name])}; {show(default)} is used")
         return default
 
-    def rest(self) -> list[Line]:
-        """Return all report lines; a parameter that was not read is `dropped`."""
-        for name in self.element.values:
-            if name not in self.lines:
-                self.say(
-                    name, "dropped", f"{self.element.kind} has no such parameter, or it has no effect here"
-                )
+    def rest(self, kind: str) -> list[Line]:
+        """Return all report lines; a parameter of this kind of element that was not read is `dropped`."""
+        for name in self.body:
+            if name not in self.ignored and self.key(name) not in self.lines:
+                self.say(name, "dropped", f"{kind} has no such parameter, or it has no effect here")
         return list(self.lines.values())

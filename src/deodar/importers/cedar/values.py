@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, ClassVar
 
+from deodar.importers._values import LARGEST, ForeignValues
 from deodar.importers.cedar.file import items, members, pairs, text
-from deodar.importers.report import Line, Verdict
+from deodar.importers.report import Line
 from deodar.parameters import show
-
-LARGEST = 1e30
-"""Largest number; larger ones overflow in single precision when they are squared or multiplied."""
 
 UNITS = {"s": 1000.0, "ms": 1.0, "us": 1e-3, "min": 60_000.0, "m": 60_000.0, "h": 3_600_000.0}
 """Units of time, in ms."""
@@ -20,45 +18,34 @@ UNITS = {"s": 1000.0, "ms": 1.0, "us": 1e-3, "min": 60_000.0, "m": 60_000.0, "h"
 NUMBER = re.compile(r"\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-z]*)\s*\Z")
 """A number as cedar writes it: old versions wrote the comma of the system's language."""
 
-IGNORED = ("name", "comments", "threaded", "stored data")
-"""Keys of every step that change nothing of what it computes."""
 
-
-class StepValues:
+class StepValues(ForeignValues):
     """The parameters of a step, or of an object inside it, with the report lines about them.
 
     Attributes:
-        body: the parameters as the file has them.
-        where: label of the step.
-        lines: report lines by the name of the parameter.
+        prefix: path of the object inside the step, before the name of a parameter in the report.
     """
+
+    ignored: ClassVar[tuple[str, ...]] = ("name", "comments", "threaded", "stored data")
 
     def __init__(
         self, body: Mapping[str, Any], where: str, prefix: str = "", lines: dict[str, Line] | None = None
     ) -> None:
-        self.body = body
-        self.where = where
+        super().__init__(body, where)
         self.prefix = prefix
-        self.lines: dict[str, Line] = {} if lines is None else lines
+        if lines is not None:
+            self.lines = lines
+
+    def key(self, name: str) -> str:
+        return f"{self.prefix}{name}"
+
+    def single(self, name: str) -> float | None:
+        return number(self.body[name])
 
     def inside(self, name: str, body: Any = None) -> StepValues:
         """Return the parameters of an object inside this one; its lines are added to these."""
         found = members(self.body.get(name) if body is None else body)
         return StepValues(found, self.where, f"{self.prefix}{name}.", self.lines)
-
-    def number(self, name: str, default: float, lower: float = -LARGEST, upper: float = LARGEST) -> float:
-        """Return one number; a value that is not a number or out of bounds is replaced and reported."""
-        if name not in self.body:
-            return default
-        value = number(self.body[name])
-        if value is None:
-            return self._instead(name, default)
-        inside = min(max(value, lower), upper)
-        if inside != value:
-            self.say(name, "approximated", f"{value:g} is out of range; {inside:g} is used")
-        else:
-            self.say(name)
-        return inside
 
     def time(self, name: str, default: float, lower: float = 0.0) -> float:
         """Return a time in ms; a number without a unit is in ms."""
@@ -66,7 +53,7 @@ class StepValues:
             return default
         value = milliseconds(self.body[name])
         if value is None:
-            return self._instead(name, default)
+            return self.instead(name, default)
         if value < lower:
             self.say(name, "approximated", f"{value:g} ms is out of range; {lower:g} is used")
             return lower
@@ -87,7 +74,7 @@ class StepValues:
             else str(self.body[name]).lower()
         )
         if value not in ("true", "false", "1", "0"):
-            return bool(self._instead(name, default))
+            return bool(self.instead(name, default))
         self.say(name)
         return value in ("true", "1")
 
@@ -97,7 +84,7 @@ class StepValues:
             return default
         value = text(self.body[name])
         if choices and value not in choices:
-            return str(self._instead(name, default))
+            return str(self.instead(name, default))
         self.say(name)
         return value
 
@@ -138,25 +125,6 @@ class StepValues:
         if name in self.body:
             self.say(name)
         return [(kind, self.inside(f"{name}[{k}]", body)) for k, (kind, body) in enumerate(found)]
-
-    def say(self, name: str, verdict: Verdict = "carried", why: str = "") -> None:
-        """Add a report line about a parameter."""
-        full = f"{self.prefix}{name}"
-        self.lines[full] = Line(self.where, "parameter", full, verdict, why)
-
-    def rest(self, kind: str) -> list[Line]:
-        """Return all report lines; a parameter that was not read is `dropped`."""
-        for name in self.body:
-            if name in IGNORED:
-                continue
-            full = f"{self.prefix}{name}"
-            if full not in self.lines:
-                self.say(name, "dropped", f"{kind} has no such parameter, or it has no effect here")
-        return list(self.lines.values())
-
-    def _instead(self, name: str, default: Any) -> Any:
-        self.say(name, "approximated", f"it is {show(self.body[name])}; {show(default)} is used")
-        return default
 
 
 def number(value: Any) -> float | None:

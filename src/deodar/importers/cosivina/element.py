@@ -30,7 +30,7 @@ class SourceElement:
         self.step = simulator.step
         self.element = element
         self.label = element.label
-        self.values = Values(element)
+        self.values = Values(element.values, element.label)
         self.asked = asked
         self.reproduce = bugs
         self.met: list[str] = []

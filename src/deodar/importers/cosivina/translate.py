@@ -98,7 +98,7 @@ class Translation:
                 for name in e.values
             ]
         else:
-            self.said += source.values.rest()
+            self.said += source.values.rest(e.kind)
             self.said += _shown(e, found)
         return found
 

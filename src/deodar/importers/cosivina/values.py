@@ -17,7 +17,7 @@ class Values(ForeignValues):
     """The parameter values of an element."""
 
     def single(self, name: str) -> float | None:
-        found = array(self.element.values[name])
+        found = array(self.body[name])
         return float(found.reshape(-1)[0]) if found is not None and found.size == 1 else None
 
     def width(self, name: str, default: float = 1.0) -> float:
@@ -33,9 +33,9 @@ class Values(ForeignValues):
 
     def numbers(self, name: str, default: Sequence[float], count: int) -> list[float]:
         """Return `count` numbers; a single number is repeated."""
-        if name not in self.element.values:
+        if name not in self.body:
             return list(default)
-        found = array(self.element.values[name])
+        found = array(self.body[name])
         if (
             found is None
             or found.size not in (1, count)
@@ -49,13 +49,13 @@ class Values(ForeignValues):
 
     def size(self, name: str = "size", default: Sequence[int] = (1, 1)) -> tuple[int, ...]:
         """Return a size: whole numbers, at least two of them; one number is a row."""
-        if name in self.element.values:
+        if name in self.body:
             self.say(name)
-        return size(self.element.values.get(name), default)
+        return size(self.body.get(name), default)
 
     def matrix(self, name: str) -> np.ndarray | None:
         """Return an array of finite numbers; None without one."""
-        found = array(self.element.values.get(name))
+        found = array(self.body.get(name))
         if found is None or found.size == 0 or not np.isfinite(found).all() or np.abs(found).max() > LARGEST:
             return None
         self.say(name)
@@ -63,9 +63,9 @@ class Values(ForeignValues):
 
     def periods(self, name: str = "onTimes") -> list[tuple[float, float]]:
         """Return pairs of first and last time; they may be infinite."""
-        if name not in self.element.values:
+        if name not in self.body:
             return []
-        found = array(self.element.values[name])
+        found = array(self.body[name])
         if found is not None and found.size == 0:
             self.say(name)
             return []

@@ -117,7 +117,7 @@ class SimulationTranslation:
         """Return the lines of the parameters; those of an older form keep their names of then."""
         old = self.old[b.label]
         as_now = {legacy.RENAMED[line.what] for line in old if line.verdict == "approximated"}
-        return [*old, *(line for line in b.values.rest() if line.what not in as_now)]
+        return [*old, *(line for line in b.values.rest(b.element.kind) if line.what not in as_now)]
 
     def add_inputs_of_stimuli(self) -> list[Foreign]:
         """Add to each stimulus the sum of its inputs at the start; return the elements without them."""

@@ -20,11 +20,11 @@ class StoredValues(ForeignValues):
     """
 
     def __init__(self, element: Foreign) -> None:
-        super().__init__(element)
+        super().__init__(element.values, element.label)
         self.optional: set[str] = set()
 
     def single(self, name: str) -> float | None:
-        return number(self.element.values[name])
+        return number(self.body[name])
 
     def absent(self, name: str, default: Any) -> Any:
         if name not in self.optional:
@@ -34,15 +34,15 @@ class StoredValues(ForeignValues):
     def width(self, name: str, default: float) -> float:
         """Return the width of a Gaussian; at 0, where dnf-composer computes 0 / 0, a single sample."""
         value = self.number(name, default, 0.0, WIDEST)
-        if value == 0 and name in self.element.values:
+        if value == 0 and name in self.body:
             self.say(name, "approximated", "a width of 0 has no values; a single sample is used")
         return max(value, NARROWEST)
 
     def flag(self, name: str, default: bool) -> bool:
         """Return a switch; older programs may have written it as 0 or 1."""
-        if name not in self.element.values:
+        if name not in self.body:
             return self.absent(name, default)
-        given = self.element.values[name]
+        given = self.body[name]
         if isinstance(given, bool):
             self.say(name)
             return given
@@ -53,20 +53,20 @@ class StoredValues(ForeignValues):
 
     def choice(self, name: str, choices: tuple[str, ...]) -> str:
         """Return one of several words, which the file gives by its number; the first one is the default."""
-        if name not in self.element.values:
+        if name not in self.body:
             return choices[0]
-        given = number(self.element.values[name])
+        given = number(self.body[name])
         if given is None or given not in range(len(choices)):
-            self.say(name, "approximated", f"it is {show(self.element.values[name])}; {choices[0]} is used")
+            self.say(name, "approximated", f"it is {show(self.body[name])}; {choices[0]} is used")
             return choices[0]
         self.say(name, "carried", choices[int(given)])
         return choices[int(given)]
 
     def rows(self, name: str, width: int) -> list[list[float]]:
         """Return rows of `width` numbers; others are reported and left out."""
-        given = self.element.values.get(name)
+        given = self.body.get(name)
         if given is None or given == {}:
-            if name in self.element.values:
+            if name in self.body:
                 self.say(name)
             return []
         entries = cast("list[Any]", given) if isinstance(given, list) else [given]
