@@ -155,7 +155,7 @@ def changed(text: str, rng: random.Random) -> bytes:
     """A file with errors in its text or in its content."""
     way = rng.random()
     if way < 0.15:
-        return _bytes(text.encode(), rng)
+        return scrambled(text.encode(), rng)
     if way < 0.3:
         return _lines(text, rng).encode("utf-8", "surrogatepass")
     data = json.loads(text, object_pairs_hook=numbered)
@@ -179,7 +179,7 @@ def written(data: Any) -> str:
     return re.sub(r"\\u0000\d+", "", json.dumps(data))
 
 
-def _bytes(content: bytes, rng: random.Random) -> bytes:
+def scrambled(content: bytes, rng: random.Random) -> bytes:
     out = bytearray(content)
     for _ in range(rng.randint(1, 8)):
         out[rng.randrange(len(out))] = rng.randrange(256)

@@ -22,7 +22,7 @@ def silent(doc):
 
 def translated(content, name="file.json"):
     """Return the translation of a file and its model without noise."""
-    parts = translate.StepTranslation(file.parse(content), False, SideFile(name, lambda _: None))
+    parts = translate.StepTranslation(file.parse(content), SideFile(name, lambda _: None))
     model = translate.read(content, name).model
     model.history.commit(silent(model.document))
     return parts, model

@@ -4,79 +4,37 @@ from __future__ import annotations
 
 import json
 import random
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import DeodarError, DocumentError
+from deodar.errors import DocumentError
 from deodar.importers.cosivina import file
 from deodar.importers.opening import Imported, read, tools
 from deodar.model.check import problems
+from tests.importers import hostile
 from tests.importers.cosivina.files import SAMPLES, element, text, written
-
-sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
-import mutations
 
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
 
 
 def tried(content: bytes | str) -> Imported | None:
-    """Read a file; return None after its one error. Any other outcome fails the test.
-
-    The model is checked, not compiled.
-    """
-    data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
-    tool = tools()["cosivina"]
-    try:
-        done = tool.read(data, "file.json", random.random() < 0.5)
-    except DeodarError as error:
-        assert str(error) and "Traceback" not in str(error)
-        return None
-    assert done.report.text() and json.dumps(done.report.data())
-    assert done.model.to_json()
-    done.model.check()
-    return done
-
-
-def fuzz(path: Path, count: int, seed: int = 0) -> tuple[int, int]:
-    """Mutate a file, its text and its content; return the numbers of files read and refused."""
-    rng = random.Random(f"{path.stem} {seed}")
-    source = path.read_text()
-    data = json.loads(source)
-    found = [0, 0]
-    for k in range(count):
-        if k % 4 == 0:
-            cut = bytearray(source.encode())
-            for _ in range(rng.randint(1, 8)):
-                cut[rng.randrange(len(cut))] = rng.randrange(256)
-            content: bytes | str = bytes(cut[: rng.randrange(len(cut))] if rng.random() < 0.3 else cut)
-        else:
-            content = json.dumps(mutations.mutated(data, rng, rng.randint(1, 12)))
-        found[tried(content) is None] += 1
-    return found[0], found[1]
+    """Read a file, with or without the known errors of cosivina."""
+    return hostile.tried("cosivina", content, bugs=random.random() < 0.5)
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
 def test_mutations_of_every_sample_open_or_are_refused(path):
-    good, _ = fuzz(path, 100 if path.stat().st_size < 20_000 else 25)
+    count = 100 if path.stat().st_size < 20_000 else 25
+    files = hostile.broken(path.read_text(), random.Random(f"{path.stem} 0"), count)
+    good = sum(tried(content) is not None for content in files)
     assert good > 0
 
 
 def test_mutations_without_problems_run():
-    rng = random.Random(7)
-    data = json.loads(next(p for p in SAMPLES if "OneLayer" in p.stem).read_text())
-    ran = 0
-    for _ in range(8):
-        done = tried(json.dumps(mutations.mutated(data, rng, 4)))
-        if done is not None and not problems(done.model.document):
-            try:
-                dd.simulate(done.model, done.model.document.step * 2, every=done.model.document.step * 2)
-                ran += 1
-            except DeodarError as error:
-                assert str(error)
+    source = next(p for p in SAMPLES if "OneLayer" in p.stem).read_text()
+    ran = hostile.run_without_problems(tried, source, 7, 8)
     assert ran > 3
 
 

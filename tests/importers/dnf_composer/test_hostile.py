@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import random
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,72 +12,40 @@ import pytest
 
 import deodar as dd
 from deodar.elements.placeholder import Placeholder
-from deodar.errors import DeodarError, DocumentError
+from deodar.errors import DocumentError
 from deodar.importers.dnf_composer import element as elements
 from deodar.importers.dnf_composer import file
 from deodar.importers.opening import Imported, read, tools
 from deodar.model.check import problems
+from tests.importers import hostile
 from tests.importers.dnf_composer.files import BELL, FIELD, HERE, KERNEL, SAMPLES, element, text, written
-
-sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
-import mutations
 
 COUPLING = {"scalar": 1.0, "input_x_max": 20, "input_d_x": 1.0}
 
 
 def tried(content: bytes | str) -> Imported | None:
-    """Read a file; return None after its one error. Any other outcome fails the test.
-
-    The model is checked, not compiled.
-    """
-    data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
+    """Read a file, which may ask only for files of weights in its own folder."""
     asked: list[str] = []
 
-    def beside(name: str) -> bytes | None:
+    def beside(name: str) -> None:
         asked.append(name)
-        return None
 
-    try:
-        done = tools()["dnf-composer"].read(data, "file.dnf", False, beside)
-    except DeodarError as error:
-        assert str(error) and "Traceback" not in str(error)
-        return None
-    assert all(name == Path(name).name and name.endswith("_weights.txt") for name in asked)
-    assert done.report.text() and json.dumps(done.report.data())
-    assert done.model.to_json()
-    done.model.check()
+    done = hostile.tried("dnf-composer", content, beside=beside)
+    if done is not None:
+        assert all(name == Path(name).name and name.endswith("_weights.txt") for name in asked)
     return done
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
 def test_a_hundred_mutations_of_every_sample_open_or_are_refused(path):
-    rng = random.Random(path.stem)
-    source = path.read_text()
-    data, good = json.loads(source), 0
-    for k in range(100):
-        if k % 4 == 0:
-            cut = bytearray(source.encode())
-            for _ in range(rng.randint(1, 8)):
-                cut[rng.randrange(len(cut))] = rng.randrange(256)
-            content: bytes | str = bytes(cut[: rng.randrange(len(cut))] if rng.random() < 0.3 else cut)
-        else:
-            content = json.dumps(mutations.mutated(data, rng, rng.randint(1, 12)))
-        good += tried(content) is not None
+    files = hostile.broken(path.read_text(), random.Random(path.stem), 100)
+    good = sum(tried(content) is not None for content in files)
     assert good > 50
 
 
 def test_mutations_without_problems_run():
-    rng = random.Random(3)
-    data = json.loads((HERE / "syn-couplings.dnf").read_text())
-    ran = 0
-    for _ in range(6):
-        done = tried(json.dumps(mutations.mutated(data, rng, 4)))
-        if done is not None and not problems(done.model.document):
-            try:
-                dd.simulate(done.model, done.model.document.step * 2, every=done.model.document.step * 2)
-                ran += 1
-            except DeodarError as error:
-                assert str(error)
+    source = (HERE / "syn-couplings.dnf").read_text()
+    ran = hostile.run_without_problems(tried, source, 3, 6)
     assert ran > 2
 
 

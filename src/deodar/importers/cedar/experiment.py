@@ -18,7 +18,7 @@ from deodar.importers.cedar.file import items, members, pairs, text
 from deodar.importers.cedar.links import KERNEL, NAMES
 from deodar.importers.cedar.values import milliseconds, number
 from deodar.importers.opening import load, require
-from deodar.importers.report import ImportReport, Line
+from deodar.importers.report import ImportReport, Line, Verdict
 from deodar.leaves import get
 from deodar.model.document import Document, Entry
 from deodar.model.files import MOST_BYTES
@@ -110,8 +110,8 @@ class _Reading:
         for k, entry in enumerate(items(body["ActionSequences"])):
             self.sequence(f"sequence {k + 1}", members(entry))
 
-    def say(self, where: str, what: str, verdict: str, why: str = "") -> None:
-        self.lines.append(Line(where, "parameter", what, verdict, why))  # type: ignore[arg-type]
+    def say(self, where: str, what: str, verdict: Verdict, why: str = "") -> None:
+        self.lines.append(Line(where, "parameter", what, verdict, why))
 
     def sequence(self, name: str, body: Mapping[str, Any]) -> None:
         """Read one sequence: its condition gives a time or an event, its actions follow."""

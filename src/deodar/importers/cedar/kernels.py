@@ -50,10 +50,7 @@ def too_long(found: Sequence[tuple[str, StepValues]], axes: Sequence[Axis], bord
         quiet = StepValues(values.body, values.where)
         if kind.endswith("Gauss"):
             limit = quiet.number("limit", 5.0, 1e-6, 1e3)
-            sizes = [
-                2 * (math.ceil(limit * s - 1e-9) // 2) + 1
-                for s in quiet.numbers("sigmas", 3.0, len(axes), NARROWEST)
-            ]
+            sizes = [2 * h + 1 for h in _halves(quiet.numbers("sigmas", 3.0, len(axes), NARROWEST), limit)]
         else:
             sizes = [int(w) for w in quiet.numbers("widths", 5.0, len(axes), 1.0, 5000.0)]
         if any(n > a.samples for n, a in zip(sizes, axes, strict=True)):
@@ -86,7 +83,7 @@ def _gauss(values: StepValues, axes: Sequence[Axis], border: CedarBorder, anchor
     normalize = values.flag("normalize", True)
     shifts = [int(v) for v in values.numbers("shifts", 0.0, count)]
     limit = values.number("limit", 5.0, 1e-6, 1e3)
-    halves = [math.ceil(limit * s - 1e-9) // 2 for s in sigmas]
+    halves = _halves(sigmas, limit)
     if not axes:
         return _on_node(values, amplitude, _factor(sigmas[0], halves[0], shifts[0], normalize), border)
     within = [
@@ -103,6 +100,11 @@ def _gauss(values: StepValues, axes: Sequence[Axis], border: CedarBorder, anchor
         return TruncatedGaussian(amplitude, same, cutoff, least, normalize, boundary=ends)
     inner = TruncatedGaussian(amplitude, same, cutoff, least, normalize)
     return Shifted(inner, [float(v) for v in anchor], boundary=ends)
+
+
+def _halves(sigmas: Sequence[float], limit: float) -> list[int]:
+    """Return the samples on either side of the centre: the whole has ceil(limit sigma), made odd."""
+    return [math.ceil(limit * s - 1e-9) // 2 for s in sigmas]
 
 
 def _reach(sigmas: list[float], halves: list[int], limit: float) -> tuple[float, float | list[float]]:

@@ -93,7 +93,6 @@ class SourceStep:
         grid: SampleGrid,
         names: FreeNames,
         dt: float,
-        bugs: bool,
         stored: SideFile,
     ) -> None:
         self.step = step
@@ -102,7 +101,6 @@ class SourceStep:
         self.ins = ins
         self.grid = grid
         self.dt = dt
-        self.reproduce = bugs
         self.met: list[str] = []
         self._names = names
         self._stored = stored

@@ -22,7 +22,7 @@ from deodar.importers.cedar.links import linked
 from deodar.importers.cedar.piece import Refused, SourceStep, StepPiece
 from deodar.importers.cedar.sequence import sequence
 from deodar.importers.cedar.side_file import SideFile
-from deodar.importers.cedar.wiring import CedarWiring, StepWire, buffers, halts, step_wires
+from deodar.importers.cedar.wiring import CedarWiring, StepWire, buffers, halts, loaded, step_wires
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model import edit
@@ -42,7 +42,7 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
         bugs: whether to reproduce known errors of cedar; none of them can be, and the report lists them.
         beside: reads other files of the folder: stored traces and weights, and linked groups.
     """
-    translation = StepTranslation(file.parse(content, beside), bugs, SideFile(name, beside))
+    translation = StepTranslation(file.parse(content, beside), SideFile(name, beside))
     title = PurePath(name).stem
     doc = Document(title or "cedar")
     doc, by = translation.added(doc)
@@ -63,10 +63,9 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
 class StepTranslation:
     """The translations of a file's steps by path, their connections, and the report lines."""
 
-    def __init__(self, architecture: CedarFile, bugs: bool, stored: SideFile) -> None:
+    def __init__(self, architecture: CedarFile, stored: SideFile) -> None:
         self.stored = stored
         self.architecture = architecture
-        self.bugs = bugs
         self.grid = SampleGrid(architecture)
         self.met: list[str] = []
         self.said: list[Line] = []
@@ -79,17 +78,17 @@ class StepTranslation:
         self.wires = [w for w in wires if w.source in self.steps and w.target in self.steps]
         self.into: dict[StepPath, list[StepWire]] = {}
         self.out: dict[StepPath, list[StepWire]] = {}
-        feeds: dict[StepPath, list[StepPath]] = {}
         for wire in self.wires:
             self.into.setdefault(wire.target, []).append(wire)
             self.out.setdefault(wire.source, []).append(wire)
-            feeds.setdefault(wire.source, []).append(wire.target)
         self.unknown: set[StepPath] = set()
         self.pieces = self.translated()
-        self.halted = halts(self.pieces, self.steps, self.wires)
+        self.halted = halts(self.pieces, self.wires)
         looped = frozenset(path for path, step in self.steps.items() if step.kind in LOOPED)
+        feeds = {path: [w.target for w in wires] for path, wires in self.out.items()}
         place, order_lines = sequence(root, looped, feeds)
-        self.wiring = CedarWiring(self.pieces, self.wires, place, self.halted, self.names, self.grid, looped)
+        early = loaded(self.pieces, place, feeds, looped)
+        self.wiring = CedarWiring(self.pieces, self.into, place, self.halted, self.names, self.grid, early)
         self.wiring.connect_all()
         self.said += [*clock_lines, *wire_lines, *order_lines]
 
@@ -132,9 +131,7 @@ class StepTranslation:
                 unknown = wire.source[-1]
             if outlet is not None and source is not None:
                 ins.setdefault(wire.target_slot, []).append(None if source.stops else outlet.dims)
-        context = SourceStep(
-            step, ins, self.grid, self.names[step.path[:-1]], self.dt, self.bugs, self.stored
-        )
+        context = SourceStep(step, ins, self.grid, self.names[step.path[:-1]], self.dt, self.stored)
         try:
             if stops:
                 raise Refused(stops)

@@ -18,14 +18,14 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from deodar.couplings.delay import Delay
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.placeholder import Placeholder
 from deodar.importers._names import FreeNames
-from deodar.importers.cedar.file import CedarGroup, CedarStep, CedarWire, StepPath, text
+from deodar.importers.cedar.file import CedarGroup, CedarWire, StepPath, text
 from deodar.importers.cedar.grid import Counts, SampleGrid
 from deodar.importers.cedar.piece import OutputSlot, StepPiece
 from deodar.importers.report import Line
@@ -125,37 +125,34 @@ class CedarWiring:
 
     Args:
         pieces: translations of the steps.
-        wires: connections between steps.
+        into: connections into each step.
         place: places of the steps in an iteration, of those that run in it.
         halted: steps that cedar does not run, and why.
         names: names in use in each group.
         grid: axes of the sizes.
-        looped: steps that cedar calls by a trigger.
+        early: steps of an iteration that are computed when a file is loaded; all others begin with 0.
     """
 
     def __init__(
         self,
         pieces: Mapping[StepPath, StepPiece],
-        wires: Sequence[StepWire],
+        into: Mapping[StepPath, Sequence[StepWire]],
         place: Mapping[StepPath, int],
         halted: Mapping[StepPath, str],
         names: Mapping[StepPath, FreeNames],
         grid: SampleGrid,
-        looped: frozenset[StepPath],
+        early: frozenset[StepPath],
     ) -> None:
         self.pieces = pieces
         self.place = place
         self.halted = halted
         self.names = names
         self.grid = grid
-        self.looped = looped
-        self.into: dict[StepPath, list[StepWire]] = {}
-        for wire in wires:
-            self.into.setdefault(wire.target, []).append(wire)
+        self.early = early
+        self.into = into
         self.extra: list[tuple[StepPath, Element]] = []
         self.connections: list[PlacedWire] = []
         self.lines: list[Line] = []
-        self.early = self.loaded(wires)
         self.pending: list[tuple[StepPath, int]] = []
         self.copies: dict[tuple[StepPath, int], dict[str, str]] = {}
         self.registers: dict[tuple[StepPath, str, str, int], str] = {}
@@ -239,22 +236,6 @@ class CedarWiring:
             return outlet.name, outlet.port, "delayed"
         return self.register(path, outlet, lag), "output", "previous"
 
-    def loaded(self, wires: Sequence[StepWire]) -> set[StepPath]:
-        """Return the steps of an iteration that are computed when a file is loaded: what sources feed,
-        possibly through other steps. All others begin with 0.
-        """
-        feeds: dict[StepPath, list[StepPath]] = {}
-        for wire in wires:
-            feeds.setdefault(wire.source, []).append(wire.target)
-        found: set[StepPath] = set()
-        stack = [path for path in self.pieces if path not in self.place]
-        while stack:
-            for target in feeds.get(stack.pop(), ()):
-                if target in self.place and target not in self.looped and target not in found:
-                    found.add(target)
-                    stack.append(target)
-        return found
-
     def copy(self, path: StepPath, lag: int) -> dict[str, str]:
         """Return the names of a copy of a step's elements whose values are those of `lag` iterations ago."""
         if (path, lag) not in self.copies:
@@ -304,6 +285,25 @@ def inside(piece: StepPiece, group: StepPath, names: Mapping[str, str]) -> list[
     ]
 
 
+def loaded(
+    pieces: Iterable[StepPath],
+    place: Mapping[StepPath, int],
+    feeds: Mapping[StepPath, Sequence[StepPath]],
+    looped: frozenset[StepPath],
+) -> frozenset[StepPath]:
+    """Return the steps of an iteration that are computed when a file is loaded: what sources feed, possibly
+    through other steps.
+    """
+    found: set[StepPath] = set()
+    stack = [path for path in pieces if path not in place]
+    while stack:
+        for target in feeds.get(stack.pop(), ()):
+            if target in place and target not in looped and target not in found:
+                found.add(target)
+                stack.append(target)
+    return frozenset(found)
+
+
 def fits(given: Counts, wanted: Counts, adds: bool) -> bool:
     """Return whether cedar accepts a size at a slot; one number is added to all samples."""
     return given == wanted or (adds and not given)
@@ -313,9 +313,7 @@ def _way(reads: str) -> str:
     return f"reads {reads}" if reads in ("current", "delayed") else ""
 
 
-def halts(
-    pieces: Mapping[StepPath, StepPiece], steps: Mapping[StepPath, CedarStep], wires: Sequence[StepWire]
-) -> dict[StepPath, str]:
+def halts(pieces: Mapping[StepPath, StepPiece], wires: Sequence[StepWire]) -> dict[StepPath, str]:
     """Return the steps with a size of their own that cedar does not run, and its reason.
 
     One input that does not fit stops the whole step, and so does one from a step that gives nothing.
@@ -335,6 +333,6 @@ def halts(
             found[wire.target] = f"size {list(outlet.dims)} of {wire.what} into {list(wanted)}"
     for path, piece in pieces.items():
         missing = [slot for slot in piece.needs if slot not in arriving.get(path, set())]
-        if path not in found and missing and piece.wanted:
+        if path not in found and missing:
             found[path] = f"nothing is connected to {missing[0]!r}"
-    return {path: why for path, why in found.items() if path in steps}
+    return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.gain import Gain
@@ -119,31 +119,42 @@ def subtract(b: SourceStep) -> StepPiece:
 
 def multiply(b: SourceStep) -> StepPiece:
     """Translate ComponentMultiply: a chain of products of two."""
-    found = b.all("operands")
-    dims = largest(found, "operands")
+    return chain(b, "operands", "product", lambda name: Product(name=name), "factor", "product {0}")
+
+
+def chain(
+    b: SourceStep, slot: str, out: str, of_two: Callable[[str], Element], port: str, called: str
+) -> StepPiece:
+    """Return a chain of couplings of two inputs, for a slot with any number of them.
+
+    Args:
+        b: the step.
+        slot: its input slot.
+        out: its output slot.
+        of_two: creates the coupling of a name.
+        port: the second port of the coupling.
+        called: name of a coupling before the last, with its number {0}, or the number of its inputs {1}.
+    """
+    found = b.all(slot)
+    dims = largest(found, slot)
     if len(found) == 1:
-        return StepPiece(
-            [Sum(name=b.label)],
-            {"operands": [[InputSlot(b.label)]]},
-            {"product": OutputSlot(b.label, dims)},
-            needs=("operands",),
-            why="Sum of one operand",
-        )
-    # an array comes first, and single numbers as factors
+        return one_to_one(Sum(name=b.label), slot, out, dims, why="Sum, a copy of one input")
+    # an array comes first, and single numbers at the second port
     order = sorted(range(len(found)), key=lambda k: not found[k])
-    names = [b.label if k == len(found) - 2 else b.named(f"product {k + 1}") for k in range(len(found) - 1)]
+    names = [b.named(called.format(k + 1, k + 2)) for k in range(len(found) - 2)] + [b.label]
     inlets: list[list[InputSlot]] = [[] for _ in found]
     inlets[order[0]] = [InputSlot(names[0])]
     for k, name in enumerate(names):
-        inlets[order[k + 1]] = [InputSlot(name, "factor")]
-    products: list[Element] = [Product(name=name) for name in reversed(names)]
+        inlets[order[k + 1]] = [InputSlot(name, port)]
+    elements = [of_two(name) for name in reversed(names)]
+    kind = type(elements[0]).__name__
     return StepPiece(
-        products,
-        {"operands": inlets},
-        {"product": OutputSlot(b.label, dims)},
+        elements,
+        {slot: inlets},
+        {out: OutputSlot(b.label, dims)},
         list(itertools.pairwise(names)),
-        needs=("operands",),
-        why="Product" if len(names) == 1 else f"a chain of {len(names)} products",
+        needs=(slot,),
+        why=kind if len(names) == 1 else f"a chain of {len(names)} {kind}",
     )
 
 

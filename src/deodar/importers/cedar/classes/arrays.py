@@ -196,27 +196,28 @@ def stack(b: SourceStep) -> StepPiece:
         raise Refused(
             f"it stacks matrices of one size, not {', '.join(str(list(d)) for d in given.values())}"
         )
-    dims = (*flat, count)
-    axes = b.axes(dims)
-    one = Axis("layer", 0, 1, 1, periodic=True)
+    return layered(b, [s if s in given else "" for s in slots], "stack", flat)
+
+
+def layered(b: SourceStep, slots: Sequence[str], out: str, flat: Counts) -> StepPiece:
+    """Return matrices as the layers of a volume, one for each slot; a layer without a slot is 0."""
+    count = len(slots)
+    axes, one = b.axes((*flat, count)), Axis("layer", 0, 1, 1, periodic=True)
     piece = StepPiece(
         [Sum(name=b.label)],
-        {},
-        {"stack": OutputSlot(b.label, dims)},
-        needs=tuple(given),
+        outlets={out: OutputSlot(b.label, (*flat, count))},
+        needs=tuple(filter(None, slots)),
         why="AxisWeights, and Sum",
     )
-    renamed = {a.name: c.name for a, c in zip(b.axes(flat), axes[:2], strict=True) if a.name != c.name}
     for k, slot in enumerate(slots):
-        if slot not in given:
-            continue
-        layer, placed = b.named(f"layer {k}"), b.named(f"at {k}")
-        piece.elements += [
-            Project([*axes[:2], one], "sum", renamed, name=layer),
-            AxisWeights(np.eye(count)[:, k : k + 1], axes[2], "layer", name=placed),
-        ]
-        piece.inner += [(layer, placed), (placed, b.label)]
-        piece.inlets[slot] = [[InputSlot(layer)]]
+        if slot:
+            layer, placed = b.named(f"layer {k}"), b.named(f"at {k}")
+            piece.elements += [
+                Project([*axes[:2], one], "sum", name=layer),
+                AxisWeights(np.eye(count)[:, k : k + 1], axes[2], "layer", name=placed),
+            ]
+            piece.inner += [(layer, placed), (placed, b.label)]
+            piece.inlets[slot] = [[InputSlot(layer)]]
     return piece
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
@@ -18,7 +17,7 @@ from deodar.couplings.sum import Sum
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.importers._piece import Unfit
-from deodar.importers.cedar.classes.algebra import largest, one_to_one
+from deodar.importers.cedar.classes.algebra import chain, one_to_one
 from deodar.importers.cedar.file import items, text
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
@@ -114,34 +113,12 @@ def _quotient(b: SourceStep, least: float, slots: tuple[str, str, str], dims: Co
 
 def maximum(b: SourceStep) -> StepPiece:
     """Translate Maximum."""
-    return _extreme(b, "upper", "maximum")
+    return chain(b, "terms", "maximum", lambda name: Envelope("upper", name=name), "other", "of {1}")
 
 
 def minimum(b: SourceStep) -> StepPiece:
     """Translate Minimum."""
-    return _extreme(b, "lower", "minimum")
-
-
-def _extreme(b: SourceStep, side: str, out: str) -> StepPiece:
-    """Return a chain of envelopes of two."""
-    found = b.all("terms")
-    dims = largest(found, "terms")
-    if len(found) == 1:
-        return one_to_one(Sum(name=b.label), "terms", out, dims, why="Sum of one term")
-    order = sorted(range(len(found)), key=lambda k: not found[k])
-    names = [b.label if k == len(found) - 2 else b.named(f"of {k + 2}") for k in range(len(found) - 1)]
-    inlets: list[list[InputSlot]] = [[] for _ in found]
-    inlets[order[0]] = [InputSlot(names[0])]
-    for k, name in enumerate(names):
-        inlets[order[k + 1]] = [InputSlot(name, "other")]
-    return StepPiece(
-        [Envelope(side, name=name) for name in reversed(names)],
-        {"terms": inlets},
-        {out: OutputSlot(b.label, dims)},
-        list(itertools.pairwise(names)),
-        needs=("terms",),
-        why="Envelope",
-    )
+    return chain(b, "terms", "minimum", lambda name: Envelope("lower", name=name), "other", "of {1}")
 
 
 def norm(b: SourceStep) -> StepPiece:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from deodar.elements.placeholder import Placeholder
-from deodar.errors import did_you_mean
+from deodar.importers._missing import unknown
 from deodar.importers.cedar.file import CedarStep
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, StepPiece
@@ -50,10 +50,7 @@ def placeholder(
         why: the reason, if it is not the type.
         stops: why cedar does not run the step.
     """
-    what = why or WORLDS.get(step.short, "")
-    if not what:
-        hint = did_you_mean(step.kind, known)
-        what = "has no counterpart" + (f". {hint}" if hint.startswith("Did") else "")
+    what = why or WORLDS.get(step.short, "") or unknown(step.kind, "has no counterpart", known)
     name = step.path[-1]
     dims: Counts = ()
     return StepPiece(

@@ -21,6 +21,7 @@ from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.elements.sensor import Sensor
 from deodar.importers._piece import Unfit
+from deodar.importers.cedar.classes.arrays import layered
 from deodar.importers.cedar.file import members, pairs, text
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar.numerics.axes import Axis
@@ -152,20 +153,7 @@ def merge(b: SourceStep) -> StepPiece:
     flat = next(iter(found))
     if len(found) > 1 or len(flat) != 2:
         raise Refused(f"its channels have the sizes {', '.join(str(list(d)) for d in found)}")
-    dims = (*flat, 3)
-    axes, one = b.axes(dims), Axis("layer", 0, 1, 1, periodic=True)
-    piece = StepPiece(
-        [Sum(name=b.label)], outlets={"output": OutputSlot(b.label, dims)}, needs=slots, why="Sum"
-    )
-    for k, slot in enumerate(slots):
-        layer, placed = b.named(f"layer {k + 1}"), b.named(f"at {k + 1}")
-        piece.elements += [
-            Project([*axes[:2], one], "sum", name=layer),
-            AxisWeights(np.eye(3)[:, k : k + 1], axes[2], "layer", name=placed),
-        ]
-        piece.inner += [(layer, placed), (placed, b.label)]
-        piece.inlets[slot] = [[InputSlot(layer)]]
-    return piece
+    return layered(b, slots, "output", flat)
 
 
 def threshold(b: SourceStep) -> StepPiece:

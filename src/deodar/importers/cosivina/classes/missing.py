@@ -4,11 +4,10 @@ missing.
 
 from __future__ import annotations
 
-from deodar.elements.placeholder import Placeholder
-from deodar.errors import did_you_mean
 from deodar.importers._axes import SizeLimit
 from deodar.importers._foreign import Foreign
-from deodar.importers._piece import Dims, Inlet, Outlet, Piece, axes
+from deodar.importers._missing import placeholder_piece, unknown
+from deodar.importers._piece import Dims, Piece
 from deodar.importers.cosivina.sizes import Dimensions, output_size
 
 MISSING = {
@@ -27,16 +26,8 @@ MISSING = {
 
 def placeholder(e: Foreign, dimensions: Dimensions, known: list[str], why: str = "") -> Piece:
     """Return a placeholder for an element, with the reason."""
-    what = why or MISSING.get(e.kind, "")
-    if not what:
-        hint = did_you_mean(e.kind, known)
-        what = "an unknown class of cosivina" + (f". {hint}" if hint.startswith("Did") else "")
-    dims = _dims(e, dimensions)
-    element = Placeholder(e.label, axes(dims), f"{e.kind}: {what}")
-    outlets = {"output": Outlet(e.label, dims, state=True)}
-    return Piece(
-        [element], [[Inlet(e.label, dims)]], outlets, sums=True, verdict="dropped", why=f"Placeholder: {what}"
-    )
+    what = why or MISSING.get(e.kind, "") or unknown(e.kind, "an unknown class of cosivina", known)
+    return placeholder_piece(e, _dims(e, dimensions), what)
 
 
 def _dims(e: Foreign, dimensions: Dimensions) -> Dims:
