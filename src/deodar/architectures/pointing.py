@@ -66,8 +66,7 @@ reach while the tool passes the peak.
 """
 
 INHIBITION = 30.0
-"""Global inhibition of the perceptual field: with 26 two small, equal objects kept two weak peaks for 2 s in
-one of a hundred scenes.
+"""Global inhibition of the perceptual field: with less of it two small, equal objects may keep two peaks.
 """
 
 NODE_TAU, NODE_STEEP = 50.0, 20.0
