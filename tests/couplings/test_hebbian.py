@@ -243,3 +243,36 @@ def test_weights_of_another_shape_are_refused_with_both_shapes():
 def test_an_unknown_rule_names_the_others():
     with pytest.raises(ParameterError, match=r"'instarr'; expected one of .*instar.*Did you mean 'instar'"):
         Hebbian([Z], "instarr")
+
+
+WIDE, TALL = dd.Axis("wide", 0, 10, 21), dd.Axis("tall", 0, 8, 17)
+
+
+@pytest.mark.parametrize("rule", ["association", "outstar", "oja"])
+def test_a_map_that_learns_apart_is_the_one_of_its_teacher(rule: str) -> None:
+    """It has the weights of the coupling that reads what it learns, whatever it reads itself."""
+    m = dd.Model("two readers", dt=1.0)
+    seen = m.add(dd.GaussianStimulus("seen", [WIDE], center=3, sigma=1, amplitude=1))
+    other = m.add(dd.GaussianStimulus("other", [WIDE], center=7, sigma=1, amplitude=1))
+    target = m.add(dd.GaussianStimulus("target", [TALL], center=4, sigma=1, amplitude=1))
+    settings = {"rule": rule, "rate": 0.02, "random": True, "initial": 0.2, "threshold": 0.3}
+    one = m.add(Hebbian([TALL], name="one", **settings))
+    two = m.add(Hebbian([TALL], name="two", apart=True, **settings))
+    seen >> one
+    other >> two
+    seen >> two["pre"]
+    for coupling in (one, two):
+        target >> coupling["post"]
+    data = dd.simulate(m, 60, record=["one.weights", "two.weights", "one", "two"], every=60)
+    first, second = (data[f"{name}.weights"].values for name in ("one", "two"))
+    assert np.array_equal(first, second) and np.ptp(first[-1] - first[0]) > 0.1
+    here, there = data["one.output"].values[-1], data["two.output"].values[-1]
+    assert here.max() > 2 * there.max(), "the second one reads where nothing was learned"
+
+
+def test_what_is_learned_apart_needs_the_axes_of_the_input() -> None:
+    m = dd.Model("wrong")
+    coupling = m.add(Hebbian([TALL], apart=True, name="w"))
+    m.add(dd.GaussianStimulus("a", [WIDE], center=3, sigma=1)) >> coupling
+    m.add(dd.GaussianStimulus("b", [TALL], center=3, sigma=1)) >> coupling["pre"]
+    assert any("are not those that arrive at pre" in problem.what for problem in m.check())

@@ -13,7 +13,7 @@ from jax import Array
 from deodar.declarations import needed
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import plasticity
-from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
+from deodar.numerics.axes import Axes, Axis, cell, describe, shape, wrong_shape
 from deodar.numerics.patches import random_weights
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, Live, Rebuild, Recompile
@@ -58,6 +58,9 @@ class Hebbian(Coupling):
         saturation: upper bound of weights that change; 0: none.
         threshold: value that active samples of input and post exceed; >= 0.
         gated: whether the element has a port `gate`; without it the gate is 1.
+        apart: whether the element has a port `pre`, which takes the place of the input in learning; without
+            it the input is learned. Two couplings with the same `pre`, `post`, gate and start have the same
+            weights, and can be read at two places at once.
         initial: weights at the start; the largest one if they are random.
         random: whether weights at the start are uniform between 0 and `initial`, instead of `initial` itself.
         share: share of the patches that are connected at the start; the other weights are 0. From 0 to 1.
@@ -71,6 +74,7 @@ class Hebbian(Coupling):
         input: a, any axes.
         post: b, over `axes`: the activity to associate with the input.
         gate: reward, or a time window of learning; one number, only if `gated`. Values below 0 count as 0.
+        pre: the activity x of the learning rule, over the axes of the input; only if `apart`.
         output: y, over `axes`; computed from the input of the same step, with the weights learned so far.
         weights: W, over `axes`, then the axes of the input.
 
@@ -94,6 +98,7 @@ class Hebbian(Coupling):
     saturation: Annotated[float, Live(lower=0, meaning="upper bound of weights that change; 0: none")] = 0.0
     threshold: Annotated[float, Live(lower=0, meaning="value that input and post must exceed to count")] = 0.5
     gated: Annotated[bool, Recompile(meaning="whether learning waits for the gate")] = False
+    apart: Annotated[bool, Recompile(meaning="whether learning reads a port of its own")] = False
     initial: Annotated[float, Live(meaning="weights at the start, or the largest of them")] = 0.0
     random: Annotated[bool, Recompile(meaning="whether weights at the start are random")] = False
     share: Annotated[float, Live(lower=0, upper=1, meaning="share of patches connected at the start")] = 1.0
@@ -103,7 +108,7 @@ class Hebbian(Coupling):
     seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of the weights at the start")] = 0
     start: Annotated[ArrayLike | None, Rebuild(meaning="weights at the start, target samples first")] = None
 
-    inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate")
+    inputs: ClassVar[tuple[str, ...]] = ("input", "post", "gate", "pre")
     stateful: ClassVar[bool] = True
     reads_own_output: ClassVar[tuple[str, ...]] = ("output",)
 
@@ -111,7 +116,7 @@ class Hebbian(Coupling):
         return sign_of(self.initial, self.start)
 
     def ports(self) -> tuple[str, ...]:
-        return self.inputs if self.gated else self.inputs[:2]
+        return ("input", "post", *(("gate",) if self.gated else ()), *(("pre",) if self.apart else ()))
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return {"post": tuple(self.axes), "gate": ()}.get(port, arriving)
@@ -119,9 +124,11 @@ class Hebbian(Coupling):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes), "weights": (*self.axes, *ins["input"])}
 
-    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[tuple[str, str]]:
+    def validate_axes(self, ins: Mapping[str, Axes]) -> Iterator[str | tuple[str, str]]:
         needed = shape(self.axes) + shape(ins["input"])
         yield from wrong_shape("start", self.start, needed, "target and source have")
+        if self.apart and ins["pre"] != ins["input"]:
+            yield f"its axes are not those that arrive at pre, {describe(ins['pre'])}"
 
     def init(self, at: Setting) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
@@ -154,7 +161,7 @@ class Hebbian(Coupling):
         step = time.dt * jnp.maximum(inputs["gate"], 0.0) if self.gated else jnp.asarray(time.dt, at.dtype)
         step = plasticity.after(step, inputs["output"])
         most = jnp.where(self.saturation > 0, self.saturation, jnp.inf).astype(at.dtype)
-        x, z = self._active(inputs["input"]), self._active(inputs["post"])
+        x, z = self._active(inputs["pre" if self.apart else "input"]), self._active(inputs["post"])
         new = plasticity.learn(
             self.rule, self._matrix(w, pre), x, z, self.rate * step, self.decay * step, most
         )
