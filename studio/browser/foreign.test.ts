@@ -45,7 +45,7 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
-const report = () => studio.page.getByRole("dialog", { name: "Notes" });
+const notes = () => studio.page.getByRole("dialog", { name: "Notes" });
 const took = () => studio.page.getByRole("dialog", { name: "What did not match" });
 
 /** Find an element by its name and select it. */
@@ -81,13 +81,24 @@ test("a file of another tool opens by its name, and the report lists what was im
   expect(observer.document?.file, "it is never written over").toBe("");
 
   await button(page, "Show the report").click();
-  await report().getByText("- cos -> cos: ScaleInput, carried (Gain)").waitFor();
+  const report = panel(page, "Import report");
+  await report.getByText("all 1461 items were carried").waitFor();
+  const options = report.getByRole("option");
+  expect(await options.count()).toBe(800);
+  await button(page, "Show 661 more lines").click();
+  await expect.poll(() => options.count()).toBe(1461);
+  await report.getByRole("textbox", { name: "Find in the report" }).fill("cos -> cos ScaleInput");
+  const group = report.getByRole("group", { name: "cos -> cos", exact: true });
+  await group.getByRole("option").filter({ hasText: "element ScaleInput" }).click();
+  await panel(page, "Inspector").getByRole("heading", { name: "cos -> cos", exact: true }).waitFor();
   await shot(page, "foreign-report");
-  await page.keyboard.press("Escape");
-  await report().waitFor({ state: "detached" });
   expect(await said.count(), "the offer was taken").toBe(0);
+  expect(await page.getByRole("button", { name: /^Import report/ }).count(), "nothing was lost").toBe(0);
+  const tab = page.getByRole("tab", { name: "Import report" });
+  await tab.focus();
+  await tab.press("Delete");
   await file(page, "Notes");
-  await report().getByText("carried, 0 approximated, 0 dropped").waitFor();
+  await notes().getByText("carried, 0 approximated, 0 dropped").waitFor();
   await page.keyboard.press("Escape");
 });
 

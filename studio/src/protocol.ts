@@ -610,6 +610,17 @@ export type GeneralView = {
   notes: string;
 };
 
+// The report on the file of another tool that the document was made from; an empty `tool`: none.
+//
+// The lines of a label follow each other. `bugs` are known errors of the tool that the file touches.
+export type ImportReportView = {
+  type: "import_report";
+  tool: string;
+  file: string;
+  lines: ReportLineView[];
+  bugs: string[];
+};
+
 // Insert an existing element into a connection, by its default ports; `positions` are those of boxes.
 export type InsertElement = {
   type: "insert";
@@ -1136,6 +1147,21 @@ export type RepeatTrial = {
   trial: number;
 };
 
+// An item of an imported file: an element, parameter or connection, and what became of it.
+//
+// `where` is the label of the element in the file, and `element` the id that it got in the document, also if
+// it was renamed or removed since; both are empty for what belongs to no element. `part` is the sort of the
+// item, and `what` its name. `why` states how it was approximated or why it was dropped; for a carried item,
+// its counterpart.
+export type ReportLineView = {
+  where: string;
+  element: string;
+  part: string;
+  what: string;
+  verdict: "approximated" | "carried" | "dropped";
+  why: string;
+};
+
 // Reset state, time and noise to the start, with another seed if one is given. Parameters stay.
 export type ResetRun = {
   type: "reset";
@@ -1419,6 +1445,7 @@ export type ToPage =
   | Welcome
   | Gallery
   | Opened
+  | ImportReportView
   | FileProblems
   | SavedFiles
   | Comparison

@@ -12,6 +12,7 @@ import type {
   ElementView,
   ExperimentView,
   Gallery,
+  ImportReportView,
   SavedFiles,
   Kind,
   ListedProblem,
@@ -52,6 +53,8 @@ export type Studio = {
   trials: { run: number; rows: TrialRow[] };
   // The snapshots and presets of the open document, as listed last.
   savedFiles: SavedFiles | null;
+  // The report on the file of another tool that the open document was made from; null: there is none.
+  report: ImportReportView | null;
   selected: string[];
   notices: Notice[];
   take: (message: ToPage) => void;
@@ -81,6 +84,7 @@ export const useStudio = create<Studio>((set) => ({
   experiment: null,
   trials: { run: 0, rows: [] },
   savedFiles: null,
+  report: null,
   selected: [],
   notices: [],
   take: (message) => set((state) => taken(state, message)),
@@ -142,6 +146,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { clock: message };
     case "saved_files":
       return { savedFiles: message };
+    case "import_report":
+      return { report: message.tool === "" ? null : message };
     case "comparison":
       return { comparison: message.path === "" ? null : message };
     case "costs":

@@ -6,6 +6,7 @@ import json
 
 import deodar as dd
 from deodar.cli import main
+from deodar.importers import stored_report
 from tests.importers.cosivina.files import SAMPLES, element, written
 
 SAMPLE = next(p for p in SAMPLES if "OneLayer" in p.stem)
@@ -22,7 +23,10 @@ def test_a_document_is_written_and_the_report_shown(tmp_path, capsys):
         and "0 dropped" in shown
         and "Written:" in shown
     )
-    assert dd.load(out).document == dd.load(SAMPLE).document
+    made, report = dd.load(out).document, dd.read(SAMPLE).report
+    assert stored_report.without_report(made) == dd.load(SAMPLE).document
+    kept = stored_report.report_of(made)
+    assert kept is not None and kept.summary() == report.summary()
     assert main(["import", str(SAMPLE), "-o", str(out)]) == 1
     assert "exists already" in capsys.readouterr().err
     assert main(["import", str(SAMPLE), "-o", str(out), "--force"]) == 0
@@ -40,6 +44,8 @@ def test_json_contains_every_line_of_the_report(capsys):
     assert data["tool"] == "cosivina" and data["counts"]["dropped"] == 0 and not data["problems"]
     assert {"where", "part", "what", "verdict", "why"} == set(data["lines"][0])
     assert sum(data["counts"].values()) == len(data["lines"])
+    found = {line["where"]: line["element"] for line in data["lines"] if line["part"] == "element"}
+    assert found["field u"] == dd.load(SAMPLE)["field u"].id
 
 
 def test_strict_fails_on_anything_that_is_not_carried(tmp_path, capsys):

@@ -59,6 +59,58 @@ def test_a_file_of_another_tool_opens_runs_and_accepts_a_preset(tmp_path: Path) 
     assert '"deodar"' in (tmp_path / "own.json").read_text()
 
 
+def test_the_report_of_an_import_is_a_message_and_is_saved_with_the_document(tmp_path: Path) -> None:
+    written(tmp_path, parts(h="high", colour="red"), name="simulator.json")
+
+    def losses(p: Page) -> list[tuple[str, str, str]]:
+        lines = p.said["import_report"]["lines"]
+        return [(x["element"], x["what"], x["verdict"]) for x in lines if x["verdict"] != "carried"]
+
+    async def scene(p: Page) -> None:
+        assert p.said["import_report"] == {
+            "type": "import_report",
+            "tool": "",
+            "file": "",
+            "lines": [],
+            "bugs": [],
+        }
+        await p.open("open_file", path="simulator.json")
+        found, u = p.said["import_report"], p.element("u")
+        assert (found["tool"], found["file"]) == ("cosivina", "simulator.json")
+        assert losses(p) == [(u, "h", "approximated"), (u, "colour", "dropped")]
+        assert {x["element"] for x in found["lines"]} == {"", u, p.element("k")}
+        assert "import_report" not in p.document["layout"]
+        script = (await p.do("export_script"))["text"]
+        assert "import_report" not in script and "Imported from" in script
+        sent = [m["type"] for m in p.all].count("import_report")
+        await p.do("rename", element=u, name="v")
+        await p.do("arrange", layout={"pins": []}, undoable=True)
+        assert [m["type"] for m in p.all].count("import_report") == sent, "it is sent once"
+        await p.do("save", path="own.json")
+        await p.do("close")
+        assert p.said["import_report"]["tool"] == ""
+        await p.open("open_file", path="own.json")
+        assert losses(p) == [(p.element("v"), "h", "approximated"), (p.element("v"), "colour", "dropped")]
+        assert p.said["import_report"] == found
+
+    with studio(tmp_path) as address:
+        play(address, scene)
+
+
+def test_the_report_is_removed_from_the_document_as_one_step_of_undo(tmp_path: Path) -> None:
+    async def scene(p: Page) -> None:
+        await p.open("open_text", name="simulator.json", text=text(parts(colour="red")))
+        before = p.said["import_report"]
+        assert before["lines"]
+        await p.do("arrange", layout={"import_report": None}, undoable=True)
+        assert p.said["import_report"]["lines"] == [] and p.document["unsaved"]
+        await p.do("undo")
+        assert p.said["import_report"] == before and not p.document["unsaved"]
+
+    with studio(tmp_path) as address:
+        play(address, scene)
+
+
 def test_a_file_of_another_tool_may_be_dropped(tmp_path: Path) -> None:
     async def scene(p: Page) -> None:
         opened = await p.do("open_text", name="simulator.json", text=text(parts()))

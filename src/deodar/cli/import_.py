@@ -15,7 +15,8 @@ HELP = (
 )
 EPILOG = """\
 Known errors of the other tool are corrected, and listed; with --bugs they are reproduced. The report stays
-in the notes of the document. Status 1 with --strict if anything was not carried."""
+in the document: as text in its notes, and line by line for the panel Import report of the studio. Status 1
+with --strict if anything was not carried."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,21 +44,23 @@ def run(args: argparse.Namespace) -> int:
     """Import a file; status 1 if it cannot be read, or with `--strict` if a part was lost."""
     # start-up time: these bring JAX
     from deodar.importers.opening import read
-    from deodar.model.model import save
+    from deodar.importers.stored_report import located, with_report
+    from deodar.model.model import Model, save
 
     if args.out is not None:
         output.claim(args.out, args.force)
     done = read(args.file, args.bugs)
-    failed = args.strict and not done.report.faithful
+    doc, report = done.model.document, done.report
+    failed = args.strict and not report.faithful
     problems = done.model.check()
     if args.out is not None and not failed:
-        save(done.model, args.out, args.force)
+        save(Model(document=with_report(doc, report)), args.out, args.force)
     if args.json:
         found = [{"severity": p.severity, "where": p.where, "what": p.what, "fix": p.fix} for p in problems]
         written = str(args.out) if args.out is not None and not failed else None
-        print(codec.text({**done.report.data(), "problems": found, "out": written}))
+        print(codec.text({**located(report, doc).data(), "problems": found, "out": written}))
         return int(failed)
-    _report.show(done.report)
+    _report.show(report)
     for severity, title in (
         ("problem", "It does not run as it is:"),
         ("warning", "It runs, but this is probably a mistake:"),

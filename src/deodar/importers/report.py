@@ -24,6 +24,8 @@ class Line:
         what: the class, the name of the parameter or component, the source, or the key.
         verdict: `carried` (the model does what the file states), `approximated`, or `dropped`.
         why: how it was approximated or why it was dropped; for a carried item, its counterpart.
+        element: id of the element of the model that the item belongs to; empty if that is not known, or if
+            there is none.
     """
 
     where: str
@@ -31,10 +33,16 @@ class Line:
     what: str
     verdict: Verdict
     why: str = ""
+    element: str = ""
 
     def __str__(self) -> str:
         place = f"{self.where}: " if self.where else ""
         return f"{place}{self.part} {self.what}: {self.verdict}{f', {self.why}' if self.why else ''}"
+
+    def data(self) -> JsonObject:
+        """Return plain data, for JSON; without `element` if it is empty."""
+        found = dc.asdict(self)
+        return found if self.element else {key: value for key, value in found.items() if key != "element"}
 
 
 @dc.dataclass(frozen=True)
@@ -107,5 +115,5 @@ class ImportReport:
             "file": self.file,
             "counts": counts,
             "bugs": list(self.bugs),
-            "lines": [dc.asdict(line) for line in self.lines],
+            "lines": [line.data() for line in self.lines],
         }

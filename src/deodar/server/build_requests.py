@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
+from deodar.importers import stored_report
 from deodar.model import building, clipboard, edit, files, find, fits, script, starting
 from deodar.model.building import Around, BoxPosition, EndPorts
 from deodar.model.document import Document
@@ -130,7 +131,8 @@ async def _copy(hub: Hub, page: Page, m: to_server.CopyElements) -> Answer:
 
 @handles(to_server.ExportScript)
 async def _export_script(hub: Hub, page: Page, m: to_server.ExportScript) -> Answer:
-    doc, path = hub.project.document(), hub.project.file
+    # a script says how the model is built, not what was imported
+    doc, path = stored_report.without_report(hub.project.document()), hub.project.file
     written = await asyncio.to_thread(script.script, doc, "" if path is None else path.name)
     return Answer(request=m.request, text=written)
 

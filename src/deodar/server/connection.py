@@ -36,6 +36,7 @@ from deodar.server.to_page import (
     Fits,
     Folder,
     Gallery,
+    ImportReportView,
     ListedProblem,
     RunClock,
     SavedFiles,
@@ -290,6 +291,7 @@ class PageConnection:
             self._new("file_problems", FileProblems(file=file, problems=view.problems(problems)), out)
         if project.checker.found is not None:
             self._new("checked", project.checker.found, out)
+        self._new("import_report", project.report(), out)
         self._new("costs", self._hub.costs(), out)
         self._new("comparison", project.compared(), out)
         self._new("saved_files", project.saved_files, out)
@@ -315,6 +317,7 @@ class PageConnection:
         what: str,
         message: Gallery
         | SavedFiles
+        | ImportReportView
         | FileProblems
         | Checked
         | RunClock

@@ -13,7 +13,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
-from deodar.importers import examples, opening
+from deodar.importers import examples, opening, stored_report
+from deodar.importers.imported import Imported
 from deodar.model import files, package
 from deodar.model.document import Document
 from deodar.model.files import MOST_BYTES
@@ -48,9 +49,12 @@ def read_package(content: str, title: str) -> Document:
 
 
 def load(space: Workspace, place: Path) -> Document:
-    """Read a document of deodar or a file of another tool, at a path that the workspace returned."""
+    """Read a document of deodar or a file of another tool, at a path that the workspace returned.
+
+    The document of an imported file contains the report (`stored_report`).
+    """
     if _is_example(space, place):
-        return opening.load(place).document
+        return opening.load(place).document if opening.tool_of(place) is None else _kept(opening.read(place))
     try:
         with space.folder(place) as folder:
             return _document(_content(folder, place.name), place.name, lambda name: _beside(folder, name))
@@ -93,7 +97,12 @@ def _document(content: bytes, title: str, beside: Callable[[str], bytes | None])
     tool = opening.tool_for(content)
     if tool is None:
         return files.loads(content, beside)
-    return tool.read(content, title, False, beside).model.document
+    return _kept(tool.read(content, title, False, beside))
+
+
+def _kept(done: Imported) -> Document:
+    """Return an imported document with its report."""
+    return stored_report.with_report(done.model.document, done.report)
 
 
 def _content(folder: OpenFolder, name: str) -> bytes:

@@ -14,6 +14,7 @@ import msgspec
 from deodar.declarations import Cost
 from deodar.element import Element
 from deodar.errors import Problem
+from deodar.importers import stored_report
 from deodar.model import files, find
 from deodar.model.check import structure
 from deodar.model.document import Connection, Document, Entry
@@ -161,7 +162,7 @@ def patch(
         return None
     changed = [e for i, e in after.elements.items() if before.elements.get(i) != e]
     moved = {e.id: _path(e) for e in changed if _has_moved(before.elements.get(e.id), e)}
-    layout, boxes = _layout(old.layout, new.layout)
+    layout, boxes = _layout(shown_layout(old), shown_layout(new))
     return Edited(
         version=status.version,
         elements=[e for e in changed if e.id not in moved],
@@ -233,6 +234,11 @@ def _general(old: Document, new: Document) -> GeneralView | None:
     if all(getattr(old, key) == getattr(new, key) for key in ("name", "time_unit", "dt", "notes")):
         return None
     return GeneralView(title=new.name, time_unit=new.time_unit, dt=new.dt, notes=new.notes)
+
+
+def shown_layout(doc: Document) -> Mapping[str, Any]:
+    """Return the layout that the page gets: without the import report, which is a message of its own."""
+    return stored_report.without_report(doc).layout
 
 
 def _layout(

@@ -19,7 +19,7 @@ import msgspec
 from deodar.declarations import Cost
 from deodar.errors import DeodarError, DocumentError
 from deodar.errors import Problem as Wrong
-from deodar.importers import examples, opening
+from deodar.importers import examples, opening, stored_report
 from deodar.live.compilation import Compilation
 from deodar.live.engine import Engine
 from deodar.model import edit, find
@@ -39,7 +39,15 @@ from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.recent_changes import DocumentChange, RecentChanges
 from deodar.server.saved_files import SavedFolder
 from deodar.server.state_store import StateStore
-from deodar.server.to_page import Changed, Comparison, DocumentView, ListedProblem, Opened, SavedFiles
+from deodar.server.to_page import (
+    Changed,
+    Comparison,
+    DocumentView,
+    ImportReportView,
+    ListedProblem,
+    Opened,
+    SavedFiles,
+)
 from deodar.server.workspace import Workspace
 from deodar.session.exchange import used
 from deodar.session.session import Session
@@ -156,6 +164,7 @@ class OpenProject:
         self._converted: deque[Converted] = deque(maxlen=3)  # that of the last version, and coming ones
         self._converting = asyncio.Lock()
         self._opened: Opened | None = None
+        self._report: tuple[Any, ImportReportView] = (None, view.NO_REPORT)  # as the layout has it, converted
         self._attempt = 0
 
     # ------------------------------------------------------------------------------------------------ looking
@@ -200,6 +209,16 @@ class OpenProject:
     def changes_since(self, session: int, version: int) -> list[DocumentChange] | None:
         """Return the changes from a version to the present one; None if a page needs the whole document."""
         return self._recent.between(version, self.version) if session == self.session else None
+
+    def report(self) -> ImportReportView:
+        """Return the import report of the open document; it is converted once."""
+        doc = None if self.model is None else self.model.document
+        kept = None if doc is None else doc.layout.get(stored_report.KEY)
+        if doc is None or kept is None:
+            return view.NO_REPORT
+        if self._report[0] is not kept:
+            self._report = (kept, view.import_report(doc))
+        return self._report[1]
 
     @property
     def unsaved(self) -> bool:

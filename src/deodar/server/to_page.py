@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from deodar.declarations import Cost, FormSection, Names
 from deodar.family import Family
+from deodar.importers.report import Verdict
 from deodar.numerics.signs import Sign
 from deodar.parameters import ValueForm
 from deodar.server.message import Data, Id, Message
@@ -295,6 +296,36 @@ class Opened(Message, frozen=True, tag="opened"):
     session: int
     version: int
     document: DocumentView | None
+
+
+class ReportLineView(Data, frozen=True):
+    """An item of an imported file: an element, parameter or connection, and what became of it.
+
+    `where` is the label of the element in the file, and `element` the id that it got in the document, also if
+    it was renamed or removed since; both are empty for what belongs to no element. `part` is the sort of the
+    item, and `what` its name. `why` states how it was approximated or why it was dropped; for a carried item,
+    its counterpart.
+    """
+
+    where: str
+    element: Id
+    part: str
+    what: str
+    verdict: Verdict
+    why: str
+
+
+@MESSAGES.register
+class ImportReportView(Message, frozen=True, tag="import_report"):
+    """The report on the file of another tool that the document was made from; an empty `tool`: none.
+
+    The lines of a label follow each other. `bugs` are known errors of the tool that the file touches.
+    """
+
+    tool: str
+    file: str
+    lines: list[ReportLineView]
+    bugs: list[str]
 
 
 @MESSAGES.register

@@ -11,6 +11,7 @@ import msgspec
 
 from deodar.errors import Problem as Wrong
 from deodar.experiments.design import KINDS, USUAL, Design
+from deodar.importers import stored_report
 from deodar.kinds.description import describe, descriptions
 from deodar.model import files, starting
 from deodar.model.check import judge
@@ -32,10 +33,12 @@ from deodar.server.to_page import (
     Fits,
     FittingKindView,
     FitView,
+    ImportReportView,
     Kind,
     ListedProblem,
     OfferView,
     RecordView,
+    ReportLineView,
 )
 from deodar.server.to_server import FindFits
 
@@ -81,7 +84,7 @@ def document(
         connections=[converted.connection(c) for c in doc.connections],
         groups=[list(g) for g in doc.groups],
         parameters=converted.parameters(doc),
-        layout=dict(doc.layout),
+        layout=dict(converted.shown_layout(doc)),
         problems=problems(made.problems or [*made.warnings, *judge(doc, made.nodes)], doc),
         unsaved=unsaved,
         undo=undo,
@@ -208,6 +211,18 @@ def shown_value(doc: Document, element: str, parameter: str) -> Any:
     for step in parameter.split("."):
         value = value[int(step)] if isinstance(value, list) else value[step]
     return value
+
+
+NO_REPORT = ImportReportView(tool="", file="", lines=[], bugs=[])
+
+
+def import_report(doc: Document) -> ImportReportView:
+    """Convert the import report that a document contains."""
+    found = stored_report.report_of(doc)
+    if found is None:
+        return NO_REPORT
+    lines = [msgspec.convert(line, ReportLineView, from_attributes=True) for line in found.lines]
+    return ImportReportView(tool=found.tool, file=found.file, lines=lines, bugs=list(found.bugs))
 
 
 def plain(doc: Document) -> Document:

@@ -1,9 +1,12 @@
-import { beforeEach, describe, expect, it } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 
+import { openTool } from "../panels/openPlot";
 import type { DocumentView, ExperimentView, Folder, Kind, Welcome } from "../protocol";
 import { useStudio } from "../store";
 import { leave, open, save, saveAs, takeDropped, takeFile } from "./flows";
 import { fresh, notices, person, sent, server } from "./scripted";
+
+vi.mock("../panels/openPlot", () => ({ openTool: vi.fn() }));
 
 const document: DocumentView = {
   file: "",
@@ -158,9 +161,8 @@ describe("opening", () => {
     server({ imported: "Imported from a.json (another tool): 1 element." });
     expect(await takeFile(new File(["{}"], "a.json"))).toBe(true);
     expect(notices()).toEqual(["info: Imported from a.json (another tool): 1 element."]);
-    const questions = person(null);
-    await useStudio.getState().notices[0]?.offer?.run();
-    expect(questions.map((q) => q.name)).toEqual(["notes"]);
+    useStudio.getState().notices[0]?.offer?.run();
+    expect(openTool).toHaveBeenCalledWith("report");
   });
 
   it("can be cancelled", async () => {

@@ -18,6 +18,7 @@ import type {
   Save,
   SaveExperiment,
 } from "../protocol";
+import { openTool } from "../panels/openPlot";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import { ask } from "../dialogs/dialogs";
@@ -241,7 +242,7 @@ function arrived({ imported = "" }: Answer): boolean {
   if (imported !== "") {
     useStudio
       .getState()
-      .notify({ what: imported }, "info", { label: "Show the report", run: () => ask("notes", null) });
+      .notify({ what: imported }, "info", { label: "Show the report", run: () => openTool("report") });
   }
   return true;
 }

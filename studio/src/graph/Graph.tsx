@@ -97,6 +97,7 @@ function Canvas({ structure }: { structure: Structure }) {
     [views, layer],
   );
   const stage = useStage(around, now, (element) => {
+    touch();
     useStudio.getState().select([element]);
     center(element);
   });

@@ -12,6 +12,7 @@ import {
   IconHistory,
   IconLayoutGrid,
   IconNotes,
+  IconReport,
   IconX,
 } from "@tabler/icons-react";
 
@@ -22,6 +23,7 @@ import { exportScript } from "../files/exportScript";
 import { leave, open, openEmpty, save, saveAs } from "../files/flows";
 import { takeValues } from "../files/presets";
 import { useView } from "../gallery/view";
+import { openTool } from "../panels/openPlot";
 import { keysText } from "../shortcuts";
 import { MenuList } from "../widgets/MenuList";
 import classes from "./FileMenu.module.css";
@@ -31,6 +33,7 @@ const ICON = { size: 16, stroke: 1.6 };
 export function FileMenu() {
   const recent = useStudio((state) => state.gallery?.recent);
   const noted = useStudio((state) => (state.document?.notes ?? "") !== "");
+  const imported = useStudio((state) => state.report !== null);
   return (
     <Menu position="bottom-start" shadow="md" width={260} withinPortal>
       <Menu.Target>
@@ -106,6 +109,13 @@ export function FileMenu() {
           onClick={() => void ask("notes", null)}
         >
           Notes
+        </Menu.Item>
+        <Menu.Item
+          leftSection={<IconReport {...ICON} />}
+          disabled={!imported}
+          onClick={() => openTool("report")}
+        >
+          Import report
         </Menu.Item>
         <Menu.Divider />
         <Menu.Item leftSection={<IconX {...ICON} />} onClick={() => void leave({ type: "close" })}>

@@ -9,6 +9,7 @@ import { DocumentName } from "./DocumentName";
 import { FileMenu } from "./FileMenu";
 import { NeedsServer } from "../connection/NeedsServer";
 import { ProblemsMenu } from "./ProblemsMenu";
+import { ReportButton } from "../report/ReportButton";
 import { SchemeToggle } from "./SchemeToggle";
 import { UndoButtons } from "./UndoButtons";
 import { ask } from "../dialogs/dialogs";
@@ -28,6 +29,7 @@ export function Header() {
         <Transport />
       </NeedsServer>
       <div className={classes.right}>
+        <ReportButton />
         <ProblemsMenu />
         <PanelMenu />
         <SchemeToggle />

@@ -11,6 +11,7 @@ import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Pins } from "../pins/Pins";
+import { ReportPanel } from "../report/ReportPanel";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { live } from "../world/live";
@@ -39,6 +40,7 @@ const COMPONENTS = {
       <CostsPanel />
     </NeedsServer>
   ),
+  report: () => <ReportPanel />,
   palette: () => (
     <NeedsServer>
       <PalettePanel />

@@ -6,7 +6,7 @@ import { readParams, readSettings } from "../plots/settings";
 import { shownPorts } from "../plots/shownPorts";
 import type { RecordedPort } from "../protocol";
 import { useStudio } from "../store";
-import { NARROW, placeFor } from "./placement";
+import { NARROW, placeFor, reportGroup } from "./placement";
 import { Remembered } from "./remembered";
 import { TOOLS, type Tool } from "./tools";
 
@@ -78,8 +78,19 @@ export function openTool(tool: Tool): void {
     return;
   }
   const { title, direction, width } = TOOLS[tool];
+  const group = tool === "report" ? reportGroup(dock) : null;
   remembered?.add();
-  dock.addPanel({ id: tool, component: tool, title, position: { direction }, initialWidth: width });
+  const panel = { id: tool, component: tool, title };
+  if (group === null) {
+    dock.addPanel({ ...panel, position: { direction }, initialWidth: width });
+  } else {
+    dock.addPanel({ ...panel, position: { referenceGroup: group, direction: "within" } });
+  }
+}
+
+// Whether a panel that exists once can be seen.
+export function isShown(tool: Tool): boolean {
+  return dock?.getPanel(tool)?.api.isVisible === true;
 }
 
 // Show the world of a document that was just opened: beside its first plot, so that the architecture keeps

@@ -1,6 +1,6 @@
 // The panels that exist once: their names and places.
 
-export type Tool = "graph" | "inspector" | "pins" | "costs" | "world" | "palette" | "experiment";
+export type Tool = "graph" | "inspector" | "pins" | "costs" | "world" | "palette" | "experiment" | "report";
 
 export const TOOLS: Record<Tool, { title: string; direction: "left" | "right"; width: number }> = {
   graph: { title: "Architecture", direction: "left", width: 700 },
@@ -10,6 +10,7 @@ export const TOOLS: Record<Tool, { title: string; direction: "left" | "right"; w
   palette: { title: "Elements", direction: "left", width: 300 },
   world: { title: "World", direction: "right", width: 460 },
   experiment: { title: "Experiment", direction: "right", width: 460 },
+  report: { title: "Import report", direction: "right", width: 460 },
 };
 
 export const TOOL_NAMES = Object.keys(TOOLS) as Tool[];

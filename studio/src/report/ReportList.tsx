@@ -1,0 +1,129 @@
+// The lines of the report. Arrow keys lead from line to line; Enter or a click shows the element of a line.
+
+import { type KeyboardEvent, memo, useRef, useState } from "react";
+
+import { useStudio } from "../store";
+import type { ReportItem, ReportLine } from "./reportItems";
+import { showElement } from "./showElement";
+
+// `most` is the number of lines to draw.
+type Props = { items: ReportItem[]; most: number };
+
+const STEPS: Partial<Record<string, number>> = {
+  ArrowDown: 1,
+  ArrowUp: -1,
+  PageDown: 10,
+  PageUp: -10,
+  Home: -Infinity,
+  End: Infinity,
+};
+
+export const ReportList = memo(function ReportList({ items, most }: Props) {
+  const list = useRef<HTMLDivElement>(null);
+  const [last, setLast] = useState<string | null>(null);
+  const drawn = first(items, most);
+  const keys = drawn.flatMap(({ lines }) => lines.map(({ key }) => key));
+  // The one line that the Tab key reaches.
+  const active = last !== null && keys.includes(last) ? last : keys[0];
+
+  const onKey = (event: KeyboardEvent) => {
+    const step = STEPS[event.key];
+    const options = [...(list.current?.querySelectorAll<HTMLElement>("[role=option]") ?? [])];
+    const at = options.indexOf(document.activeElement as HTMLElement);
+    if (step === undefined || at < 0 || event.ctrlKey || event.metaKey || event.altKey) {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+    options[Math.min(options.length - 1, Math.max(0, at + step))]?.focus();
+  };
+
+  return (
+    <div className="report-list" role="listbox" aria-label="Lines of the report" ref={list} onKeyDown={onKey}>
+      {drawn.map((item) => (
+        <Item
+          key={item.key}
+          item={item}
+          active={item.lines.some(({ key }) => key === active) ? active : null}
+          onFocus={setLast}
+        />
+      ))}
+    </div>
+  );
+});
+
+// The items up to a number of lines.
+function first(items: ReportItem[], most: number): ReportItem[] {
+  let left = most;
+  return items.flatMap((item) => {
+    const lines = item.lines.slice(0, Math.max(0, left));
+    left -= lines.length;
+    return lines.length === 0 ? [] : [{ ...item, lines }];
+  });
+}
+
+type ItemProps = {
+  item: ReportItem;
+  active: string | null | undefined;
+  onFocus: (key: string) => void;
+};
+
+function Item({ item, active, onFocus }: ItemProps) {
+  const { element, title, note, lines } = item;
+  const shown = useStudio((state) => element !== null && state.selected.includes(element));
+  return (
+    <div role="group" aria-label={note === "" ? title : `${title} (${note})`} className="report-item">
+      <div className="report-title" aria-hidden data-shown={shown || undefined}>
+        <span className="report-name">{title}</span>
+        {note !== "" && <span className="report-note">{note}</span>}
+      </div>
+      {lines.map((line) => (
+        <LineOption
+          key={line.key}
+          line={line}
+          element={element}
+          active={line.key === active}
+          onFocus={onFocus}
+        />
+      ))}
+    </div>
+  );
+}
+
+type LineProps = {
+  line: ReportLine;
+  element: string | null;
+  active: boolean;
+  onFocus: (key: string) => void;
+};
+
+const LineOption = memo(function LineOption({ line, element, active, onFocus }: LineProps) {
+  const { part, what, verdict, why } = line;
+  const show = () => element !== null && showElement(element);
+  return (
+    <div
+      className="report-line"
+      role="option"
+      tabIndex={active ? 0 : -1}
+      aria-selected={active}
+      data-leads={element !== null || undefined}
+      onFocus={() => onFocus(line.key)}
+      onClick={show}
+      onKeyDown={(event) => {
+        if (event.key === "Enter" || event.key === " ") {
+          event.preventDefault();
+          event.stopPropagation();
+          show();
+        }
+      }}
+    >
+      <span className="report-verdict" data-verdict={verdict}>
+        {verdict}
+      </span>
+      <span className="report-words">
+        <span className="report-part">{part}</span> {what}
+      </span>
+      {why !== "" && <span className="report-why">{why}</span>}
+    </div>
+  );
+});

@@ -1,0 +1,148 @@
+// The panel of the import report: what became of every element, parameter and connection of the file of
+// another tool. Lines of an element lead to it.
+
+import "./report.css";
+
+import { ActionIcon, Button, SegmentedControl, TextInput } from "@mantine/core";
+import { IconSearch, IconTrash } from "@tabler/icons-react";
+import { type KeyboardEvent, useMemo, useState } from "react";
+
+import { useOffline } from "../connection/NeedsServer";
+import type { ImportReportView } from "../protocol";
+import { request } from "../socket";
+import { useStudio } from "../store";
+import {
+  countOf,
+  type ElementPaths,
+  FILTERS,
+  lossesText,
+  type ReportFilter,
+  reportItems,
+} from "./reportItems";
+import { ReportList } from "./ReportList";
+
+export function ReportPanel() {
+  const report = useStudio((state) => state.report);
+  if (report === null) {
+    return (
+      <div className="report">
+        <p className="dim">
+          This document was not made from a file of another tool, or does not contain the report of it.
+        </p>
+      </div>
+    );
+  }
+  // Another report starts with its own filter.
+  return <Walk key={`${report.tool} ${report.file}`} report={report} />;
+}
+
+const NAMES: Record<ReportFilter, string> = {
+  losses: "Not carried",
+  approximated: "Approximated",
+  dropped: "Dropped",
+  all: "All",
+};
+
+// More lines are shown on demand.
+const MOST = 800;
+
+function Walk({ report }: { report: ImportReportView }) {
+  const paths = usePaths();
+  const offline = useOffline();
+  const losses = countOf(report, "losses");
+  const [filter, setFilter] = useState<ReportFilter>(losses > 0 ? "losses" : "all");
+  const [search, setSearch] = useState("");
+  const [most, setMost] = useState(MOST);
+  const items = useMemo(() => reportItems(report, paths, filter, search), [report, paths, filter, search]);
+  const count = items.reduce((sum, { lines }) => sum + lines.length, 0);
+  return (
+    <div className="report">
+      <div className="report-head">
+        <div className="report-top">
+          <p className="report-summary">
+            <b>{report.file}</b> ({report.tool}): {summaryText(report)}
+          </p>
+          <ActionIcon
+            size={24}
+            disabled={offline}
+            aria-label="Remove the report"
+            title="Remove the report from the document; undo brings it back"
+            onClick={() => void removeReport()}
+          >
+            <IconTrash size={15} />
+          </ActionIcon>
+        </div>
+        <div className="report-controls">
+          {losses > 0 && (
+            <SegmentedControl
+              size="xs"
+              aria-label="Lines to show"
+              value={filter}
+              onChange={(chosen) => setFilter(chosen as ReportFilter)}
+              data={FILTERS.map((one) => ({ value: one, label: `${NAMES[one]} ${countOf(report, one)}` }))}
+            />
+          )}
+          <TextInput
+            size="xs"
+            className="report-search"
+            aria-label="Find in the report"
+            placeholder="Find in the report"
+            leftSection={<IconSearch size={14} aria-hidden />}
+            value={search}
+            onChange={(event) => setSearch(event.currentTarget.value)}
+            onKeyDown={(event) => event.key === "ArrowDown" && focusLine(event)}
+          />
+        </div>
+        {report.bugs.length > 0 && (
+          <details className="report-bugs">
+            <summary>
+              Known errors of {report.tool} that the file touches: {report.bugs.length}
+            </summary>
+            <ul>
+              {report.bugs.map((bug) => (
+                <li key={bug}>{bug}</li>
+              ))}
+            </ul>
+          </details>
+        )}
+      </div>
+      {count === 0 && (
+        <p className="dim" role="status">
+          {search.trim() === "" ? "The report has no such lines." : "No line has these words."}
+        </p>
+      )}
+      {count > 0 && <ReportList items={items} most={most} />}
+      {count > most && (
+        <Button size="compact-xs" variant="default" mt={6} onClick={() => setMost(count)}>
+          Show {count - most} more lines
+        </Button>
+      )}
+    </div>
+  );
+}
+
+// The same as long as no element is added, removed or renamed, whatever values change.
+function usePaths(): ElementPaths {
+  const elements = useStudio((state) => state.elements);
+  const text = JSON.stringify([...elements.values()].map(({ id, path }) => [id, path]));
+  return useMemo(() => new Map(JSON.parse(text) as [string, string][]), [text]);
+}
+
+// From the search to the lines.
+function focusLine(event: KeyboardEvent): void {
+  event.preventDefault();
+  const panel = event.currentTarget.closest(".report");
+  panel?.querySelector<HTMLElement>("[role=option][tabindex='0']")?.focus();
+}
+
+// The report is an entry of the layout, which the server sends as a message of its own.
+function removeReport(): Promise<unknown> {
+  return request({ type: "arrange", layout: { import_report: null }, undoable: true });
+}
+
+function summaryText(report: ImportReportView): string {
+  const [all, losses] = [countOf(report, "all"), lossesText(report)];
+  return losses === ""
+    ? `all ${all} items were carried`
+    : `${all - countOf(report, "losses")} of ${all} items were carried, ${losses}`;
+}

@@ -1,0 +1,114 @@
+"""The import report that a document contains."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import deodar as dd
+from deodar.codec import JsonObject
+from deodar.importers import stored_report
+from deodar.importers.report import ImportReport, Line
+from deodar.model import building, edit, files
+from deodar.model.document import Document
+
+HERE = Path(__file__).parent
+SAMPLES = (
+    HERE / "cedar/data/elementaryBehavior.json",
+    HERE / "cosivina/presetOneLayerField_memory.json",
+    HERE / "dnf_composer/syn-couplings.dnf",
+)
+LINES = [
+    Line("", "file", "step", "approximated", "20 ms"),
+    Line("a", "element", "Field of two  words", "carried", "Field"),
+    Line("thread", "parameter", "time step", "dropped", "it has\nno counterpart"),
+    Line("a", "parameter", "tau: 5, why", "carried"),
+    Line("a", "connection", "a line\nbreak", "dropped", "x"),
+    Line("a", "key", "", "carried"),
+]
+REPORT = ImportReport("cedar", "memory.json", LINES, ["it drops slices"])
+
+
+def document() -> Document:
+    model = dd.Model("m")
+    model.add(dd.Field("a", []))
+    return model.document
+
+
+@pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.name)
+def test_a_saved_document_contains_every_line_of_the_report(sample: Path, tmp_path: Path) -> None:
+    done = dd.read(sample)
+    doc = stored_report.with_report(done.model.document, done.report)
+    files.save(doc, tmp_path / "model.json")
+    found = stored_report.report_of(files.load(tmp_path / "model.json"))
+    assert found is not None
+    assert (found.tool, found.file, list(found.bugs)) == (
+        done.report.tool,
+        sample.name,
+        list(done.report.bugs),
+    )
+    before = stored_report.located(done.report, done.model.document)
+    assert sorted(found.lines, key=repr) == sorted(before.lines, key=repr)
+    assert found.summary() == done.report.summary()
+
+
+@pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.name)
+def test_every_element_line_has_the_id_of_its_element(sample: Path) -> None:
+    done = dd.read(sample)
+    ids = {entry.id for entry in done.model.document.entries}
+    lines = stored_report.located(done.report, done.model.document).lines
+    assert [line for line in lines if line.part == "element" and line.element not in ids] == []
+    assert {line.element for line in lines if not line.where} == {""}
+
+
+def test_names_and_reasons_of_any_text_are_kept() -> None:
+    found = stored_report.report_of(stored_report.with_report(document(), REPORT))
+    assert found is not None
+    ident = document().entries[0].id
+    assert [(line.where, line.element, line.what, line.why) for line in found.lines] == [
+        ("", "", "step", "20 ms"),
+        ("a", ident, "Field of two  words", "Field"),
+        ("a", ident, "tau: 5, why", ""),
+        ("a", ident, "a line break", "x"),  # a name has no line break
+        ("a", ident, "", ""),
+        ("thread", "", "time step", "it has\nno counterpart"),
+    ]
+
+
+def test_a_renamed_element_keeps_its_lines() -> None:
+    doc = stored_report.with_report(document(), REPORT)
+    [entry] = doc.entries
+    found = stored_report.report_of(building.rename(doc, entry.id, "b"))
+    assert found is not None and found.lines[1].element == entry.id
+
+
+def test_the_report_leaves_the_rest_of_the_layout_as_it_is() -> None:
+    doc = edit.arrange(document(), {"boxes": {"a": {"x": 1, "y": 2}}})
+    kept = stored_report.with_report(doc, REPORT)
+    assert {key: value for key, value in kept.layout.items() if key != stored_report.KEY} == doc.layout
+    assert stored_report.without_report(kept) == doc
+    assert stored_report.without_report(doc) is doc
+
+
+GOOD: JsonObject = {"tool": "cedar", "file": "a.json", "items": [{"lines": ["carried file step"]}]}
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        None,
+        "cedar",
+        {},
+        GOOD | {"tool": 5},
+        GOOD | {"items": {}},
+        GOOD | {"items": [{"where": "a"}]},
+        GOOD | {"items": [{"lines": ["carried"]}]},
+        GOOD | {"items": [{"lines": ["invented file step"]}]},
+        GOOD | {"items": [{"lines": [["carried", "file"]]}]},
+    ],
+)
+def test_anything_else_under_its_key_is_no_report(data: Any) -> None:
+    assert stored_report.report_of(edit.arrange(document(), {stored_report.KEY: GOOD})) is not None
+    assert stored_report.report_of(edit.arrange(document(), {stored_report.KEY: data})) is None
