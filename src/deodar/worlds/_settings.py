@@ -1,13 +1,14 @@
-"""Checks of the settings of worlds."""
+"""Checks of the settings of worlds, and settings in an argument of the command line."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
 
-from deodar.errors import WorldError
+from deodar.errors import WorldError, did_you_mean
 from deodar.parameters import real, show
 
 
@@ -27,3 +28,33 @@ def number(name: str, given: Any, above: float | None = None) -> float:
             f" {'above 0' if above is not None else '0 or above'}"
         )
     return float(value)
+
+
+def named(pieces: Sequence[str], names: Collection[str], where: str) -> dict[str, str]:
+    """Return the values of `NAME=VALUE` pieces of an argument by name, or raise WorldError.
+
+    Args:
+        pieces: the pieces.
+        names: all settings.
+        where: the argument, for messages.
+    """
+    found: dict[str, str] = {}
+    for piece in pieces:
+        name, equal, value = (part.strip() for part in piece.partition("="))
+        if not equal or name not in names:
+            what = repr(name if equal else piece)
+            raise WorldError(f"there is no setting {what}", where=where, fix=did_you_mean(name, names))
+        found[name] = value
+    return found
+
+
+def numeric(name: str, value: str, where: str, counts: Collection[str] = ()) -> float | int:
+    """Return the number that a value of an argument states, or raise WorldError.
+
+    A whole number is an int if the setting is one of `counts`.
+    """
+    try:
+        given = float(value)
+    except ValueError:
+        raise WorldError(f"{name} is {value!r}; expected a number", where=where) from None
+    return int(given) if name in counts and given.is_integer() else given

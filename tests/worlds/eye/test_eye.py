@@ -205,3 +205,15 @@ def test_a_reading_needs_two_axes_on_the_retina() -> None:
     problems = list(dd.Eye().validate_axes("events", (line,)))
     assert "two axes" in problems[0].what
     assert "outside of the retina" in next(iter(dd.Eye().validate_axes("events", (line, far)))).what
+
+
+def test_it_opens_with_settings_and_opens_again_as_it_was_described() -> None:
+    world = dd.Eye.open("distractors=2, gain=0.2, speed=50")
+    assert (world.distractors, world.optics.gain, world.speed) == (2, 0.2, 50)
+    assert dd.Eye.open("").distractors == 0
+    again = dd.Eye.again(world.describe())
+    assert again.describe() == world.describe() and again.structure() == world.structure()
+    with pytest.raises(WorldError, match="no setting 'gian'"):
+        dd.Eye.open("gian=3")
+    with pytest.raises(WorldError, match="expected a number"):
+        dd.Eye.open("gain=much")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from deodar.errors import WorldError, did_you_mean
+from deodar.errors import WorldError
+from deodar.worlds._settings import named, numeric
 
 WORDS = ("unit", "contact", "vehicle")
 PLACES = {"start": (2, 3), "goal": (2, 2)}
@@ -28,24 +29,15 @@ def parse_argument(argument: str) -> tuple[str, Mapping[str, Any]]:
         WorldError: a setting is unknown, or its value is invalid.
     """
     layout, *pieces = (piece.strip() for piece in argument.split(","))
-    found: dict[str, Any] = {}
-    for piece in pieces:
-        name, equal, value = (part.strip() for part in piece.partition("="))
-        if not equal or name not in (*WORDS, *PLACES, *NUMBERS):
-            hint = did_you_mean(name, [*WORDS, *PLACES, *NUMBERS])
-            raise WorldError(
-                f"there is no setting {piece!r}" if not equal else f"there is no setting {name!r}",
-                where=f"arena:{argument}",
-                fix=hint,
-            )
-        found[name] = (
-            value
-            if name in WORDS
-            else _place(name, value, argument)
-            if name in PLACES
-            else _number(name, value, argument)
-        )
-    return layout, found
+    where = f"arena:{argument}"
+    return layout, {
+        name: value
+        if name in WORDS
+        else _place(name, value, argument)
+        if name in PLACES
+        else numeric(name, value, where, COUNTS)
+        for name, value in named(pieces, (*WORDS, *PLACES, *NUMBERS), where).items()
+    }
 
 
 def _place(name: str, value: str, argument: str) -> list[float]:
@@ -59,13 +51,6 @@ def _place(name: str, value: str, argument: str) -> list[float]:
             fix=f"For example {name}=20 30",
         )
     return [n for n in numbers if n is not None] + [0.0] * (most - len(numbers))
-
-
-def _number(name: str, value: str, argument: str) -> float | int:
-    number = _float(value)
-    if number is None:
-        raise WorldError(f"{name} is {value!r}; expected a number", where=f"arena:{argument}")
-    return int(number) if name in COUNTS and number.is_integer() else number
 
 
 def _float(word: str) -> float | None:

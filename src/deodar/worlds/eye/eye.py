@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any
@@ -21,7 +22,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody
-from deodar.worlds._settings import number
+from deodar.worlds._settings import named, number, numeric
 from deodar.worlds.eye import screen
 from deodar.worlds.eye.event_camera import EventCamera, rate
 from deodar.worlds.eye.optics import CENTRE, PIXELS, Optics
@@ -42,6 +43,12 @@ CENTRED, CENTRED_FOR, LOST_FOR, LONGEST, RESTED = 12.0, 500.0, 300.0, 4000.0, 40
 after 4 s, or once the camera has moved and then rested for 400 ms. These are guesses: in the paper a person
 moves the target.
 """
+
+SETTINGS = (
+    *("gain", "curvature", "roll", "lag", "radius", "contrast", "blink"),
+    *("distractors", "speed", "drift", "reach", "wait", "period"),
+)
+"""Numbers that an argument of the command line may state: `--world "eye:distractors=2, speed=50"`."""
 
 TARGET = "target"
 CAMERAS = {"pan": 0, "tilt": 1}
@@ -317,30 +324,31 @@ class Eye(PureWorld):
                 )
 
     def describe(self) -> JsonObject:
+        camera = self.camera
         return {
             "world": "Eye",
-            "gain": self.optics.gain,
-            "curvature": self.optics.curvature,
-            "roll": self.optics.roll,
-            "lag": self.lag,
-            "radius": self.radius,
-            "contrast": self.contrast,
-            "blink": self.blink,
-            "distractors": self.distractors,
-            "speed": self.speed,
-            "drift": self.drift,
-            "reach": self.reach,
+            **{name: getattr(self.optics, name) for name in ("gain", "curvature", "roll")},
+            **{name: getattr(self, name) for name in SETTINGS[3:]},
             "endless": self.endless,
-            "wait": self.wait,
-            "period": self.period,
-            "camera": {
-                "threshold": self.camera.threshold,
-                "spread": self.camera.spread,
-                "refractory": self.camera.refractory,
-                "leak": self.camera.leak,
-                "shot": self.camera.shot,
-            },
+            "first": None if self.first is None else self.first.tolist(),
+            "pose": self.poses.tolist(),
+            "camera": {f.name: getattr(camera, f.name) for f in dataclasses.fields(camera)},
         }
+
+    @classmethod
+    def open(cls, argument: str) -> Eye:
+        where = f"eye:{argument}"
+        pieces = [piece.strip() for piece in argument.split(",") if piece.strip()]
+        found: dict[str, Any] = {
+            name: numeric(name, value, where, ("distractors",))
+            for name, value in named(pieces, SETTINGS, where).items()
+        }
+        return cls(**found)
+
+    @classmethod
+    def again(cls, described: Mapping[str, Any]) -> Eye:
+        settings = {name: described[name] for name in (*SETTINGS, "endless", "first", "pose")}
+        return cls(EventCamera(**described["camera"]), **settings)
 
     @classmethod
     def example(cls) -> Eye:

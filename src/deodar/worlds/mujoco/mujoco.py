@@ -19,7 +19,7 @@ from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._scene import Scene, SceneBody, SceneBox, pair
-from deodar.worlds._settings import number, periods
+from deodar.worlds._settings import named, number, numeric, periods
 from deodar.worlds.mujoco import camera as pictures
 from deodar.worlds.mujoco import solids
 from deodar.worlds.mujoco.objects import PlacedObject
@@ -512,26 +512,11 @@ class MuJoCo(World):
     @classmethod
     def open(cls, argument: str) -> MuJoCo:
         scene, *pieces = (piece.strip() for piece in argument.split(","))
-        found: dict[str, Any] = {}
-        for piece in pieces:
-            name, equal, value = (part.strip() for part in piece.partition("="))
-            if not equal or name not in SETTINGS:
-                what = repr(name if equal else piece)
-                raise WorldError(
-                    f"there is no setting {what}",
-                    where=f"mujoco:{argument}",
-                    fix=did_you_mean(name, SETTINGS),
-                )
-            if name not in ("robot", "render"):
-                try:
-                    number = float(value)
-                except ValueError:
-                    raise WorldError(
-                        f"{name} is {value!r}; expected a number", where=f"mujoco:{argument}"
-                    ) from None
-                found[name] = int(number) if name == "camera_every" and number.is_integer() else number
-            else:
-                found[name] = value
+        where = f"mujoco:{argument}"
+        found: dict[str, Any] = {
+            name: value if name in ("robot", "render") else numeric(name, value, where, ("camera_every",))
+            for name, value in named(pieces, SETTINGS, where).items()
+        }
         return cls(scene or "table", **found)
 
     @classmethod
