@@ -41,7 +41,7 @@ def test_an_unknown_paper_suggests_the_nearest():
 
 
 def test_each_paper_of_deodar_with_a_file_demo_is_a_demonstration():
-    assert list(papers.demos()) == ["pointing", "saliency", "serial-order", "spa"]
+    assert list(papers.demos()) == ["looking", "pointing", "saliency", "serial-order", "spa"]
     assert all(demo.HELP and demo.run and demo.arguments for demo in papers.demos().values())
 
 

@@ -12,6 +12,7 @@ from deodar.architectures.change_detection import change_detection, change_trial
 from deodar.architectures.color_search import color_search
 from deodar.architectures.feature_space import binding, feature_space
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
+from deodar.architectures.looking import looking
 from deodar.architectures.plan import START as PLAN_START
 from deodar.architectures.plan import plan
 from deodar.architectures.pointing import pointing
@@ -41,6 +42,7 @@ __all__ = [
     "follow",
     "lesson",
     "lesson_end",
+    "looking",
     "maze",
     "plan",
     "pointing",

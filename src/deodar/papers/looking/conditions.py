@@ -1,0 +1,86 @@
+"""The conditions: the mechanism of learning, what it lacks, and after how many gazes the map is tested.
+
+A row is one test of one seed. The name of its condition is that of the run and the number of gazes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+SEEDS = range(11, 21)
+"""Seeds of the runs; parameters were found with seeds 1 to 3, and these were run once."""
+
+HALF, FEW = SEEDS[:5], SEEDS[:2]
+"""Seeds of the controls, and of the quick form."""
+
+TESTS = 150
+"""Single gazes that test a map."""
+
+CHANGED = (0.8, 1.0, 1.2)
+"""Factors of the gain of the camera, after a map was learned; 1 is the control."""
+
+AFTER = (100, 250, 500)
+"""Gazes after the change."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A run of each seed.
+
+    Attributes:
+        mechanism: mechanism of learning.
+        marks: numbers of gazes after which the map is tested.
+        seeds: the seeds.
+        settings: further arguments of the architecture.
+        changes: whether the gain of the camera is changed afterwards.
+    """
+
+    mechanism: str
+    marks: tuple[int, ...]
+    seeds: Sequence[int] = SEEDS
+    settings: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    changes: bool = False
+
+    @property
+    def last(self) -> int:
+        """Number of gazes of a run."""
+        return self.marks[-1]
+
+
+def tested(quick: bool) -> dict[str, Condition]:
+    """Return the names of the conditions of all rows, each with the run that it belongs to."""
+    found: dict[str, Condition] = {}
+    for name, condition in conditions(quick).items():
+        found |= {after(name, mark): condition for mark in condition.marks}
+        if condition.changes:
+            found |= {after(name, mark, gain): condition for gain in CHANGED for mark in (0, *AFTER)}
+    return found
+
+
+def after(name: str, gazes: int, gain: float | None = None) -> str:
+    """Return the name of the condition of a test.
+
+    Args:
+        name: name of the run.
+        gazes: number of gazes, of the run or since the change of the gain.
+        gain: factor of the gain; None: it was not changed.
+    """
+    return f"{name}/{gazes} gazes" if gain is None else f"{name}, gain x{gain:g}/{gazes} gazes"
+
+
+def conditions(quick: bool) -> dict[str, Condition]:
+    """Return the runs by name."""
+    if quick:
+        return {
+            "correcting": Condition("correcting", (500, 1000, 1500), FEW),
+            "paper": Condition("paper", (500, 1500), FEW),
+            "no reward": Condition("paper", (1000,), FEW, {"reward": False}),
+        }
+    return {
+        "correcting": Condition("correcting", (250, 500, 750, 1000, 1250, 1500), changes=True),
+        "paper": Condition("paper", (250, 500, 1000, 1500, 2000, 2500, 3000)),
+        "no reward": Condition("paper", (1000, 2000, 3000), HALF, {"reward": False}),
+        "no memory": Condition("paper", (1000, 2000, 3000), HALF, {"memory": False}),
+    }

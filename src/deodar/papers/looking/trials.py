@@ -1,0 +1,134 @@
+"""Runs: a seed of a condition learns, its map is tested, and the gain of its camera is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.architectures.looking import REACH, SAMPLES, shifts
+from deodar.experiments.jobs import Job
+from deodar.experiments.rows import Row
+from deodar.papers.looking.conditions import AFTER, CHANGED, TESTS, Condition, after, conditions
+from deodar.papers.looking.gazes import STEP, Learned, learn, observed, summary, test
+from deodar.worlds.eye.eye import Eye
+
+COST = 0.05
+"""Approximate duration of a gaze, s."""
+
+SHOWN_FOR, SHOWN_EVERY = 20.0, 5
+"""Seconds at the beginning and at the end of a run whose motor variables are stored, and their stride."""
+
+
+def jobs(quick: bool) -> list[Job]:
+    """Return one job for each seed of each condition, the longest first."""
+    found = [
+        Job(
+            _keys(name, seed, condition),
+            run,
+            {"condition": name, "seed": seed, "quick": quick},
+            _cost(condition),
+        )
+        for name, condition in conditions(quick).items()
+        for seed in condition.seeds
+    ]
+    return sorted(found, key=lambda job: -job.cost)
+
+
+def run(condition: str, seed: int, quick: bool) -> Sequence[Row]:
+    """Learn with one seed, and return a row for each test of the map."""
+    what = conditions(quick)[condition]
+    model = observed(what.mechanism, seed=seed, **what.settings)
+    learned = learn(model, Eye(), seed, what.marks)
+    out = [
+        _row(condition, seed, mark, None, learned.maps[mark], what.mechanism, learned=learned)
+        for mark in what.marks
+    ]
+    out[-1] |= course(learned) | projections(learned.maps[what.last])
+    if what.changes:
+        for gain in CHANGED:
+            out += _changed(condition, seed, gain, learned.maps[what.last], what)
+    return out
+
+
+def _changed(condition: str, seed: int, gain: float, weights: np.ndarray, what: Condition) -> list[Row]:
+    """Change the gain of the camera, test the map at once, and go on learning."""
+    changed = gain * Eye().optics.gain
+    model = observed(what.mechanism, seed=seed, weights=weights)
+    learned = learn(model, Eye(gain=changed), seed + 1000, AFTER)
+    maps = {0: weights, **learned.maps}
+    settings = {"gain": changed}
+    return [_row(condition, seed, mark, gain, maps[mark], what.mechanism, settings) for mark in (0, *AFTER)]
+
+
+def _row(
+    condition: str,
+    seed: int,
+    mark: int,
+    gain: float | None,
+    weights: np.ndarray,
+    mechanism: str,
+    world: dict[str, Any] | None = None,
+    learned: Learned | None = None,
+) -> dict[str, Any]:
+    errors = test(mechanism, weights, seed, TESTS, world or {}, SAMPLES)
+    named = after(condition, mark, gain)
+    more: dict[str, Any] = {}
+    if learned is not None:
+        late = learned.arrivals[max(0, mark - 200) : mark]
+        more = {
+            "seconds": round(float(learned.ends[mark - 1]) * STEP / 1000, 2),
+            "arrivals": round(float(np.median(late)), 2),
+        }
+    return {
+        "key": f"{named}/{seed}",
+        "condition": named,
+        "seed": seed,
+        "gazes": mark,
+        **summary(errors),
+        "errors": [None if np.isnan(e) else round(float(e), 1) for e in errors],
+        **more,
+    }
+
+
+def course(learned: Learned) -> dict[str, Any]:
+    """Return command and pose of both motors at the beginning and at the end of the run, and the target."""
+    n = int(SHOWN_FOR * 1000 / STEP)
+    signals = learned.signals
+    whole = np.concatenate([signals["pose"], signals["target"], signals["shift"]], axis=1)
+    return {
+        "course": {
+            name: np.round(whole[part][::SHOWN_EVERY], 1).tolist()
+            for name, part in (("begin", slice(0, n)), ("end", slice(-n, None)))
+        }
+    }
+
+
+def projections(weights: np.ndarray) -> dict[str, Any]:
+    """Return where the map sends each visual sample: the mean shift by its weights, servo units; and the map
+    summed over row and tilt, and over column and pan.
+    """
+    pan, tilt = shifts()
+    mass = weights.sum(axis=(0, 1))
+    mean = [
+        np.einsum("ptcr,p->cr", weights, pan.points) / np.maximum(mass, 1e-6),
+        np.einsum("ptcr,t->cr", weights, tilt.points) / np.maximum(mass, 1e-6),
+    ]
+    return {
+        "map": {
+            "pan": np.round(weights.sum(axis=(1, 3)), 2).tolist(),
+            "tilt": np.round(weights.sum(axis=(0, 2)), 2).tolist(),
+            "shifts": np.round(np.stack(mean, axis=-1) / REACH, 3).tolist(),
+        }
+    }
+
+
+def _keys(name: str, seed: int, condition: Condition) -> tuple[str, ...]:
+    changed = [after(name, mark, gain) for gain in CHANGED for mark in (0, *AFTER)]
+    own = [after(name, mark) for mark in condition.marks]
+    return tuple(f"{test}/{seed}" for test in (*own, *(changed if condition.changes else [])))
+
+
+def _cost(condition: Condition) -> float:
+    return COST * (condition.last + (len(CHANGED) * AFTER[-1] if condition.changes else 0))
