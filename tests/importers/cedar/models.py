@@ -633,15 +633,23 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
         "weight init noise": 0,
     }
     times = {"time scale": 50, "time scale decay": 200}
+    sharp = {"g (reward sigmoid)": sigmoid("HeavisideSigmoid", threshold=0.5)}
+    short = {"fixed reward duration": True, "reward duration": 50, **sharp}
     for variant, source, target, more in (
         ("", one, line, {}),
         ("0-D target", line, one, {}),
-        ("lines", line, (9,), {}),
+        ("0-D target one time scale", plane, one, {"time scale": 50}),
+        ("lines", line, (9,), sharp),
+        ("lines one time scale", line, (9,), {**sharp, "time scale": 30}),
+        ("lines two time scales", (9,), line, {**sharp, **times}),
+        ("lines of one length", line, line, {**short, "weight init value": 0.1, "weight init noise": 0.1}),
         ("0-D to 2-D", one, plane, {}),
         ("one time scale", one, line, {"time scale": 50}),
         ("two time scales", one, line, times),
         ("manual weights", one, (24,), {"weight centers": [12], "weight sigmas": [2], "weight amplitude": 2}),
-        ("reward duration", one, line, {"fixed reward duration": True, "reward duration": 50}),
+        ("reward duration", one, line, short),
+        ("short reward duration", one, line, {**short, "reward duration": 8}),
+        ("uneven reward duration", one, line, {**short, "reward duration": 55}),
     ):
         given = {
             **rule,
@@ -655,6 +663,10 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
         }
         reads = {"source node": source, "target field": target, "reward signal": one}
         put("HebbianConnection", variant, given, reads, "learned output", target)
+        if variant == "lines":
+            given |= {"weight init value": 0.2, "weight init noise": 0.2}
+            del reads["reward signal"]
+            put("HebbianConnection", "no reward", given, reads, "learned output", target)
 
 
 def _sources(put: Any, line: Any, plane: Any, one: Any) -> None:

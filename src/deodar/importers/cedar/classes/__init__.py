@@ -9,8 +9,9 @@ from deodar.importers.cedar.classes import (
     arrays,
     fields,
     functions,
-    learning,
+    hebbian,
     programming,
+    serial_order,
     sources,
     vision,
 )
@@ -19,7 +20,8 @@ from deodar.importers.cedar.piece import SourceStep, StepPiece
 CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **fields.CLASSES,
     **sources.CLASSES,
-    **learning.CLASSES,
+    **hebbian.CLASSES,
+    **serial_order.CLASSES,
     **algebra.CLASSES,
     **functions.CLASSES,
     **arrays.CLASSES,
