@@ -64,6 +64,7 @@ from deodar.couplings.reward_gate import RewardGate as RewardGate
 from deodar.couplings.shift import Shift as Shift
 from deodar.couplings.sigmoid import Sigmoid as Sigmoid
 from deodar.couplings.space_code import SpaceCode as SpaceCode
+from deodar.couplings.steered_convolve import SteeredConvolve as SteeredConvolve
 from deodar.couplings.steered_shift import SteeredShift as SteeredShift
 from deodar.couplings.sum import Sum as Sum
 from deodar.couplings.threshold import Threshold as Threshold

@@ -753,6 +753,14 @@ def _convolutions(put: Any, line: Any, plane: Any) -> None:
         given = {"kernels": "", "convolution": border(**{"alternate even kernel center": alternate})}
         variant = f"kernel input {alternate}"
         put("Convolution", variant, given, {"matrix": line, "kernel": (6,)}, "result", line)
+    for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
+        given = {"kernels": both, "convolution": border(shape)}
+        put("Convolution", f"kernel input {shape}", given, {"matrix": line, "kernel": (5,)}, "result", line)
+        flat = {"matrix": plane, "kernel": (3, 4)}
+        put("Convolution", f"kernel input 2-D {shape}", given, flat, "result", plane)
+    given = {"kernels": "", "convolution": border("Zero", "FFTW")}
+    put("Convolution", "kernel input FFTW", given, {"matrix": line, "kernel": (4,)}, "result", line)
+    put("Convolution", "kernel input 0-D", given, {"matrix": line, "kernel": ()}, "result", line)
 
 
 def _projections(put: Any, one: Any) -> None:
