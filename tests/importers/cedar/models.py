@@ -818,6 +818,14 @@ def _arrays(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
         "thresholded input",
         line,
     )
+    for variant, more in (
+        ("lower replaced", {"replace lower limit": True, "lower replacement": -2}),
+        ("upper replaced", {"replace upper limit": True, "apply lower limit": False}),
+        ("no limits", {"apply upper limit": False, "apply lower limit": False}),
+        ("replaced on a plane", {"replace upper limit": True, "upper replacement": 3, "lower limit": 0.4}),
+    ):
+        sizes = plane if "plane" in variant else line
+        put("Clamp", variant, {**limits, **more}, {"input": sizes}, "thresholded input", sizes)
     put("Flip", "", {"flipped dimensions": [True, False]}, {"input": plane}, "output", plane)
     put("Mask", "", {}, {"input": line, "mask": line}, "masked", line)
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):

@@ -91,24 +91,78 @@ def test_repeated_keys_times_with_units_and_text_lists(tmp_path):
     assert (done.model["a"].tau, done.model["b"].tau) == (50, 70)
 
 
-def test_direct_links_become_document_parameters_and_equations_are_reported(tmp_path):
-    direct = {"type": "cedar.aux.DirectParameterLink", "source parameter": "time scale"}
-    links = [
-        {**direct, "source element": "a", "target element": "b", "target parameter": "time scale"},
-        {
-            "type": "cedar.aux.EquationParameterLink",
-            "source element": "a",
-            "target element": "b",
-            "source parameter": "resting level",
-            "target parameter": "resting level",
-            "configuration": {"equation": "target = 2 * source"},
-        },
-    ]
-    steps = Many([(FIELD, {**LINE, "name": n, "time scale": "50"}) for n in ("a", "b")])
-    done = opened(written({"steps": steps, "parameter links": links}), tmp_path)
+def linked_fields(tmp_path, *links, **more):
+    """Return two fields whose parameters are linked, with the first value stated."""
+    steps = Many([(FIELD, {**LINE, "name": n, "time scale": "50", **more}) for n in ("a", "b")])
+    return opened(written({"steps": steps, "parameter links": list(links)}), tmp_path)
+
+
+def link(source, target, equation=""):
+    direct = "cedar.aux.DirectParameterLink"
+    return {
+        "type": "cedar.aux.EquationParameterLink" if equation else direct,
+        "source element": "a",
+        "target element": "b",
+        "source parameter": source,
+        "target parameter": target,
+        "configuration": {"equation": equation},
+    }
+
+
+def test_direct_links_become_document_parameters(tmp_path):
+    done = linked_fields(
+        tmp_path, link("time scale", "time scale"), link("global inhibition", "global inhibition")
+    )
     done.model.set("a time scale", 90)
+    done.model.set("a global inhibition", 0.4)
     assert (done.model["a"].tau, done.model["b"].tau) == (90, 90)
-    assert any("target = 2 * source" in line.why for line in done.report.losses)
+    assert (done.model["a"].global_inhibition, done.model["b"].global_inhibition) == (0.4, 0.4)
+    assert not [line for line in done.report.losses if "->" in line.what]
+
+
+@pytest.mark.parametrize(
+    ("equation", "found"),
+    [("target = 2 * source", -6), ("-(source - 1) / 4 + 0.5 - 3", -1.5), ("target=source*source - 1e1", -1)],
+)
+def test_links_by_an_equation_give_the_target_its_value(equation, found, tmp_path):
+    more = {"resting level": "-3"}
+    done = linked_fields(tmp_path, link("resting level", "resting level", equation), **more)
+    assert (done.model["a"].resting_level, done.model["b"].resting_level) == (-3, found)
+    line = next(line for line in done.report.losses if "->" in line.what)
+    assert line.verdict == "approximated" and f"as the value {found}" in line.why
+
+
+def test_an_equation_of_equality_is_a_direct_link_and_a_sign_follows(tmp_path):
+    links = (
+        link("resting level", "resting level", "target = 1 * source"),
+        link("global inhibition", "time scale", "target = 10 - 20 * source"),
+    )
+    done = linked_fields(tmp_path, *links, **{"global inhibition": "-0.5"})
+    done.model.set("a resting level", -2)
+    assert (done.model["b"].resting_level, done.model["b"].tau) == (-2, 20)
+
+
+@pytest.mark.parametrize(
+    "equation",
+    ["target = sin(source)", "source = target", "target = 1 / 0", "(" * 9000, "target = 9**9**9", "target ="],
+)
+def test_other_equations_are_reported_and_leave_the_value(equation, tmp_path):
+    done = linked_fields(tmp_path, link("time scale", "time scale", equation))
+    assert done.model["b"].tau == 50
+    line = next(line for line in done.report.losses if "->" in line.what)
+    assert line.verdict == "dropped" and "cannot be read" in line.why
+
+
+def test_a_number_that_is_another_one_here_is_not_linked(tmp_path):
+    boosts = Many(
+        [
+            ("cedar.processing.sources.Boost", {"name": n, "strength": "2", "active": on})
+            for n, on in (("a", "false"), ("b", "true"))
+        ]
+    )
+    done = opened(written({"steps": boosts, "parameter links": [link("strength", "strength")]}), tmp_path)
+    assert (done.model["a"].amplitude, done.model["b"].amplitude) == (0, 2)
+    assert any("its source has no counterpart" in line.why for line in done.report.losses)
 
 
 def test_stored_values_beside_the_file_begin_traces_and_weights(tmp_path):

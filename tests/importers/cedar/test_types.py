@@ -17,7 +17,6 @@ NOT_EXACT = {
     "cedar.dynamics.NeuralField, SemiLinearTransferFunction": "its value below the threshold",
     "cedar.dynamics.SerialOrder": "nodes are updated one after another",
     "cedar.processing.sources.SpatialTemplate": "where the angle begins",
-    "cedar.processing.steps.Clamp, replaced": "no counterpart",
     "cedar.processing.steps.ExponentialSmoothing": "the first step",
     "cedar.processing.steps.NumericalDifferentiation": "the first step",
     "cedar.processing.steps.NumericalIntegration, initial state": "no counterpart",
