@@ -57,6 +57,7 @@ from deodar.couplings.pointwise import Pointwise as Pointwise
 from deodar.couplings.population_activity import PopulationActivity as PopulationActivity
 from deodar.couplings.product import Product as Product
 from deodar.couplings.project import Project as Project
+from deodar.couplings.pseudo_inverse import PseudoInverse as PseudoInverse
 from deodar.couplings.quotient import Quotient as Quotient
 from deodar.couplings.rate_code import RateCode as RateCode
 from deodar.couplings.resample import Resample as Resample

@@ -40,6 +40,7 @@ TYPES = {
                 "Norm",
                 "Normalization",
                 "Projection",
+                "PseudoInverse",
                 "RemoveMean",
                 "Resize",
                 "ScalarDivision",
@@ -62,6 +63,7 @@ TYPES = {
                 "CrossProduct",
                 "Delay",
                 "ExponentialSmoothing",
+                "Histogram",
                 "InnerProduct",
                 "LinearFunction",
                 "Logarithm",
@@ -712,6 +714,23 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("MatrixMultiply", "", {"transposeOperand1": False}, pair, "matrixProduct", (4, 5))
     pair = {"operand1": (6, 4), "operand2": (6, 5)}
     put("MatrixMultiply", "transposed", {"transposeOperand1": True}, pair, "matrixProduct", (4, 5))
+    for variant, first, second, target in (
+        ("by a vector", (4, 6), (6,), (4,)),
+        ("of a vector", (6,), (6, 5), (5,)),
+        ("of two vectors", (6,), (6,), one),
+        ("a column by a number", (6,), one, (6,)),
+        ("of equal sizes", (5, 5), (5, 5), (5, 5)),
+    ):
+        turned = {"transposeOperand1": variant.startswith("of")}
+        pair = {"operand1": first, "operand2": second}
+        put("MatrixMultiply", variant, turned, pair, "matrixProduct", target)
+    for variant, source, target in (
+        ("", (3, 4), (4, 3)),
+        ("wide", (5, 2), (2, 5)),
+        ("of a vector", (5,), (5,)),
+    ):
+        put("PseudoInverse", variant, {}, {"matrix": source}, "inverted", target)
+    put("PseudoInverse", "of a number", {}, {"matrix": one}, "inverted", one)
     put("Maximum", "", {}, {"terms": [line, line, line]}, "maximum", line)
     put("Minimum", "", {}, {"terms": [line, line]}, "minimum", line)
     put("Norm", "", {}, {"input": plane}, "output", one)
@@ -722,6 +741,7 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("RemoveMean", "", {}, {"matrix": plane}, "mean-free matrix", plane)
     put("LinearFunction", "", {"slope": 2, "horizontal shift": 0.3}, {"input": line}, "result", line)
     put("Logarithm", "", {"base": 2}, {"input": line}, "result", line)
+    put("Logarithm", "base", {}, {"input": line, "base (optional)": one}, "result", line)
     put("Sinus", "", {"amplitude": 2, "phase shift": 0.4}, {"input": one}, "result", one)
     shifted = {"input": one, "phase shift (optional)": one}
     put("Sinus", "cosine", {"amplitude": 2, "make cos": True}, shifted, "result", one)
@@ -828,6 +848,12 @@ def _arrays(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
         put("Clamp", variant, {**limits, **more}, {"input": sizes}, "thresholded input", sizes)
     put("Flip", "", {"flipped dimensions": [True, False]}, {"input": plane}, "output", plane)
     put("Mask", "", {}, {"input": line, "mask": line}, "masked", line)
+    counted = {"bins": 6, "range lower": 0.1, "range upper": 0.9}
+    for kind in ("None", "ImageSize", "Maximum"):
+        given = {**counted, "normalization type": kind}
+        put("Histogram", "" if kind == "None" else kind, given, {"input": plane}, "histogram", (6,))
+    put("Histogram", "mask", counted, {"input": line, "mask": line}, "histogram", (6,))
+    put("Histogram", "one bin", {**counted, "bins": 1}, {"input": cube}, "histogram", one)
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
         given = {"padding mode": "PadByBorder", "border size": [2, 3], "border type": shape}
         variant = "" if shape == "Zero" else shape

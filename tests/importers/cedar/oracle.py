@@ -1134,6 +1134,32 @@ def matrix_multiply(p, x, s, clock):
     return {"matrixProduct": a @ b}
 
 
+@steps_of("cedar.processing.PseudoInverse", needs=["matrix"])
+def pseudo_inverse(p, x, s, clock):
+    if x["matrix"].ndim != 2:
+        raise Invalid("a matrix is read here")
+    inverse = np.linalg.pinv(x["matrix"], rcond=1e-6)
+    return {"inverted": inverse.reshape(-1, 1) if 1 in inverse.shape else inverse}
+
+
+@steps_of("cedar.processing.steps.Histogram", needs=["input"], may=["mask"])
+def histogram(p, x, s, clock):
+    """Count the cells in bins of equal width, without the end of the range."""
+    values = x["input"].reshape(-1)
+    if "mask" in x:
+        values = values[equal(x["mask"], x["input"]).reshape(-1) != 0]
+    bins, low, high = int(p.number("bins", 10)), p.number("range lower", 0), p.number("range upper", 255)
+    counts = np.zeros(bins)
+    for value in values[(values >= low) & (values < high)]:
+        counts[min(int((value - low) / (high - low) * bins), bins - 1)] += 1
+    kind = p.word("normalization type", "None")
+    if kind == "ImageSize":
+        counts = counts / x["input"].size
+    elif kind == "Maximum" and counts.max() > 0:
+        counts = counts / counts.max()
+    return {"histogram": vector(counts)}
+
+
 @steps_of("cedar.processing.steps.Maximum", needs=["terms"], many=["terms"])
 def maximum(p, x, s, clock):
     y = x["terms"][0]

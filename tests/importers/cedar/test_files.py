@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.importers.cedar.classes import CLASSES
+from deodar.importers.cedar.classes.missing import UNDOCUMENTED, WORLDS
 from deodar.importers.opening import read, tool_of
 from tests.importers.cedar.models import Many, written
 
@@ -77,6 +80,36 @@ def test_a_renamed_type_and_an_unknown_one(tmp_path):
     assert done.model["old"].factor == 3
     assert why(done, "own") == ["Placeholder: has no counterpart"]
     assert why(done, "own", "connection") == [""]
+
+
+TRANSLATED = {kind.rpartition(".")[2] for kind in CLASSES}
+
+
+@pytest.mark.parametrize("kind", sorted({*WORLDS, *UNDOCUMENTED} - TRANSLATED))
+def test_a_placeholder_says_what_to_use_or_what_is_not_documented(kind, tmp_path):
+    done = opened({"steps": {f"cedar.processing.steps.{kind}": {"name": "s"}}}, tmp_path)
+    said = why(done, "s")[0]
+    used = re.findall(r"\bdd\.(\w+)|\b(Homography|ObstacleRepulsion|TimeSeries|Function)\b", said)
+    assert all(hasattr(dd, first or second) for first, second in used)
+    own = ("element of your own", "reads='delayed'", "deodar export", "not documented")
+    assert said.startswith("Placeholder: ") and (used or any(words in said for words in own))
+
+
+@pytest.mark.parametrize(
+    ("values", "world"),
+    [
+        ({"component": "hardware epuck.drive"}, "dd.Arena as world in place of 'hardware epuck.drive'"),
+        ({"component": "new robot.arm"}, "dd.MuJoCo as world in place of 'new robot.arm'"),
+        ({"Command Subset": "differential drive interface"}, "open dd.Arena as world"),
+        ({"component": []}, "dd.Arena for a vehicle or dd.MuJoCo for an arm"),
+    ],
+)
+def test_a_part_of_a_robot_names_the_world_and_its_signals(values, world, tmp_path):
+    part = {"name": "s", **values}
+    steps = {"cedar.processing.steps.Component": part, FIELD: {**LINE, "name": "u"}}
+    wires = [{"source": "s.Joint Angles", "target": "u.input"}]
+    said = why(opened({"steps": steps, "connections": wires}, tmp_path), "s")[0]
+    assert world in said and "(Joint Angles: sensor joint_angles)" in said
 
 
 def test_repeated_keys_times_with_units_and_text_lists(tmp_path):
