@@ -577,6 +577,15 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
             OUT,
             line,
         )
+    bent = {**shape, **plain, "resting level": -1, "global inhibition": -0.02}
+    bent["sigmoid"] = sigmoid("SemiLinearTransferFunction", threshold=-0.6, beta=0.7)
+    for sizes in (line, plane, one):
+        kernels = Many([gauss(0.6, [0.9] * max(len(sizes), 1)), box(-0.1, [3] * max(len(sizes), 1))])
+        own = {"dimensionality": len(sizes), "sizes": list(sizes), "lateral kernels": kernels}
+        variant = f"SemiLinearTransferFunction {len(sizes)}-D"
+        put("NeuralField", variant, {**bent, **own}, {"input": sizes}, OUT, sizes)
+    constant = {"sigmoid": sigmoid("LinearTransferFunction", factor=0, offset=0.4)}
+    put("NeuralField", "constant output", {**bent, **constant}, {"input": line}, OUT, line)
     trace = {
         **shape,
         "time scale build up": 80,
@@ -635,6 +644,7 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
         "weight init noise": 0,
     }
     times = {"time scale": 50, "time scale decay": 200}
+    bent = sigmoid("SemiLinearTransferFunction", threshold=0.5, beta=0.3)
     sharp = {"g (reward sigmoid)": sigmoid("HeavisideSigmoid", threshold=0.5)}
     short = {"fixed reward duration": True, "reward duration": 50, **sharp}
     for variant, source, target, more in (
@@ -649,6 +659,7 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
         ("one time scale", one, line, {"time scale": 50}),
         ("two time scales", one, line, times),
         ("manual weights", one, (24,), {"weight centers": [12], "weight sigmas": [2], "weight amplitude": 2}),
+        ("a jump of the source", one, line, {"f (source sigmoid)": bent}),
         ("reward duration", one, line, short),
         ("short reward duration", one, line, {**short, "reward duration": 8}),
         ("uneven reward duration", one, line, {**short, "reward duration": 55}),
@@ -747,6 +758,13 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("Sinus", "cosine", {"amplitude": 2, "make cos": True}, shifted, "result", one)
     function = {"function": sigmoid(threshold=0.3, beta=4)}
     put("TransferFunction", "", function, {"input": line}, "sigmoided output", line)
+    for variant, more in (
+        ("SemiLinearTransferFunction", {"threshold": 0.45, "beta": -1.5}),
+        ("Logarithm", {}),
+        ("LinearTransferFunction", {"factor": 0, "offset": 0.3}),
+    ):
+        given = {"function": sigmoid(variant, **more)}
+        put("TransferFunction", variant, given, {"input": line}, "sigmoided output", line)
     put("Transpose", "", {}, {"matrix": (7, 8)}, "transposed", plane)
     _convolutions(put, line, plane)
     _projections(put, one)

@@ -14,7 +14,6 @@ TYPES = models.every_type()
 
 NOT_EXACT = {
     "cedar.dynamics.HarmonicOscillator": "what it gives before the first step",
-    "cedar.dynamics.NeuralField, SemiLinearTransferFunction": "its value below the threshold",
     "cedar.dynamics.SerialOrder": "nodes are updated one after another",
     "cedar.processing.sources.SpatialTemplate": "where the angle begins",
     "cedar.processing.steps.ExponentialSmoothing": "the first step",

@@ -9,7 +9,6 @@ from deodar.couplings.convolve import Convolve
 from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
-from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.steered_convolve import SteeredConvolve
 from deodar.couplings.sum import Sum
 from deodar.element import Element
@@ -21,7 +20,7 @@ from deodar.importers.cedar.file import members, text
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.kernels import kernels, too_long
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
-from deodar.importers.cedar.sigmoids import sigmoid
+from deodar.importers.cedar.transfer import transferred
 from deodar.importers.cedar.values import number
 from deodar.numerics.sigmoids.absolute import Absolute
 
@@ -276,8 +275,10 @@ def _require_valid(mapping: dict[int, int], given: int, count: int) -> None:
 
 def transfer(b: SourceStep) -> StepPiece:
     """Translate TransferFunction."""
-    element = Sigmoid(sigmoid(b.values, "function", Absolute(100.0, 0.0)), name=b.label)
-    return one_to_one(element, "input", "sigmoided output", b.first("input"))
+    dims, c = b.first("input"), Composition(b)
+    result = transferred(c, "", "function", Absolute(100.0, 0.0), c.slot("input"))
+    c.outlet("sigmoided output", result, dims)
+    return c.done(type(next(e for e in c.piece.elements if e.name == b.label)).__name__)
 
 
 def transpose(b: SourceStep) -> StepPiece:

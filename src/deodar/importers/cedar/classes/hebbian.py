@@ -8,13 +8,13 @@ import numpy as np
 
 from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.reward_gate import RewardGate
-from deodar.couplings.sigmoid import Sigmoid
 from deodar.elements.boost import Boost
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.composition import Composition, StepSignal
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.piece import SourceStep, StepPiece
 from deodar.importers.cedar.sigmoids import sigmoid
+from deodar.importers.cedar.transfer import transferred
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.step import Step
@@ -106,13 +106,13 @@ class _Connection:
 
     def activity(self, letter: str, what: str, given: StepSignal, default: SigmoidFunction) -> StepSignal:
         """Add a function of a side or of the reward."""
-        function = sigmoid(self.b.values, f"{letter} ({what} sigmoid)", default)
-        if letter == "g" and not isinstance(function, Step):
+        name = f"{letter} ({what} sigmoid)"
+        if letter == "g" and not isinstance(sigmoid(self.b.values, name, default), Step):
             if self.source and self.target:
                 self.doubts.append("how a reward between 0 and 1 acts on two lines is not documented")
             elif self.b.values.flag("fixed reward duration", False):
                 self.doubts.append("what begins the reward duration is documented for the Heaviside only")
-        return self.c.add(Sigmoid(function, name=self.b.named(f"{letter} of {what}")), input=given)
+        return transferred(self.c, f"{letter} of {what}", name, default, given)
 
     def along(self, signal: StepSignal, what: str, d: int) -> StepSignal:
         """Add the value of one side at all weights."""
