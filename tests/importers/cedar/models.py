@@ -63,7 +63,9 @@ TYPES = {
                 "CrossProduct",
                 "Delay",
                 "ExponentialSmoothing",
+                "HarmonicOscillatorRHS",
                 "Histogram",
+                "HopfOscillatorRHS",
                 "InnerProduct",
                 "LinearFunction",
                 "Logarithm",
@@ -521,6 +523,13 @@ def every_type() -> dict[str, str]:
     _programs(put, line, plane, one)
     models[TYPES["VariableBox"]] = _moved_box({"center at input": False})
     models[TYPES["VariableBox"] + ", centred"] = _moved_box({"center at input": True})
+    for kind in ("HopfOscillatorRHS", "HarmonicOscillatorRHS"):
+        for count in (1, 3):
+            for given in (False, True):
+                variant = f", {count} of {'inputs' if given else 'numbers'}"
+                models[TYPES[kind] + (variant if variant != ", 1 of numbers" else "")] = _bank(
+                    kind, count, given
+                )
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
         for engine in ("OpenCV", "FFTW"):
             models[f"{TYPES['NeuralField']}, {shape} {engine}"] = _bordered(shape, engine)
@@ -535,6 +544,32 @@ def _moved_box(more: dict[str, Any]) -> str:
     m.wire("count.output", f"{m.add('VariableBox', 'step', {**shape, **more})}.left bounds")
     m.field("target", (12,))
     m.wire("step.box", "target.input")
+    return m.text()
+
+
+def _bank(kind: str, count: int, given: bool) -> str:
+    """Return a model of oscillators whose state is integrated, from a state at the start."""
+    m = Model()
+    more = {"bank size": count, "bank omega": 3, "bank alpha": 2, "bank gamma": 0.5}
+    more |= {"bank stiffness": 9, "bank damping": 0.6, "force critically damped": given and count == 1}
+    start = ("ConstVector", {"number of vector entries": 2, "entries": [1, 0.5]}, "vector")
+    if count > 1:
+        start = ("ConstMatrix", {"sizes": [2, count], "value": 0.7}, "matrix")
+    m.add(kind, "step", more)
+    m.add("NumericalIntegration", "state", {})
+    m.wire(f"{m.add(start[0], 'start', start[1])}.{start[2]}", "state.initial state (optional)")
+    m.wire("step.state change", "state.input")
+    m.wire("state.integration result", "step.state")
+    sizes = (2, count) if count > 1 else (2,)
+    own = (count,) if count > 1 else ()
+    slots = {"HopfOscillatorRHS": ("omegas (bank)", "gammas (bank)"), "HarmonicOscillatorRHS": ("shift",)}[
+        kind
+    ]
+    for k, slot in enumerate(slots if given else ()):
+        m.wire(f"{_driven(m, f'source {k}', own, k)}.{OUT}", f"step.{slot} (optional)")
+    m.field("target", sizes)
+    m.wire("state.integration result", "target.input")
+    m.triggers = {"default thread": m.looped()}
     return m.text()
 
 
@@ -628,6 +663,14 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
         "ordinal node 2 output",
         one,
     )
+    soft = {"ordinal resting level": -1, "ordinal self excitation": 3, "ordinal global inhibition": -2}
+    soft |= {"memory resting level": -0.5, "memory to next ordinal": 2, "memory to same ordinal": -1}
+    soft |= {"ordinal to prev memory": -1, "ordinal to same memory": 2, "memory self excitation": 2}
+    for cyclic in (False, True):
+        given = {**order, **soft, "number of ordinal positions": 4, "cyclic": cyclic}
+        puts = "ordinal node 2 output"
+        put("SerialOrder", f"soft {cyclic}", given, {"CoS signal input": one}, puts, one)
+    put("SerialOrder", "no signal", {**order, **soft}, {}, "ordinal node 0 output", one)
     _learning(put, line, plane, one)
 
 
@@ -915,7 +958,28 @@ def _programs(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("Delay", "", {"number of time steps": 3}, {"input": line}, "output", line)
     put("Timer", "", {}, {"run signal (optional)": one}, "time", one)
     put("NumericalIntegration", "", {}, {"input": line}, "integration result", line)
-    first = {"input": line, "initial state (optional)": line}
-    put("NumericalIntegration", "initial state", {}, first, "integration result", line)
-    put("NumericalDifferentiation", "", {}, {"input": line}, "differentiated result", line)
+    start, delay, reset = (f"{w} (optional)" for w in ("initial state", "delay", "reset signal"))
+    out = "integration result"
+    first = {"input": line, start: line}
+    put("NumericalIntegration", "initial state", {}, first, out, line)
+    put("NumericalIntegration", "initial number", {}, {"input": plane, start: one}, out, plane)
+    put("NumericalIntegration", "delay", {}, {"input": line, delay: one}, out, line)
+    put("NumericalIntegration", "reset", {}, {"input": line, reset: one}, out, line)
+    put("NumericalIntegration", "all", {}, {"input": one, start: one, delay: one, reset: one}, out, one)
+    put("Timer", "reset", {}, {"run signal (optional)": one, reset: one}, "time", one)
+    put("Timer", "only reset", {}, {reset: one}, "time", one)
+    out = "differentiated result"
+    put("NumericalDifferentiation", "", {}, {"input": line}, out, line)
+    long = {"ignore time steps smaller than": 0.02}
+    put("NumericalDifferentiation", "short steps", long, {"input": line}, out, line)
+    some = {"ignore time steps smaller than": 0.3, "ignore time steps larger than": 0.8}
+    put("NumericalDifferentiation", "delay", some, {"input": plane, delay: one}, out, plane)
     put("ExponentialSmoothing", "", {"data smoothing factor": 0.3}, {"input": line}, "forecast", line)
+    put(
+        "ExponentialSmoothing",
+        "of a number",
+        {"trend smoothing factor": 0.4},
+        {"input": one},
+        "forecast",
+        one,
+    )

@@ -10,6 +10,8 @@ from deodar.importers.cedar.classes import (
     fields,
     functions,
     hebbian,
+    numerics,
+    oscillators,
     programming,
     serial_order,
     sources,
@@ -26,6 +28,8 @@ CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **functions.CLASSES,
     **arrays.CLASSES,
     **programming.CLASSES,
+    **numerics.CLASSES,
+    **oscillators.CLASSES,
     **vision.CLASSES,
 }
 
@@ -44,6 +48,7 @@ DECLARED = frozenset(
         "cedar.processing.sources.SinusSignal",
         "cedar.processing.sources.StepSignal",
         *sources.CLASSES,
+        *oscillators.CLASSES,
     }
 )
 """Types whose outputs have sizes of their own, whatever arrives."""

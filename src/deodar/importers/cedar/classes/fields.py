@@ -60,9 +60,7 @@ def neural_field(b: SourceStep) -> StepPiece:
         noise=values.number("input noise gain", 0.1, 0.0),
     )
     if apart == "Logarithm":
-        values.say(
-            "sigmoid", "approximated", "of 0 and negative activation it is -69 here, undefined in cedar"
-        )
+        values.say("sigmoid", "approximated", "of 0 and less it is -69 here, undefined in cedar")
     if ends.type == "Cyclic" and not ends.fourier and _unequal(field):
         b.bug("a cyclic convolution in two dimensions mixes up the widths of its two factors at the border")
     for name in ("multiplicative noise (input)", "multiplicative noise (activation)"):
