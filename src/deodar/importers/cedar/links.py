@@ -138,14 +138,14 @@ def _end(group: CedarGroup, name: str, parameter: str, by: Mapping[StepPath, Ent
         held = sign * float(get(entry.element, leaf))
     except (DeodarError, TypeError, ValueError):  # a kernel that the field does not have
         return None
-    stated = _stated(step.values, parameter)
+    found = stated(step.values, parameter)
     # the amplitude of a node's kernel, or the strength of an inactive boost, is another number here
-    if stated is not None and not math.isclose(stated, held, rel_tol=1e-9, abs_tol=1e-12):
+    if found is not None and not math.isclose(found, held, rel_tol=1e-9, abs_tol=1e-12):
         return None
     return LinkEnd(entry.id, leaf, sign, held)
 
 
-def _stated(values: Any, parameter: str) -> float | None:
+def stated(values: Any, parameter: str) -> float | None:
     """Return the number of a parameter in the file; None if it does not state one."""
     for name in parameter.split("."):
         listed = LISTED.match(name)
