@@ -57,6 +57,7 @@ from deodar.couplings.pointwise import Pointwise as Pointwise
 from deodar.couplings.population_activity import PopulationActivity as PopulationActivity
 from deodar.couplings.product import Product as Product
 from deodar.couplings.project import Project as Project
+from deodar.couplings.pseudo_inverse import PseudoInverse as PseudoInverse
 from deodar.couplings.quotient import Quotient as Quotient
 from deodar.couplings.rate_code import RateCode as RateCode
 from deodar.couplings.resample import Resample as Resample
@@ -64,6 +65,7 @@ from deodar.couplings.reward_gate import RewardGate as RewardGate
 from deodar.couplings.shift import Shift as Shift
 from deodar.couplings.sigmoid import Sigmoid as Sigmoid
 from deodar.couplings.space_code import SpaceCode as SpaceCode
+from deodar.couplings.steered_convolve import SteeredConvolve as SteeredConvolve
 from deodar.couplings.steered_shift import SteeredShift as SteeredShift
 from deodar.couplings.sum import Sum as Sum
 from deodar.couplings.threshold import Threshold as Threshold

@@ -40,7 +40,7 @@ def ports(parts):
         label, group = ".".join(path), path[:-1]
         for slot, outlet in piece.outlets.items():
             port = f"{display((*group, outlet.name))}.{outlet.port}"
-            at = 0 if outlet.state else behind(parts, path)
+            at = 0 if outlet.state else behind(parts, path, outlet.name)
             if at is not None:
                 found[f"{label}.{slot}"] = (port, at)
         if isinstance(piece.elements[0], Field):
@@ -48,23 +48,37 @@ def ports(parts):
     return found
 
 
-def behind(parts, path, seen=()):
-    """Return by how many iterations the record of a step is behind; None if its inputs disagree."""
-    wiring = parts.wiring
-    if path not in wiring.place or path in seen:
-        return 0 if path not in wiring.place else 1
-    if any(wire[3:] == ("current",) for wire in parts.pieces[path].inner):
+def behind(parts, path, name):
+    """Return by how many iterations the record of an element is behind; None if its inputs disagree.
+
+    A state after the update is not behind, and one before it is behind by one iteration.
+    """
+    if path not in parts.wiring.place:
         return 0
-    found = {1} if parts.pieces[path].elements[0].stateful else set()
+    found = ages(parts, path, name, ())
+    return found.pop() if len(found) == 1 else 1 if not found else None
+
+
+def ages(parts, path, name, seen):
+    """Return by how many iterations what an element follows from is behind; nothing for constants."""
+    wiring, piece = parts.wiring, parts.pieces[path]
+    if path not in wiring.place:
+        return set()
+    if (path, name) in seen or next(e for e in piece.elements if e.name == name).stateful:
+        return {1}
+    found, seen = set(), (*seen, (path, name))
+    for a, c, *rest in piece.inner:
+        if c == name:
+            found |= {0} if rest[1:2] == ["current"] else ages(parts, path, a, seen)
     for wire in wiring.into.get(path, ()):
         outlet = parts.pieces[wire.source].outlets.get(wire.source_slot)
-        if wire.source not in wiring.place or outlet is None:
-            continue
-        if wiring.lag(wire.source, path):
-            found.add(1)
-        else:
-            found.add(0 if outlet.state else behind(parts, wire.source, (*seen, path)))
-    return found.pop() if len(found) == 1 else 1 if not found else None
+        inlets = [i.name for listed in piece.inlets.get(wire.target_slot, []) for i in listed]
+        if name in inlets and outlet is not None and wire.source in wiring.place:
+            if wiring.lag(wire.source, path):
+                found.add(1)
+            else:
+                found |= {0} if outlet.state else ages(parts, wire.source, outlet.name, seen)
+    return found
 
 
 def run(content, steps, dt, slots=None):

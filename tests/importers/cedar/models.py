@@ -40,6 +40,7 @@ TYPES = {
                 "Norm",
                 "Normalization",
                 "Projection",
+                "PseudoInverse",
                 "RemoveMean",
                 "Resize",
                 "ScalarDivision",
@@ -62,6 +63,9 @@ TYPES = {
                 "CrossProduct",
                 "Delay",
                 "ExponentialSmoothing",
+                "HarmonicOscillatorRHS",
+                "Histogram",
+                "HopfOscillatorRHS",
                 "InnerProduct",
                 "LinearFunction",
                 "Logarithm",
@@ -519,6 +523,13 @@ def every_type() -> dict[str, str]:
     _programs(put, line, plane, one)
     models[TYPES["VariableBox"]] = _moved_box({"center at input": False})
     models[TYPES["VariableBox"] + ", centred"] = _moved_box({"center at input": True})
+    for kind in ("HopfOscillatorRHS", "HarmonicOscillatorRHS"):
+        for count in (1, 3):
+            for given in (False, True):
+                variant = f", {count} of {'inputs' if given else 'numbers'}"
+                models[TYPES[kind] + (variant if variant != ", 1 of numbers" else "")] = _bank(
+                    kind, count, given
+                )
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
         for engine in ("OpenCV", "FFTW"):
             models[f"{TYPES['NeuralField']}, {shape} {engine}"] = _bordered(shape, engine)
@@ -533,6 +544,32 @@ def _moved_box(more: dict[str, Any]) -> str:
     m.wire("count.output", f"{m.add('VariableBox', 'step', {**shape, **more})}.left bounds")
     m.field("target", (12,))
     m.wire("step.box", "target.input")
+    return m.text()
+
+
+def _bank(kind: str, count: int, given: bool) -> str:
+    """Return a model of oscillators whose state is integrated, from a state at the start."""
+    m = Model()
+    more = {"bank size": count, "bank omega": 3, "bank alpha": 2, "bank gamma": 0.5}
+    more |= {"bank stiffness": 9, "bank damping": 0.6, "force critically damped": given and count == 1}
+    start = ("ConstVector", {"number of vector entries": 2, "entries": [1, 0.5]}, "vector")
+    if count > 1:
+        start = ("ConstMatrix", {"sizes": [2, count], "value": 0.7}, "matrix")
+    m.add(kind, "step", more)
+    m.add("NumericalIntegration", "state", {})
+    m.wire(f"{m.add(start[0], 'start', start[1])}.{start[2]}", "state.initial state (optional)")
+    m.wire("step.state change", "state.input")
+    m.wire("state.integration result", "step.state")
+    sizes = (2, count) if count > 1 else (2,)
+    own = (count,) if count > 1 else ()
+    slots = {"HopfOscillatorRHS": ("omegas (bank)", "gammas (bank)"), "HarmonicOscillatorRHS": ("shift",)}[
+        kind
+    ]
+    for k, slot in enumerate(slots if given else ()):
+        m.wire(f"{_driven(m, f'source {k}', own, k)}.{OUT}", f"step.{slot} (optional)")
+    m.field("target", sizes)
+    m.wire("state.integration result", "target.input")
+    m.triggers = {"default thread": m.looped()}
     return m.text()
 
 
@@ -575,6 +612,15 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
             OUT,
             line,
         )
+    bent = {**shape, **plain, "resting level": -1, "global inhibition": -0.02}
+    bent["sigmoid"] = sigmoid("SemiLinearTransferFunction", threshold=-0.6, beta=0.7)
+    for sizes in (line, plane, one):
+        kernels = Many([gauss(0.6, [0.9] * max(len(sizes), 1)), box(-0.1, [3] * max(len(sizes), 1))])
+        own = {"dimensionality": len(sizes), "sizes": list(sizes), "lateral kernels": kernels}
+        variant = f"SemiLinearTransferFunction {len(sizes)}-D"
+        put("NeuralField", variant, {**bent, **own}, {"input": sizes}, OUT, sizes)
+    constant = {"sigmoid": sigmoid("LinearTransferFunction", factor=0, offset=0.4)}
+    put("NeuralField", "constant output", {**bent, **constant}, {"input": line}, OUT, line)
     trace = {
         **shape,
         "time scale build up": 80,
@@ -617,6 +663,14 @@ def _dynamics(put: Any, line: Any, plane: Any, one: Any) -> None:
         "ordinal node 2 output",
         one,
     )
+    soft = {"ordinal resting level": -1, "ordinal self excitation": 3, "ordinal global inhibition": -2}
+    soft |= {"memory resting level": -0.5, "memory to next ordinal": 2, "memory to same ordinal": -1}
+    soft |= {"ordinal to prev memory": -1, "ordinal to same memory": 2, "memory self excitation": 2}
+    for cyclic in (False, True):
+        given = {**order, **soft, "number of ordinal positions": 4, "cyclic": cyclic}
+        puts = "ordinal node 2 output"
+        put("SerialOrder", f"soft {cyclic}", given, {"CoS signal input": one}, puts, one)
+    put("SerialOrder", "no signal", {**order, **soft}, {}, "ordinal node 0 output", one)
     _learning(put, line, plane, one)
 
 
@@ -633,15 +687,25 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
         "weight init noise": 0,
     }
     times = {"time scale": 50, "time scale decay": 200}
+    bent = sigmoid("SemiLinearTransferFunction", threshold=0.5, beta=0.3)
+    sharp = {"g (reward sigmoid)": sigmoid("HeavisideSigmoid", threshold=0.5)}
+    short = {"fixed reward duration": True, "reward duration": 50, **sharp}
     for variant, source, target, more in (
         ("", one, line, {}),
         ("0-D target", line, one, {}),
-        ("lines", line, (9,), {}),
+        ("0-D target one time scale", plane, one, {"time scale": 50}),
+        ("lines", line, (9,), sharp),
+        ("lines one time scale", line, (9,), {**sharp, "time scale": 30}),
+        ("lines two time scales", (9,), line, {**sharp, **times}),
+        ("lines of one length", line, line, {**short, "weight init value": 0.1, "weight init noise": 0.1}),
         ("0-D to 2-D", one, plane, {}),
         ("one time scale", one, line, {"time scale": 50}),
         ("two time scales", one, line, times),
         ("manual weights", one, (24,), {"weight centers": [12], "weight sigmas": [2], "weight amplitude": 2}),
-        ("reward duration", one, line, {"fixed reward duration": True, "reward duration": 50}),
+        ("a jump of the source", one, line, {"f (source sigmoid)": bent}),
+        ("reward duration", one, line, short),
+        ("short reward duration", one, line, {**short, "reward duration": 8}),
+        ("uneven reward duration", one, line, {**short, "reward duration": 55}),
     ):
         given = {
             **rule,
@@ -655,6 +719,10 @@ def _learning(put: Any, line: Any, plane: Any, one: Any) -> None:
         }
         reads = {"source node": source, "target field": target, "reward signal": one}
         put("HebbianConnection", variant, given, reads, "learned output", target)
+        if variant == "lines":
+            given |= {"weight init value": 0.2, "weight init noise": 0.2}
+            del reads["reward signal"]
+            put("HebbianConnection", "no reward", given, reads, "learned output", target)
 
 
 def _sources(put: Any, line: Any, plane: Any, one: Any) -> None:
@@ -700,6 +768,23 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("MatrixMultiply", "", {"transposeOperand1": False}, pair, "matrixProduct", (4, 5))
     pair = {"operand1": (6, 4), "operand2": (6, 5)}
     put("MatrixMultiply", "transposed", {"transposeOperand1": True}, pair, "matrixProduct", (4, 5))
+    for variant, first, second, target in (
+        ("by a vector", (4, 6), (6,), (4,)),
+        ("of a vector", (6,), (6, 5), (5,)),
+        ("of two vectors", (6,), (6,), one),
+        ("a column by a number", (6,), one, (6,)),
+        ("of equal sizes", (5, 5), (5, 5), (5, 5)),
+    ):
+        turned = {"transposeOperand1": variant.startswith("of")}
+        pair = {"operand1": first, "operand2": second}
+        put("MatrixMultiply", variant, turned, pair, "matrixProduct", target)
+    for variant, source, target in (
+        ("", (3, 4), (4, 3)),
+        ("wide", (5, 2), (2, 5)),
+        ("of a vector", (5,), (5,)),
+    ):
+        put("PseudoInverse", variant, {}, {"matrix": source}, "inverted", target)
+    put("PseudoInverse", "of a number", {}, {"matrix": one}, "inverted", one)
     put("Maximum", "", {}, {"terms": [line, line, line]}, "maximum", line)
     put("Minimum", "", {}, {"terms": [line, line]}, "minimum", line)
     put("Norm", "", {}, {"input": plane}, "output", one)
@@ -710,11 +795,19 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("RemoveMean", "", {}, {"matrix": plane}, "mean-free matrix", plane)
     put("LinearFunction", "", {"slope": 2, "horizontal shift": 0.3}, {"input": line}, "result", line)
     put("Logarithm", "", {"base": 2}, {"input": line}, "result", line)
+    put("Logarithm", "base", {}, {"input": line, "base (optional)": one}, "result", line)
     put("Sinus", "", {"amplitude": 2, "phase shift": 0.4}, {"input": one}, "result", one)
     shifted = {"input": one, "phase shift (optional)": one}
     put("Sinus", "cosine", {"amplitude": 2, "make cos": True}, shifted, "result", one)
     function = {"function": sigmoid(threshold=0.3, beta=4)}
     put("TransferFunction", "", function, {"input": line}, "sigmoided output", line)
+    for variant, more in (
+        ("SemiLinearTransferFunction", {"threshold": 0.45, "beta": -1.5}),
+        ("Logarithm", {}),
+        ("LinearTransferFunction", {"factor": 0, "offset": 0.3}),
+    ):
+        given = {"function": sigmoid(variant, **more)}
+        put("TransferFunction", variant, given, {"input": line}, "sigmoided output", line)
     put("Transpose", "", {}, {"matrix": (7, 8)}, "transposed", plane)
     _convolutions(put, line, plane)
     _projections(put, one)
@@ -741,6 +834,14 @@ def _convolutions(put: Any, line: Any, plane: Any) -> None:
         given = {"kernels": "", "convolution": border(**{"alternate even kernel center": alternate})}
         variant = f"kernel input {alternate}"
         put("Convolution", variant, given, {"matrix": line, "kernel": (6,)}, "result", line)
+    for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
+        given = {"kernels": both, "convolution": border(shape)}
+        put("Convolution", f"kernel input {shape}", given, {"matrix": line, "kernel": (5,)}, "result", line)
+        flat = {"matrix": plane, "kernel": (3, 4)}
+        put("Convolution", f"kernel input 2-D {shape}", given, flat, "result", plane)
+    given = {"kernels": "", "convolution": border("Zero", "FFTW")}
+    put("Convolution", "kernel input FFTW", given, {"matrix": line, "kernel": (4,)}, "result", line)
+    put("Convolution", "kernel input 0-D", given, {"matrix": line, "kernel": ()}, "result", line)
 
 
 def _projections(put: Any, one: Any) -> None:
@@ -798,8 +899,22 @@ def _arrays(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
         "thresholded input",
         line,
     )
+    for variant, more in (
+        ("lower replaced", {"replace lower limit": True, "lower replacement": -2}),
+        ("upper replaced", {"replace upper limit": True, "apply lower limit": False}),
+        ("no limits", {"apply upper limit": False, "apply lower limit": False}),
+        ("replaced on a plane", {"replace upper limit": True, "upper replacement": 3, "lower limit": 0.4}),
+    ):
+        sizes = plane if "plane" in variant else line
+        put("Clamp", variant, {**limits, **more}, {"input": sizes}, "thresholded input", sizes)
     put("Flip", "", {"flipped dimensions": [True, False]}, {"input": plane}, "output", plane)
     put("Mask", "", {}, {"input": line, "mask": line}, "masked", line)
+    counted = {"bins": 6, "range lower": 0.1, "range upper": 0.9}
+    for kind in ("None", "ImageSize", "Maximum"):
+        given = {**counted, "normalization type": kind}
+        put("Histogram", "" if kind == "None" else kind, given, {"input": plane}, "histogram", (6,))
+    put("Histogram", "mask", counted, {"input": line, "mask": line}, "histogram", (6,))
+    put("Histogram", "one bin", {**counted, "bins": 1}, {"input": cube}, "histogram", one)
     for shape in ("Zero", "Cyclic", "Replicate", "Reflect"):
         given = {"padding mode": "PadByBorder", "border size": [2, 3], "border type": shape}
         variant = "" if shape == "Zero" else shape
@@ -843,7 +958,28 @@ def _programs(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("Delay", "", {"number of time steps": 3}, {"input": line}, "output", line)
     put("Timer", "", {}, {"run signal (optional)": one}, "time", one)
     put("NumericalIntegration", "", {}, {"input": line}, "integration result", line)
-    first = {"input": line, "initial state (optional)": line}
-    put("NumericalIntegration", "initial state", {}, first, "integration result", line)
-    put("NumericalDifferentiation", "", {}, {"input": line}, "differentiated result", line)
+    start, delay, reset = (f"{w} (optional)" for w in ("initial state", "delay", "reset signal"))
+    out = "integration result"
+    first = {"input": line, start: line}
+    put("NumericalIntegration", "initial state", {}, first, out, line)
+    put("NumericalIntegration", "initial number", {}, {"input": plane, start: one}, out, plane)
+    put("NumericalIntegration", "delay", {}, {"input": line, delay: one}, out, line)
+    put("NumericalIntegration", "reset", {}, {"input": line, reset: one}, out, line)
+    put("NumericalIntegration", "all", {}, {"input": one, start: one, delay: one, reset: one}, out, one)
+    put("Timer", "reset", {}, {"run signal (optional)": one, reset: one}, "time", one)
+    put("Timer", "only reset", {}, {reset: one}, "time", one)
+    out = "differentiated result"
+    put("NumericalDifferentiation", "", {}, {"input": line}, out, line)
+    long = {"ignore time steps smaller than": 0.02}
+    put("NumericalDifferentiation", "short steps", long, {"input": line}, out, line)
+    some = {"ignore time steps smaller than": 0.3, "ignore time steps larger than": 0.8}
+    put("NumericalDifferentiation", "delay", some, {"input": plane, delay: one}, out, plane)
     put("ExponentialSmoothing", "", {"data smoothing factor": 0.3}, {"input": line}, "forecast", line)
+    put(
+        "ExponentialSmoothing",
+        "of a number",
+        {"trend smoothing factor": 0.4},
+        {"input": one},
+        "forecast",
+        one,
+    )

@@ -1134,6 +1134,32 @@ def matrix_multiply(p, x, s, clock):
     return {"matrixProduct": a @ b}
 
 
+@steps_of("cedar.processing.PseudoInverse", needs=["matrix"])
+def pseudo_inverse(p, x, s, clock):
+    if x["matrix"].ndim != 2:
+        raise Invalid("a matrix is read here")
+    inverse = np.linalg.pinv(x["matrix"], rcond=1e-6)
+    return {"inverted": inverse.reshape(-1, 1) if 1 in inverse.shape else inverse}
+
+
+@steps_of("cedar.processing.steps.Histogram", needs=["input"], may=["mask"])
+def histogram(p, x, s, clock):
+    """Count the cells in bins of equal width, without the end of the range."""
+    values = x["input"].reshape(-1)
+    if "mask" in x:
+        values = values[equal(x["mask"], x["input"]).reshape(-1) != 0]
+    bins, low, high = int(p.number("bins", 10)), p.number("range lower", 0), p.number("range upper", 255)
+    counts = np.zeros(bins)
+    for value in values[(values >= low) & (values < high)]:
+        counts[min(int((value - low) / (high - low) * bins), bins - 1)] += 1
+    kind = p.word("normalization type", "None")
+    if kind == "ImageSize":
+        counts = counts / x["input"].size
+    elif kind == "Maximum" and counts.max() > 0:
+        counts = counts / counts.max()
+    return {"histogram": vector(counts)}
+
+
 @steps_of("cedar.processing.steps.Maximum", needs=["terms"], many=["terms"])
 def maximum(p, x, s, clock):
     y = x["terms"][0]
@@ -1501,6 +1527,57 @@ def numerical_integration(p, x, s, clock):
     else:
         s["y"] = s.get("y", first) + dt * given
     return {"integration result": s["y"].copy()}
+
+
+def begin_bank(p, s):
+    return {"state change": np.zeros(bank_shape(p))}
+
+
+def bank_shape(p):
+    return (2, int(p.number("bank size", 1)))
+
+
+def bank(p, x, key, slot):
+    """Return a parameter of all oscillators: a number, or one for each at an input."""
+    slot = f"{slot} (optional)"
+    return x[slot].reshape(-1) if slot in x else p.number(f"bank {key}", 1)
+
+
+@steps_of(
+    "cedar.processing.steps.HopfOscillatorRHS",
+    needs=["state"],
+    may=["omegas (bank) (optional)", "alphas (bank) (optional)", "gammas (bank) (optional)"],
+    begin=begin_bank,
+)
+def hopf_oscillators(p, x, s, clock):
+    if p.number("shift u by radius fraction", 0):
+        raise ValueError("no reference for a shifted limit cycle")
+    u, v = x["state"].reshape(bank_shape(p))
+    alpha, omega, gamma = (bank(p, x, key, f"{key}s (bank)") for key in ("alpha", "omega", "gamma"))
+    r = u**2 + v**2
+    rows = alpha * u - omega * v - gamma * r * u, alpha * v + omega * u - gamma * r * v
+    return {"state change": np.array(rows)}
+
+
+@steps_of(
+    "cedar.processing.steps.HarmonicOscillatorRHS",
+    needs=["state"],
+    may=["shift (optional)", "stiffnesss (bank) (optional)", "damping (bank) (optional)"],
+    begin=begin_bank,
+)
+def harmonic_oscillators(p, x, s, clock):
+    """Return the change of place and speed of masses of 1 on damped springs."""
+    place, speed = x["state"].reshape(bank_shape(p))
+    stiffness = bank(p, x, "stiffness", "stiffnesss (bank)")
+    damping = bank(p, x, "damping", "damping (bank)")
+    if p.flag("force critically damped", "false"):
+        damping = 2 * np.sqrt(stiffness)
+    shift = x["shift (optional)"].reshape(-1) if "shift (optional)" in x else 0
+    return {
+        "state change": np.array(
+            (speed * np.ones_like(place), -stiffness * (place - shift) - damping * speed)
+        )
+    }
 
 
 @steps_of(

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.importers.cedar.classes import CLASSES
+from deodar.importers.cedar.classes.missing import UNDOCUMENTED, WORLDS
 from deodar.importers.opening import read, tool_of
 from tests.importers.cedar.models import Many, written
 
@@ -79,6 +82,36 @@ def test_a_renamed_type_and_an_unknown_one(tmp_path):
     assert why(done, "own", "connection") == [""]
 
 
+TRANSLATED = {kind.rpartition(".")[2] for kind in CLASSES}
+
+
+@pytest.mark.parametrize("kind", sorted({*WORLDS, *UNDOCUMENTED} - TRANSLATED))
+def test_a_placeholder_says_what_to_use_or_what_is_not_documented(kind, tmp_path):
+    done = opened({"steps": {f"cedar.processing.steps.{kind}": {"name": "s"}}}, tmp_path)
+    said = why(done, "s")[0]
+    used = re.findall(r"\bdd\.(\w+)|\b(Homography|ObstacleRepulsion|TimeSeries|Function)\b", said)
+    assert all(hasattr(dd, first or second) for first, second in used)
+    own = ("element of your own", "reads='delayed'", "deodar export", "not documented")
+    assert said.startswith("Placeholder: ") and (used or any(words in said for words in own))
+
+
+@pytest.mark.parametrize(
+    ("values", "world"),
+    [
+        ({"component": "hardware epuck.drive"}, "dd.Arena as world in place of 'hardware epuck.drive'"),
+        ({"component": "new robot.arm"}, "dd.MuJoCo as world in place of 'new robot.arm'"),
+        ({"Command Subset": "differential drive interface"}, "open dd.Arena as world"),
+        ({"component": []}, "dd.Arena for a vehicle or dd.MuJoCo for an arm"),
+    ],
+)
+def test_a_part_of_a_robot_names_the_world_and_its_signals(values, world, tmp_path):
+    part = {"name": "s", **values}
+    steps = {"cedar.processing.steps.Component": part, FIELD: {**LINE, "name": "u"}}
+    wires = [{"source": "s.Joint Angles", "target": "u.input"}]
+    said = why(opened({"steps": steps, "connections": wires}, tmp_path), "s")[0]
+    assert world in said and "(Joint Angles: sensor joint_angles)" in said
+
+
 def test_repeated_keys_times_with_units_and_text_lists(tmp_path):
     text = written(
         {
@@ -91,24 +124,78 @@ def test_repeated_keys_times_with_units_and_text_lists(tmp_path):
     assert (done.model["a"].tau, done.model["b"].tau) == (50, 70)
 
 
-def test_direct_links_become_document_parameters_and_equations_are_reported(tmp_path):
-    direct = {"type": "cedar.aux.DirectParameterLink", "source parameter": "time scale"}
-    links = [
-        {**direct, "source element": "a", "target element": "b", "target parameter": "time scale"},
-        {
-            "type": "cedar.aux.EquationParameterLink",
-            "source element": "a",
-            "target element": "b",
-            "source parameter": "resting level",
-            "target parameter": "resting level",
-            "configuration": {"equation": "target = 2 * source"},
-        },
-    ]
-    steps = Many([(FIELD, {**LINE, "name": n, "time scale": "50"}) for n in ("a", "b")])
-    done = opened(written({"steps": steps, "parameter links": links}), tmp_path)
+def linked_fields(tmp_path, *links, **more):
+    """Return two fields whose parameters are linked, with the first value stated."""
+    steps = Many([(FIELD, {**LINE, "name": n, "time scale": "50", **more}) for n in ("a", "b")])
+    return opened(written({"steps": steps, "parameter links": list(links)}), tmp_path)
+
+
+def link(source, target, equation=""):
+    direct = "cedar.aux.DirectParameterLink"
+    return {
+        "type": "cedar.aux.EquationParameterLink" if equation else direct,
+        "source element": "a",
+        "target element": "b",
+        "source parameter": source,
+        "target parameter": target,
+        "configuration": {"equation": equation},
+    }
+
+
+def test_direct_links_become_document_parameters(tmp_path):
+    done = linked_fields(
+        tmp_path, link("time scale", "time scale"), link("global inhibition", "global inhibition")
+    )
     done.model.set("a time scale", 90)
+    done.model.set("a global inhibition", 0.4)
     assert (done.model["a"].tau, done.model["b"].tau) == (90, 90)
-    assert any("target = 2 * source" in line.why for line in done.report.losses)
+    assert (done.model["a"].global_inhibition, done.model["b"].global_inhibition) == (0.4, 0.4)
+    assert not [line for line in done.report.losses if "->" in line.what]
+
+
+@pytest.mark.parametrize(
+    ("equation", "found"),
+    [("target = 2 * source", -6), ("-(source - 1) / 4 + 0.5 - 3", -1.5), ("target=source*source - 1e1", -1)],
+)
+def test_links_by_an_equation_give_the_target_its_value(equation, found, tmp_path):
+    more = {"resting level": "-3"}
+    done = linked_fields(tmp_path, link("resting level", "resting level", equation), **more)
+    assert (done.model["a"].resting_level, done.model["b"].resting_level) == (-3, found)
+    line = next(line for line in done.report.losses if "->" in line.what)
+    assert line.verdict == "approximated" and f"as the value {found}" in line.why
+
+
+def test_an_equation_of_equality_is_a_direct_link_and_a_sign_follows(tmp_path):
+    links = (
+        link("resting level", "resting level", "target = 1 * source"),
+        link("global inhibition", "time scale", "target = 10 - 20 * source"),
+    )
+    done = linked_fields(tmp_path, *links, **{"global inhibition": "-0.5"})
+    done.model.set("a resting level", -2)
+    assert (done.model["b"].resting_level, done.model["b"].tau) == (-2, 20)
+
+
+@pytest.mark.parametrize(
+    "equation",
+    ["target = sin(source)", "source = target", "target = 1 / 0", "(" * 9000, "target = 9**9**9", "target ="],
+)
+def test_other_equations_are_reported_and_leave_the_value(equation, tmp_path):
+    done = linked_fields(tmp_path, link("time scale", "time scale", equation))
+    assert done.model["b"].tau == 50
+    line = next(line for line in done.report.losses if "->" in line.what)
+    assert line.verdict == "dropped" and "cannot be read" in line.why
+
+
+def test_a_number_that_is_another_one_here_is_not_linked(tmp_path):
+    boosts = Many(
+        [
+            ("cedar.processing.sources.Boost", {"name": n, "strength": "2", "active": on})
+            for n, on in (("a", "false"), ("b", "true"))
+        ]
+    )
+    done = opened(written({"steps": boosts, "parameter links": [link("strength", "strength")]}), tmp_path)
+    assert (done.model["a"].amplitude, done.model["b"].amplitude) == (0, 2)
+    assert any("its source has no counterpart" in line.why for line in done.report.losses)
 
 
 def test_stored_values_beside_the_file_begin_traces_and_weights(tmp_path):

@@ -12,6 +12,7 @@ from deodar.errors import DocumentError
 from deodar.importers.cedar import file
 from deodar.importers.opening import Imported, read
 from tests.importers import hostile
+from tests.importers.cedar.models import every_type
 
 DATA = Path(__file__).parent / "data"
 SAMPLES = sorted(DATA.glob("*.json"))
@@ -30,6 +31,31 @@ def test_a_hundred_mutations_of_every_sample_open_or_are_refused(path):
     rng = random.Random(path.stem)
     good = sum(tried(hostile.mutations.changed(path.read_text(), rng)) is not None for _ in range(100))
     assert good > 40
+
+
+def test_mutations_of_every_type_of_step_open_or_are_refused():
+    rng, good, all_types = random.Random(5), 0, every_type()
+    for text in all_types.values():
+        for _ in range(6):
+            good += tried(hostile.mutations.changed(text, rng)) is not None
+    assert good > 3 * len(all_types)
+
+
+# what a parameter of a step may hold that is a number, a list, a word or a switch elsewhere
+ODD = ("-1", "0", "1e30", "nan", "text", "true", "", [], ["0"], ["-3", "1e9"], {}, {"type": "x"}, None)
+
+
+def test_odd_values_of_every_parameter_of_a_step_open():
+    rng = random.Random(6)
+    for text in every_type().values():
+        steps = json.loads(text, object_pairs_hook=hostile.mutations.numbered)
+        step = next((body for body in steps["steps"].values() if body["name"] == "step"), {})
+        for key in [key for key in step if key != "name"]:
+            kept = step[key]
+            step[key] = rng.choice(ODD)
+            done = tried(hostile.mutations.written(steps))
+            assert done is not None and done.model.document.entries
+            step[key] = kept
 
 
 @pytest.mark.parametrize(

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+import math
 import re
 from collections.abc import Mapping
 from typing import Any
 
 from deodar.errors import DeodarError
-from deodar.importers.cedar.file import CedarGroup, StepPath, members, text
-from deodar.importers.cedar.values import number
+from deodar.importers.cedar.equation import solved
+from deodar.importers.cedar.file import CedarGroup, StepPath, members, pairs, text
+from deodar.importers.cedar.values import milliseconds, number
 from deodar.importers.report import Line
 from deodar.leaves import get
 from deodar.model import edit
@@ -19,6 +22,7 @@ NAMES: Mapping[str, Mapping[str, str]] = {
         "time scale": "tau",
         "resting level": "resting_level",
         "input noise gain": "noise",
+        "global inhibition": "global_inhibition",
         "sigmoid.beta": "sigmoid.beta",
         "sigmoid.threshold": "sigmoid.threshold",
     },
@@ -32,7 +36,14 @@ NAMES: Mapping[str, Mapping[str, str]] = {
 }
 """Parameters of cedar's steps and of deodar's elements that hold the same number."""
 
-KERNEL = re.compile(r"(?:lateral )?kernels\[(\d+)\]\.(amplitude)\Z")
+KERNEL = re.compile(r"(?:lateral )?kernels\[(\d{1,3})\]\.(amplitude)\Z")
+LISTED = re.compile(r"(.+)\[(\d{1,3})\]\Z")
+
+OPPOSITE = ("global inhibition",)
+"""Parameters whose sign is the opposite here."""
+
+TIMES = ("time scale", "time scale build up", "time scale decay", "tau")
+"""Parameters that are times."""
 
 STRUCTURE = ("dimensionality", "sizes", "number of")
 
@@ -56,39 +67,65 @@ def _link(
     what = f"{'.'.join(w for w in (source, given) if w)} -> {taken}"
     if any(taken.startswith(word) for word in STRUCTURE):
         return doc, Line(where, "parameter", what, "carried", "a link of sizes; they have the file's values")
-    if not text(entry.get("type")).endswith("DirectParameterLink"):
-        equation = text(members(entry.get("configuration")).get("equation"))
-        why = f"a link by an equation, {equation!r}; the parameter has the file's value"
-        return doc, Line(where, "parameter", what, "dropped", why)
-    leaf = _leaf(group, target, taken, by)
-    if leaf is None:
+    end = _end(group, target, taken, by)
+    if end is None:
         return doc, Line(where, "parameter", what, "dropped", "the parameter has no counterpart here")
+    first = _end(group, source, given, by) if source else None
+    if source and first is None:
+        return doc, Line(where, "parameter", what, "dropped", "its source has no counterpart here")
+    value = number(group.values.get(given)) if first is None else first.value
+    if value is None:
+        return doc, Line(where, "parameter", what, "dropped", "its source holds no number")
+    equation = text(members(entry.get("configuration")).get("equation"))
+    direct = text(entry.get("type")).endswith("DirectParameterLink")
+    result = value if direct else solved(equation, value)
+    if result is None:
+        why = f"the equation {equation!r} cannot be read; the parameter has the file's value"
+        return doc, Line(where, "parameter", what, "dropped", why)
+    same = direct or all(solved(equation, v) == v for v in (value, 0.0, 1.0, 2.0))
     try:
-        if source:
-            first = _leaf(group, source, given, by)
-            if first is None:
-                return doc, Line(where, "parameter", what, "dropped", "its source has no counterpart here")
-            value = number(get(doc.by_id()[first[0]].element, first[1]))
-            ends = [first, leaf]
-        else:
-            value, ends = number(group.values.get(given)), [leaf]
-        if value is None:
-            return doc, Line(where, "parameter", what, "dropped", "its source holds no number")
-        driven = next((doc.links()[end] for end in ends if end in doc.links()), None)
-        name = driven or " ".join((*group.path, *([source] if source else []), given))
-        new = doc if driven else edit.document_parameter(doc, name, value)
-        for end in ends:
-            if end not in new.links():
-                new = edit.link(new, *end, name)
+        if not same or (first is not None and first.sign != end.sign):
+            new = edit.put(doc, end.ident, end.leaf, end.sign * result)
+            why = f"as the value {result:g}; it does not follow when its source changes"
+            return new, Line(where, "parameter", what, "approximated", why)
+        ends = [e for e in (first, end) if e is not None]
+        name = next((doc.links()[e.place] for e in ends if e.place in doc.links()), "")
+        new = doc
+        if not name:
+            name = " ".join((*group.path, *([source] if source else []), given))
+            new = edit.document_parameter(doc, name, end.sign * value)
+        for e in ends:
+            if e.place not in new.links():
+                new = edit.link(new, *e.place, name)
     except DeodarError as error:
         return doc, Line(where, "parameter", what, "dropped", error.problems[0].what)
     return new, Line(where, "parameter", what, "carried", f"the document parameter {name!r}")
 
 
-def _leaf(
-    group: CedarGroup, name: str, parameter: str, by: Mapping[StepPath, Entry]
-) -> tuple[str, str] | None:
-    """Return the id of an element and the path of its parameter; None without a counterpart."""
+@dc.dataclass(frozen=True)
+class LinkEnd:
+    """One end of a link.
+
+    Attributes:
+        ident: id of the element.
+        leaf: path of its parameter.
+        sign: factor from cedar's number to deodar's.
+        value: cedar's number.
+    """
+
+    ident: str
+    leaf: str
+    sign: float
+    value: float
+
+    @property
+    def place(self) -> tuple[str, str]:
+        """The element and its parameter."""
+        return self.ident, self.leaf
+
+
+def _end(group: CedarGroup, name: str, parameter: str, by: Mapping[StepPath, Entry]) -> LinkEnd | None:
+    """Return one end of a link; None without a parameter of deodar that holds cedar's number."""
     entry, step = by.get((*group.path, name)), group.steps.get(name)
     if entry is None or step is None:
         return None
@@ -96,8 +133,26 @@ def _leaf(
     leaf = f"kernel.{kernel[1]}.{kernel[2]}" if kernel else NAMES.get(step.short, {}).get(parameter)
     if leaf is None:
         return None
+    sign = -1.0 if parameter in OPPOSITE else 1.0
     try:
-        get(entry.element, leaf)
-    except DeodarError:  # a kernel that the field does not have
+        held = sign * float(get(entry.element, leaf))
+    except (DeodarError, TypeError, ValueError):  # a kernel that the field does not have
         return None
-    return entry.id, leaf
+    found = stated(step.values, parameter)
+    # the amplitude of a node's kernel, or the strength of an inactive boost, is another number here
+    if found is not None and not math.isclose(found, held, rel_tol=1e-9, abs_tol=1e-12):
+        return None
+    return LinkEnd(entry.id, leaf, sign, held)
+
+
+def stated(values: Any, parameter: str) -> float | None:
+    """Return the number of a parameter in the file; None if it does not state one."""
+    for name in parameter.split("."):
+        listed = LISTED.match(name)
+        if listed:
+            found = pairs(members(values).get(listed[1]))
+            k = int(listed[2])
+            values = found[k][1] if k < len(found) else None
+        else:
+            values = members(values).get(name)
+    return milliseconds(values) if parameter in TIMES else number(values)

@@ -37,12 +37,14 @@ class OutputSlot:
         port: its output port.
         state: whether cedar gives the value after the update, as deodar's port does at the end of a step;
             otherwise the value is computed from the inputs or from the state before the update.
+        doubt: what is not documented of cedar's value; "" if nothing.
     """
 
     name: str
     dims: Counts
     port: str = "output"
     state: bool = False
+    doubt: str = ""
 
 
 @dc.dataclass
@@ -54,8 +56,8 @@ class StepPiece:
         inlets: for each input slot the targets of its connections, in their order; a slot of `sums` has one
             entry for all.
         outlets: ports by output slot.
-        inner: connections among `elements`, by name: source, target, and where they differ from `input` and
-            "" the target's port and what it reads.
+        inner: connections among `elements`, by name: source, target, and where they differ from `input`, ""
+            and `output` the target's port, what it reads, and the source's port.
         sums: input slots that add up any number of connections.
         wanted: size that an input slot requires, with one number allowed in its place if it is in `sums`.
         needs: input slots without which cedar does not run the step.

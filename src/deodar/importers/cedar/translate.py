@@ -42,6 +42,11 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
         bugs: whether to reproduce known errors of cedar; none of them can be, and the report lists them.
         beside: reads other files of the folder: stored traces and weights, and linked groups.
     """
+    return translated(content, name, beside)[1]
+
+
+def translated(content: bytes, name: str, beside: Beside = nothing) -> tuple[StepTranslation, Imported]:
+    """Return the translations of the steps of a file, and the model with its report."""
     translation = StepTranslation(file.parse(content, beside), SideFile(name, beside))
     title = PurePath(name).stem
     doc = Document(title or "cedar")
@@ -57,7 +62,7 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
         notes=report.text(),
         layout=layout(translation.architecture.root, by),
     )
-    return Imported(Model(document=doc), report)
+    return translation, Imported(Model(document=doc), report)
 
 
 class StepTranslation:

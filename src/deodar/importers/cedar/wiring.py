@@ -198,8 +198,9 @@ class CedarWiring:
                 ((wire.source[:-1], name), port, (wire.target[:-1], inlet.name), inlet.port, reads)
             )
         halted = wire.source in self.halted
-        why = f"cedar does not run {wire.source[-1]!r}; 0 arrives" if halted else _way(reads)
-        self.lines.append(Line(where, "connection", wire.what, "approximated" if halted else "carried", why))
+        doubt = f"cedar does not run {wire.source[-1]!r}; 0 arrives" if halted else outlet.doubt
+        verdict = "approximated" if doubt else "carried"
+        self.lines.append(Line(where, "connection", wire.what, verdict, doubt or _way(reads)))
 
     def nothing(self, path: StepPath, outlet: OutputSlot) -> str:
         """Return a boost of 0 in the place of an output of a step that cedar does not run."""
@@ -279,10 +280,11 @@ class CedarWiring:
 
 def inside(piece: StepPiece, group: StepPath, names: Mapping[str, str]) -> list[PlacedWire]:
     """Return the connections among the elements of one step; `names` are their names here."""
-    return [
-        ((group, names[a]), "output", (group, names[c]), *(*rest, *("input", "")[len(rest) :]))  # pyright: ignore
-        for a, c, *rest in piece.inner
-    ]
+    out: list[PlacedWire] = []
+    for a, c, *rest in piece.inner:
+        port, reads, shown = (*rest, *("input", "", "output")[len(rest) :])
+        out.append(((group, names[a]), shown, (group, names[c]), port, reads))
+    return out
 
 
 def loaded(

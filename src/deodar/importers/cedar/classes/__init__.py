@@ -9,8 +9,11 @@ from deodar.importers.cedar.classes import (
     arrays,
     fields,
     functions,
-    learning,
+    hebbian,
+    numerics,
+    oscillators,
     programming,
+    serial_order,
     sources,
     vision,
 )
@@ -19,11 +22,14 @@ from deodar.importers.cedar.piece import SourceStep, StepPiece
 CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **fields.CLASSES,
     **sources.CLASSES,
-    **learning.CLASSES,
+    **hebbian.CLASSES,
+    **serial_order.CLASSES,
     **algebra.CLASSES,
     **functions.CLASSES,
     **arrays.CLASSES,
     **programming.CLASSES,
+    **numerics.CLASSES,
+    **oscillators.CLASSES,
     **vision.CLASSES,
 }
 
@@ -42,6 +48,7 @@ DECLARED = frozenset(
         "cedar.processing.sources.SinusSignal",
         "cedar.processing.sources.StepSignal",
         *sources.CLASSES,
+        *oscillators.CLASSES,
     }
 )
 """Types whose outputs have sizes of their own, whatever arrives."""

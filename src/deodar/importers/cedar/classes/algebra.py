@@ -9,16 +9,18 @@ from deodar.couplings.convolve import Convolve
 from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
-from deodar.couplings.sigmoid import Sigmoid
+from deodar.couplings.steered_convolve import SteeredConvolve
 from deodar.couplings.sum import Sum
 from deodar.element import Element
 from deodar.elements.boost import Boost
+from deodar.importers._piece import Unfit
 from deodar.importers.cedar.border import border
+from deodar.importers.cedar.composition import Composition
 from deodar.importers.cedar.file import members, text
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.kernels import kernels, too_long
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
-from deodar.importers.cedar.sigmoids import sigmoid
+from deodar.importers.cedar.transfer import transferred
 from deodar.importers.cedar.values import number
 from deodar.numerics.sigmoids.absolute import Absolute
 
@@ -159,10 +161,12 @@ def chain(
 
 
 def convolution(b: SourceStep) -> StepPiece:
-    """Translate Convolution with a list of kernels; without kernels it copies its input."""
+    """Translate Convolution with a kernel that is an input, or a list of kernels; without kernels it copies
+    its input.
+    """
     dims = b.first("matrix")
     if "kernel" in b.ins:
-        raise Refused("deodar convolves with fixed kernels, and its kernel is an input")
+        return _steered(b, dims)
     axes = b.axes(dims)
     ends = border(b.values, "convolution", len(dims))
     listed = b.values.objects("kernels")
@@ -174,6 +178,32 @@ def convolution(b: SourceStep) -> StepPiece:
         return one_to_one(Gain(factor, name=b.label), "matrix", "result", dims)
     piece = one_to_one(Convolve(made, name=b.label), "matrix", "result", dims)
     piece.fails = too_long(listed, axes, ends)
+    return piece
+
+
+def _steered(b: SourceStep, dims: Counts) -> StepPiece:
+    """Translate Convolution with a kernel that is an input, centred at its middle sample."""
+    kernel, ends = b.first("kernel"), border(b.values, "convolution", len(dims))
+    if "kernels" in b.values.body:
+        b.values.say("kernels", "carried", "without effect beside a kernel that is an input")
+    c = Composition(b)
+    seen, by = c.slot("matrix"), c.slot("kernel")
+    if not kernel:
+        c.outlet("result", c.product("", seen, by), dims)
+        return c.done("Product, since its kernel is one number")
+    if len(kernel) != len(dims):
+        raise Unfit(
+            f"what it gives for a kernel of {len(kernel)} and an input of {len(dims)} dimensions is not"
+            " documented"
+        )
+    axes = b.axes(dims)
+    # cedar's centre of an even size is the earlier of both samples in the middle, or the later
+    middle = [float(n // 2 if n % 2 or ends.later else n // 2 - 1) for n in kernel]
+    element = SteeredConvolve(middle, boundary=ends.ends(axes), name=b.label)
+    c.outlet("result", c.add(element, input=seen, kernel=by), dims)
+    piece = c.done("SteeredConvolve")
+    if ends.fourier and any(n > m for n, m in zip(kernel, dims, strict=True)):
+        piece.fails = f"FFTW raises an exception for a kernel of {list(kernel)} samples for {list(dims)}"
     return piece
 
 
@@ -245,8 +275,10 @@ def _require_valid(mapping: dict[int, int], given: int, count: int) -> None:
 
 def transfer(b: SourceStep) -> StepPiece:
     """Translate TransferFunction."""
-    element = Sigmoid(sigmoid(b.values, "function", Absolute(100.0, 0.0)), name=b.label)
-    return one_to_one(element, "input", "sigmoided output", b.first("input"))
+    dims, c = b.first("input"), Composition(b)
+    result = transferred(c, "", "function", Absolute(100.0, 0.0), c.slot("input"))
+    c.outlet("sigmoided output", result, dims)
+    return c.done(type(next(e for e in c.piece.elements if e.name == b.label)).__name__)
 
 
 def transpose(b: SourceStep) -> StepPiece:

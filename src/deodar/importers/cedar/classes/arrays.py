@@ -10,7 +10,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.couplings.axis_weights import AxisWeights
-from deodar.couplings.envelope import Envelope
 from deodar.couplings.gain import Gain
 from deodar.couplings.pointwise import Pointwise
 from deodar.couplings.product import Product
@@ -24,6 +23,7 @@ from deodar.elements.boost import Boost
 from deodar.elements.pattern import Pattern
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.algebra import one_to_one
+from deodar.importers.cedar.composition import Composition
 from deodar.importers.cedar.file import items, text
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.interpolation import WAYS, matrix
@@ -222,36 +222,39 @@ def layered(b: SourceStep, slots: Sequence[str], out: str, flat: Counts) -> Step
 
 
 def clamp(b: SourceStep) -> StepPiece:
-    """Translate Clamp with limits in place of larger and smaller values."""
-    given = b.first("input")
-    for name in ("replace lower limit", "replace upper limit"):
-        if b.values.flag(name, False):
-            raise Unfit("it replaces values beyond a limit by another value than the limit")
-    sides = [
-        (side, b.values.number(f"{name} limit", default))
-        for side, name, default in (("upper", "lower", 0.0), ("lower", "upper", 1.0))
-        if b.values.flag(f"apply {name} limit", True)
-    ]
-    for name in ("lower replacement", "upper replacement"):
-        if name in b.values.body:
-            b.values.say(name, "carried", "without effect")
-    if not sides:
-        return one_to_one(Sum(name=b.label), "input", "thresholded input", given, why="Sum, a copy")
-    names = [b.label if k == len(sides) - 1 else b.named("above the lower limit") for k in range(len(sides))]
-    limits: list[Element] = [Envelope(side, name=name) for (side, _), name in zip(sides, names, strict=True)]
-    piece = StepPiece(
-        limits[::-1],
-        {"input": [[InputSlot(names[0])]]},
-        {"thresholded input": OutputSlot(b.label, given)},
-        list(itertools.pairwise(names)),
-        needs=("input",),
-        why="Envelope with a Boost for each limit",
-    )
-    for (side, value), name in zip(sides, names, strict=True):
-        limit = Boost(b.named("lower limit" if side == "upper" else "upper limit"), (), value)
-        piece.elements.append(limit)
-        piece.inner.append((limit.name, name, "other"))
-    return piece
+    """Translate Clamp: what lies beyond a limit becomes the limit, or another value."""
+    given, values = b.first("input"), b.values
+    limits: dict[str, float] = {}
+    others: dict[str, float] = {}
+    for name, default in (("lower", 0.0), ("upper", 1.0)):
+        limit, other = values.number(f"{name} limit", default), values.number(f"{name} replacement", default)
+        replaces = values.flag(f"replace {name} limit", False)
+        if not values.flag(f"apply {name} limit", True):
+            continue
+        limits[name] = limit
+        if replaces:
+            others[name] = other
+    if others and len(limits) == 2 and limits["lower"] > limits["upper"]:
+        raise Unfit("which of its limits comes first is not documented, and the lower one is above the upper")
+    c = Composition(b)
+    seen = c.slot("input")
+    kept, clamped = seen, [name for name in limits if name not in others]
+    for name in clamped:
+        limit = c.constant(f"{name} limit", limits[name])
+        what = "" if name == clamped[-1] and not others else f"not beyond the {name} limit"
+        kept = c.limit(what, "upper" if name == "lower" else "lower", kept, limit)
+    if not others:
+        c.outlet("thresholded input", kept if clamped else c.total("", kept), given)
+        return c.done("Envelope with a Boost for each limit" if clamped else "Sum, a copy")
+    outside = {
+        name: (c.below if name == "lower" else c.above)(f"beyond the {name} limit", limits[name], seen)
+        for name in others
+    }
+    # what is replaced is multiplied by 0, so that the sum holds the other value itself
+    inside = c.rest("inside", c.total("outside", *outside.values()))
+    parts = [c.gain(f"{name} part", others[name], signal) for name, signal in outside.items()]
+    c.outlet("thresholded input", c.total("", c.product("kept", kept, inside), *parts), given)
+    return c.done("a sum of what is kept and of what replaces the rest")
 
 
 def masked(b: SourceStep) -> StepPiece:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 import numpy as np
 
 from deodar.couplings.axis_weights import AxisWeights
+from deodar.couplings.convolve import Convolve
 from deodar.couplings.rate_code import RateCode
 from deodar.couplings.space_code import SpaceCode
 from deodar.element import Element
@@ -13,14 +16,18 @@ from deodar.elements.field import Field
 from deodar.elements.memory_trace import MemoryTrace
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.border import border
+from deodar.importers.cedar.composition import Composition, StepSignal
+from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.kernels import kernels, too_long
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, SourceStep, StepPiece, sizes
 from deodar.importers.cedar.sigmoids import sigmoid
+from deodar.importers.cedar.transfer import special, transferred
 from deodar.importers.cedar.values import StepValues
 from deodar.importers.cedar.wiring import BUFFER
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
 from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.numerics.sigmoids.linear import Linear
 
 MOST_DIMENSIONS = 4
 LEAST = 1e-9
@@ -41,16 +48,19 @@ def neural_field(b: SourceStep) -> StepPiece:
         if "lateral kernels" in values.body
         else [(DEFAULT_KERNEL[0], StepValues(DEFAULT_KERNEL[1], values.where))]
     )
+    apart = special(values, "sigmoid")
     field = Field(
         b.label,
         axes,
         tau=_tau(b, "time scale", 100.0),
         resting_level=values.number("resting level", -5.0),
-        sigmoid=sigmoid(values, "sigmoid", Absolute(100.0, 0.0)),
+        sigmoid=Linear(1.0) if apart else sigmoid(values, "sigmoid", Absolute(100.0, 0.0)),
         kernel=kernels(listed, axes, ends),
         global_inhibition=-values.number("global inhibition", -0.01) + 0.0,
         noise=values.number("input noise gain", 0.1, 0.0),
     )
+    if apart == "Logarithm":
+        values.say("sigmoid", "approximated", "of 0 and less it is -69 here, undefined in cedar")
     if ends.type == "Cyclic" and not ends.fourier and _unequal(field):
         b.bug("a cyclic convolution in two dimensions mixes up the widths of its two factors at the border")
     for name in ("multiplicative noise (input)", "multiplicative noise (activation)"):
@@ -71,15 +81,33 @@ def neural_field(b: SourceStep) -> StepPiece:
     }
     if shown:
         outlets["activation"] = OutputSlot(b.label, dims, "activation", state=True)
-    return StepPiece(
-        [field],
-        {"input": [[InputSlot(b.label)]]},
-        outlets,
-        sums=frozenset({"input"}),
-        wanted={"input": dims},
-        fails=too_long(listed, axes, ends),
-        why="Field",
-    )
+    piece = _with_own_output(b, field, dims) if apart else StepPiece([field], why="Field")
+    piece.inlets = {"input": [[InputSlot(b.label)]]}
+    piece.outlets = {**outlets, **piece.outlets}
+    piece.sums, piece.wanted = frozenset({"input"}), {"input": dims}
+    piece.fails = too_long(listed, axes, ends)
+    return piece
+
+
+def _with_own_output(b: SourceStep, field: Field, dims: Counts) -> StepPiece:
+    """Return a field whose output, kernels and global inhibition are couplings of its activation."""
+    c = Composition(b)
+    c.add(dc.replace(field, kernel=[], global_inhibition=0.0))
+    activation = StepSignal(b.label, "activation")
+    output = transferred(c, "output", "sigmoid", Absolute(100.0, 0.0), activation)
+    lateral: list[StepSignal] = []
+    if field.kernel and dims:
+        lateral.append(c.add(Convolve(field.kernel, name=b.named("lateral interaction")), input=output))
+    elif field.kernel:
+        factor = sum(float(getattr(kernel, "amplitude", 0.0)) for kernel in field.kernel)
+        lateral.append(c.gain("lateral interaction", factor, output))
+    if field.global_inhibition:
+        all_of = c.projected("total", output, b.axes(dims), (), [None] * len(dims)) if dims else output
+        lateral.append(c.gain("global inhibition", -field.global_inhibition, all_of))
+    for signal in lateral:
+        c.connect(signal, b.label)
+    c.outlet("sigmoided activation", output, dims)
+    return c.done("Field, with its output function and interaction as couplings")
 
 
 def _unequal(field: Field) -> bool:

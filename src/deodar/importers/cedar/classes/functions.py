@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 
 import numpy as np
@@ -12,12 +13,14 @@ from deodar.couplings.gain import Gain
 from deodar.couplings.pointwise import Pointwise
 from deodar.couplings.product import Product
 from deodar.couplings.project import Project
+from deodar.couplings.pseudo_inverse import PseudoInverse
 from deodar.couplings.quotient import Quotient
 from deodar.couplings.sum import Sum
 from deodar.element import Element
 from deodar.elements.boost import Boost
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.algebra import chain, one_to_one
+from deodar.importers.cedar.composition import Composition
 from deodar.importers.cedar.file import items, text
 from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
@@ -35,9 +38,15 @@ def absolute(b: SourceStep) -> StepPiece:
 
 
 def logarithm(b: SourceStep) -> StepPiece:
-    """Translate Logarithm: ln x / ln base."""
+    """Translate Logarithm: ln x / ln base; the base may be an input."""
     if "base (optional)" in b.ins:
-        raise Unfit("its base is an input")
+        dims, c = b.first("input"), Composition(b)
+        of_input = c.function("ln", "log", c.slot("input"))
+        base = c.slot("base (optional)", ())
+        whole = c.quotient("ln by ln", of_input, c.function("ln of the base", "log", base), TINY)
+        # the logarithm of 0 is infinite in cedar, and what is divided by it 0
+        c.outlet("result", c.product("", whole, c.above("a base", 0.0, base)), dims)
+        return c.done("Quotient of two Pointwise")
     base = b.values.number("base", math.e, TINY)
     if base == 1:
         raise Refused("its base is 1")
@@ -264,41 +273,55 @@ def cross_product(b: SourceStep) -> StepPiece:
 
 
 def matrix_multiply(b: SourceStep) -> StepPiece:
-    """Translate MatrixMultiply: all products of samples, summed over the shared dimension."""
+    """Translate MatrixMultiply: all products of samples, summed over the shared dimension.
+
+    One dimension is a column.
+    """
     first, second = b.first("operand1"), b.first("operand2")
     turned = b.values.flag("transposeOperand1", False)
-    rows = (*first, 1)[:2]
-    columns = (*second, 1)[:2]
-    if len(first) > 2 or len(second) > 2 or not first or not second:
+    if len(first) > 2 or len(second) > 2:
         raise Refused(f"its operands are not matrices: {list(first)} and {list(second)}")
+    rows, columns = (*first, 1, 1)[:2], (*second, 1, 1)[:2]
     rows = rows[::-1] if turned else rows
     if rows[1] != columns[0]:
         raise Refused(f"the sizes {list(rows)} and {list(columns)} cannot be multiplied")
-    if rows[0] * rows[1] * columns[1] > MOST_PRODUCTS or min(rows[0], columns[1]) < 2 or len(first) < 2:
+    counts = (rows[0], rows[1], columns[1])
+    if math.prod(counts) > MOST_PRODUCTS:
         raise Unfit(f"deodar multiplies matrices of moderate size, not {list(rows)} by {list(columns)}")
-    i, k, j = (Axis(n, 0, c - 1, c) for n, c in zip("ikj", (rows[0], rows[1], columns[1]), strict=True))
-    left, right, products = b.named("left"), b.named("right"), b.named("products")
-    dims = (rows[0], columns[1])
-    here, of_first, of_second = b.axes(dims), b.axes(first), b.axes(second)
-    first_names = dict(zip([a.name for a in of_first], ("k", "i") if turned else ("i", "k"), strict=True))
-    second_names = dict(zip([a.name for a in of_second], ("k", "j"), strict=False))
-    names = {"i": here[0].name, "j": here[1].name}
-    if any(a.periodic for a in (*here, *of_first, *of_second)):
-        raise Unfit("its dimensions wrap, and those of a product do not")
-    elements: list[Element] = [
-        Project(here, "sum", names, name=b.label),
-        Product(name=products),
-        Project((i, k, j), "sum", first_names, name=left),
-        Project((i, k, j), "sum", second_names, name=right),
-    ]
-    return StepPiece(
-        elements,
-        {"operand1": [[InputSlot(left)]], "operand2": [[InputSlot(right)]]},
-        {"matrixProduct": OutputSlot(b.label, dims)},
-        [(left, products), (right, products, "factor"), (products, b.label)],
-        needs=("operand1", "operand2"),
-        why="Product of two Project, summed",
+    axes = i, k, j = tuple(
+        dc.replace(b.grid.axis(0, n), name=f"of {name}") for n, name in zip(counts, "ikj", strict=True)
     )
+    c = Composition(b)
+    places = [[k, i] if turned else [i, k], [k, j]]
+    left, right = (
+        c.projected(what, c.slot(slot), b.axes(dims), axes, places[d][: len(dims)])
+        for d, (what, slot, dims) in enumerate((("left", "operand1", first), ("right", "operand2", second)))
+    )
+    dims = tuple(n for n in (counts[0], counts[2]) if n > 1)
+    here = list(b.axes(dims))
+    ends = [here.pop(0) if n > 1 and d != 1 else None for d, n in enumerate(counts)]
+    product = c.product("products", left, right)
+    c.outlet("matrixProduct", c.projected("", product, axes, b.axes(dims), ends), dims)
+    return c.done("Product of two Project, summed")
+
+
+def pseudo_inverse(b: SourceStep) -> StepPiece:
+    """Translate PseudoInverse; a number becomes its inverse, and 0 remains 0."""
+    dims, c = b.first("matrix"), Composition(b)
+    given = c.slot("matrix")
+    if len(dims) > 2:
+        raise Refused(f"its input has {len(dims)} dimensions")
+    if len(dims) == 2:
+        inverse = c.add(PseudoInverse(name=b.named("inverse")), input=given)
+        here, there = b.axes(dims[::-1]), b.axes(dims)
+        turned = c.projected("", inverse, there[::-1], here, list(here))
+        c.outlet("inverted", turned, dims[::-1])
+        return c.done("PseudoInverse")
+    if dims:
+        c.outlet("inverted", c.add(PseudoInverse(name=b.label), input=given), dims)
+        return c.done("PseudoInverse")
+    c.outlet("inverted", c.quotient("", given, c.function("square", "square", given), TINY), ())
+    return c.done("Quotient by its square")
 
 
 CLASSES = {
@@ -317,4 +340,5 @@ CLASSES = {
     "cedar.processing.steps.OuterProduct": outer_product,
     "cedar.processing.steps.CrossProduct": cross_product,
     "cedar.processing.MatrixMultiply": matrix_multiply,
+    "cedar.processing.PseudoInverse": pseudo_inverse,
 }

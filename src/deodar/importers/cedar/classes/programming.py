@@ -1,4 +1,4 @@
-"""Programming and numerics: copies, counts, switches, positions, delays, clocks and integrals."""
+"""Programming: copies, counts, switches, positions, delays and signals of time."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.couplings.axis_weights import AxisWeights
-from deodar.couplings.delay import Delay
 from deodar.couplings.delay_line import DelayLine
 from deodar.couplings.gain import Gain
 from deodar.couplings.maximum_position import MaximumPosition
@@ -24,13 +23,10 @@ from deodar.elements.boost import Boost
 from deodar.elements.integrator import Integrator
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.algebra import one_to_one
+from deodar.importers.cedar.classes.numerics import SECOND
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar.numerics.axes import Axis
 from deodar.numerics.sigmoids.step import Step
-
-SECOND = 1e-3
-"""Rate of an integrator that counts seconds, per ms."""
-
 
 FLOAT_TYPES = ("Float", "Double")
 
@@ -168,24 +164,6 @@ def delay(b: SourceStep) -> StepPiece:
     return piece
 
 
-def timer(b: SourceStep) -> StepPiece:
-    """Translate Timer: seconds for which its run signal is on; without one it is never computed."""
-    if "reset signal (optional)" in b.ins:
-        raise Unfit("it reads 'reset signal (optional)'")
-    clock, runs = Integrator(b.label, (), SECOND), Sigmoid(Step(0.5), name=b.named("runs"))
-    outlets = {"time": OutputSlot(b.label, (), state=True)}
-    if "run signal (optional)" not in b.ins:
-        return StepPiece([clock], outlets=outlets, why="Integrator that nothing moves, as in cedar")
-    return StepPiece(
-        [clock, runs],
-        {"run signal (optional)": [[InputSlot(runs.name)]]},
-        outlets,
-        [(runs.name, b.label)],
-        wanted={"run signal (optional)": ()},
-        why="Integrator",
-    )
-
-
 def sinus_signal(b: SourceStep) -> StepPiece:
     """Translate SinusSignal: A sin((t + phase) / period 2 pi) + offset, t in s."""
     return _signal(b, "cos" if b.values.flag("make cos", False) else "sin")
@@ -231,133 +209,6 @@ def _signal(b: SourceStep, function: str) -> StepPiece:
     )
 
 
-def integration(b: SourceStep) -> StepPiece:
-    """Translate NumericalIntegration by Euler steps in seconds."""
-    dims = b.first("input")
-    for slot in ("delay (optional)", "reset signal (optional)", "initial state (optional)"):
-        if slot in b.ins:
-            raise Unfit(f"it reads {slot!r}")
-    if b.values.flag("use BDF5", False):
-        b.values.say("use BDF5", "approximated", "Euler steps are used")
-    b.values.flag("initialize on reset", True)
-    piece = one_to_one(Integrator(b.label, b.axes(dims), SECOND), "input", "integration result", dims)
-    piece.outlets["integration result"] = OutputSlot(b.label, dims, state=True)
-    return piece
-
-
-def differentiation(b: SourceStep) -> StepPiece:
-    """Translate NumericalDifferentiation: the change in a step by its length in seconds."""
-    dims = b.first("input")
-    if "delay (optional)" in b.ins:
-        raise Unfit("it reads 'delay (optional)'")
-    if b.values.flag("use five points", False):
-        b.values.say("use five points", "approximated", "two points are used")
-    for name in ("ignore time steps smaller than", "ignore time steps larger than"):
-        if name in b.values.body:
-            b.values.say(name, "carried", "steps have one length here")
-    speed = 1 / (SECOND * b.dt)
-    before, minus = Delay(b.axes(dims), name=b.named("before")), Gain(-1.0, name=b.named("minus"))
-    change = Sum(name=b.named("change"))
-    piece = one_to_one(Gain(speed, name=b.label), "input", "differentiated result", dims)
-    piece.elements += [change, before, minus]
-    piece.inlets["input"] = [[InputSlot(change.name), InputSlot(before.name)]]
-    piece.inner += [(before.name, minus.name), (minus.name, change.name), (change.name, b.label)]
-    piece.verdict, piece.why = "approximated", "the change of the input; in the first step from 0"
-    return piece
-
-
-def smoothing(b: SourceStep) -> StepPiece:
-    """Translate ExponentialSmoothing: a level and a trend, l' = a x + (1 - a) (l + b), b' = c (l' - l) + (1 -
-    c) b.
-    """
-    dims, axes = b.first("input"), b.axes(b.first("input"))
-    a = b.values.number("data smoothing factor", 0.1, 0.0, 1.0)
-    c = b.values.number("trend smoothing factor", 0.1, 0.0, 1.0)
-    level, trend = Sum(name=b.named("level")), Sum(name=b.named("trend"))
-    old_level, old_trend = (
-        Delay(axes, name=b.named("level before")),
-        Delay(axes, name=b.named("trend before")),
-    )
-    factors = {
-        "of the input": (a, "", level.name),
-        "of the level before": (1 - a, old_level.name, level.name),
-        "of the trend before": (1 - a, old_trend.name, level.name),
-        "of the new level": (c, level.name, trend.name),
-        "of the old level": (-c, old_level.name, trend.name),
-        "of the old trend": (1 - c, old_trend.name, trend.name),
-    }
-    piece = StepPiece(
-        [Sum(name=b.label), level, trend, old_level, old_trend],
-        outlets={"forecast": OutputSlot(b.label, dims)},
-        inner=[
-            (level.name, b.label),
-            (trend.name, b.label),
-            (level.name, old_level.name),
-            (trend.name, old_trend.name),
-        ],
-        needs=("input",),
-        verdict="approximated",
-        why="Sum of a level and a trend, which begin at 0 and not at the first input",
-    )
-    for what, (factor, source, target) in factors.items():
-        gain = Gain(factor, name=b.named(what))
-        piece.elements.append(gain)
-        piece.inner.append((gain.name, target))
-        if source:
-            piece.inner.append((source, gain.name))
-        else:
-            piece.inlets["input"] = [[InputSlot(gain.name)]]
-    return piece
-
-
-def oscillator(b: SourceStep) -> StepPiece:
-    """Translate HarmonicOscillator: p'' = -K (p - lambda) - 2 D sqrt(K) p', in seconds, speed first."""
-    for slot in ("overwriteInput", "overwritePeakDetector"):
-        if slot in b.ins:
-            raise Unfit(f"it reads {slot!r}")
-    count = b.values.whole("dimensionality", 2, 1, 7)
-    if b.values.flag("cyclic restrictions", False):
-        raise Unfit("it has cyclic restrictions")
-    dims = () if count == 1 else (count,)
-    axes = b.axes(dims)
-    start = np.array(b.values.numbers("Initial Position", 4.0, count))
-    stiffness, damping = b.values.number("K", 4.0, 0.0), b.values.number("D", 1.0, 0.0)
-    if "B" in b.values.body:
-        b.values.say("B", "carried", "without effect, as in cedar")
-    place = Integrator(
-        b.label, axes, SECOND, start=start if dims else None, initial=0.0 if dims else start[0]
-    )
-    speed = Integrator(b.named("speed"), axes, SECOND)
-    force = Sum(name=b.named("force"))
-    pull, drag = (
-        Gain(stiffness, name=b.named("pull")),
-        Gain(-2 * damping * math.sqrt(stiffness), name=b.named("drag")),
-    )
-    away = Gain(-stiffness, name=b.named("away"))
-    return StepPiece(
-        [place, speed, force, pull, drag, away],
-        {"lambda": [[InputSlot(pull.name)]]},
-        {
-            "p": OutputSlot(b.label, dims, state=True),
-            "pDot": OutputSlot(speed.name, dims, state=True),
-            "pDotDot": OutputSlot(force.name, dims),
-        },
-        [
-            (place.name, away.name),
-            (speed.name, drag.name),
-            (pull.name, force.name),
-            (drag.name, force.name),
-            (away.name, force.name),
-            (force.name, speed.name),
-            (speed.name, place.name, "input", "current"),
-        ],
-        wanted={"lambda": dims},
-        needs=("lambda",),
-        verdict="approximated",
-        why="two Integrator; earlier steps read the initial position in the first step, cedar may give 0",
-    )
-
-
 CLASSES = {
     "cedar.processing.steps.Noop": noop,
     "cedar.processing.steps.NoopLooped": noop,
@@ -368,11 +219,6 @@ CLASSES = {
     "cedar.processing.steps.Switch": switch,
     "cedar.processing.steps.PositionOfMaximum": position,
     "cedar.processing.steps.Delay": delay,
-    "cedar.processing.steps.Timer": timer,
     "cedar.processing.sources.SinusSignal": sinus_signal,
     "cedar.processing.sources.StepSignal": step_signal,
-    "cedar.processing.steps.NumericalIntegration": integration,
-    "cedar.processing.steps.NumericalDifferentiation": differentiation,
-    "cedar.processing.steps.ExponentialSmoothing": smoothing,
-    "cedar.dynamics.HarmonicOscillator": oscillator,
 }

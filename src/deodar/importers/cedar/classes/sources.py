@@ -119,11 +119,14 @@ def spatial_template(b: SourceStep) -> StepPiece:
     angle, wide = b.values.number("mu th", 0.0), b.values.number("sigma th hor", 0.25, 1e-6)
     radius, spread = b.values.number("mu r", 15.0), b.values.number("sigma r", 100.0, 1e-6)
     i, j = np.indices(dims) - (np.array(dims) // 2)[:, None, None]
-    theta, r = np.arctan2(i, j), np.log(np.maximum(np.hypot(i, j), 1e-6))
-    turned = np.angle(np.exp(1j * (theta - angle)))
-    values = np.exp(-0.5 * (turned / wide) ** 2 - 0.5 * ((r - radius) / spread) ** 2)
+    distance = np.hypot(i, j)
+    # the logarithm of a distance of 0 is infinitely far from the radius
+    r = np.log(np.where(distance > 0, distance, 1.0))
+    values = np.exp(-0.5 * ((np.arctan2(j, i) - angle) / wide) ** 2 - 0.5 * ((r - radius) / spread) ** 2)
+    values = np.where(distance > 0, values, 0.0)
     piece = _source(b, Pattern(b.label, b.axes(dims), values), "spatial pattern", dims, "Pattern")
-    piece.verdict, piece.why = "approximated", "Pattern; where cedar's angle begins is a guess"
+    piece.verdict = "approximated"
+    piece.why = "Pattern; the centre, and that the angle begins along the first dimension, are a guess"
     return piece
 
 

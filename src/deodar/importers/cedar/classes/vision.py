@@ -1,4 +1,4 @@
-"""Pictures: cameras and files, colours, channels and masks.
+"""Pictures: cameras and files, colours, channels, masks and histograms.
 
 cedar's pictures hold 0 to 255 in the order blue, green, red; deodar's sensors 0 to 1 in the order red, green,
 blue.
@@ -7,6 +7,7 @@ blue.
 from __future__ import annotations
 
 import itertools
+import math
 
 import numpy as np
 
@@ -17,17 +18,25 @@ from deodar.couplings.product import Product
 from deodar.couplings.project import Project
 from deodar.couplings.sigmoid import Sigmoid
 from deodar.couplings.sum import Sum
+from deodar.couplings.weights import Weights
 from deodar.element import Element
 from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
 from deodar.elements.sensor import Sensor
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.arrays import layered
+from deodar.importers.cedar.composition import Composition
 from deodar.importers.cedar.file import members, pairs, text
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar.numerics.axes import Axis
 from deodar.numerics.sigmoids.step import Step
 
 WHITE = 255.0
+TINY = 1e-30
+
+MOST_COMPARED = 4_000_000
+"""Most comparisons of samples with edges of bins (a guess)."""
+
 HALF = 180.0
 """cedar's hue of a whole turn, so that it fits in 8 bits."""
 
@@ -189,6 +198,48 @@ def threshold(b: SourceStep) -> StepPiece:
     return piece
 
 
+def histogram(b: SourceStep) -> StepPiece:
+    """Translate Histogram: the number of samples in bins of equal width.
+
+    The samples below each edge are counted; the difference of two edges is the count of their bin.
+    """
+    dims, bins = b.first("input"), b.values.whole("bins", 10, 1, 10_000)
+    lower, upper = b.values.number("range lower", 0.0), b.values.number("range upper", 255.0)
+    kinds = ("None", "ImageSize", "Maximum")
+    kind = b.values.word("normalization type", "None", kinds)
+    if upper <= lower:
+        raise Refused(f"its range ends at {upper:g}, before its beginning {lower:g}")
+    if math.prod(dims) * (bins + 1) > MOST_COMPARED:
+        raise Unfit(f"it compares {math.prod(dims)} samples with {bins + 1} edges")
+    axes, edge = b.axes(dims), Axis("edge", 0, bins, bins + 1)
+    every, c = (*axes, edge), Composition(b)
+    edges = c.add(Pattern(b.named("edges"), [edge], np.linspace(lower, upper, bins + 1)))
+    wide = c.projected("at every edge", c.slot("input"), axes, every, list(axes))
+    below = c.above("below", 0.0, c.total("distance", c.gain("minus", -1.0, wide), edges))
+    doubts = ["bins without their upper end"]
+    if "mask" in b.ins:
+        if b.first("mask") != dims:
+            raise Refused(f"its mask has the size {list(b.first('mask'))}, and its input {list(dims)}")
+        shown = c.above("shown", 0.0, c.function("size of the mask", "abs", c.slot("mask")))
+        below = c.product("shown below", below, c.projected("shown at edges", shown, axes, every, list(axes)))
+        doubts.append("samples where the mask is not 0")
+    counts = c.projected("counts", below, every, [edge], [*(None for _ in axes), edge])
+    places = (bins,) if bins > 1 else ()
+    share = 1 / math.prod(dims) if kind == "ImageSize" else 1.0
+    of_bins = share * (np.eye(bins, bins + 1, 1) - np.eye(bins, bins + 1))
+    name = "" if kind != "Maximum" else "of each bin"
+    if bins > 1:
+        found = c.add(AxisWeights(of_bins, b.axes(places)[0], "edge", name=c.named(name)), input=counts)
+    else:
+        found = c.add(Weights(of_bins[0], (), name=c.named(name)), input=counts)
+    if kind == "Maximum":
+        largest = c.projected("largest", found, b.axes(places), (), [None] * len(places), "max")
+        found = c.quotient("", found, largest, TINY)
+    c.outlet("histogram", found, places)
+    why = f"a comparison with every edge; {' and '.join(doubts)} are a guess"
+    return c.done(why, "approximated")
+
+
 CLASSES = {
     "cedar.processing.sources.Picture": picture,
     "cedar.processing.sources.Video": picture,
@@ -197,5 +248,6 @@ CLASSES = {
     "cedar.processing.steps.ColorConversion": conversion,
     "cedar.processing.steps.ChannelSplit": split,
     "cedar.processing.steps.ChannelMerge": merge,
+    "cedar.processing.steps.Histogram": histogram,
     "cedar.processing.steps.Threshold": threshold,
 }
