@@ -28,6 +28,7 @@ DRAWN_ELSEWHERE = {
         "serial-order-parameters.png",  # by `python docs/evidence.py FOLDER`
         "studio-lesson.png",
     },
+    "looking.md": {"looking.png"},  # by `python docs/evidence.py FOLDER`
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "building.md": {"studio-palette.png", "studio-built.png", "studio-wire.png"},
     "experiments.md": {"studio-experiment.png"},
