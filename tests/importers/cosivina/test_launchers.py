@@ -118,6 +118,8 @@ def test_a_document_parameter_is_not_made_where_a_preset_needs_different_values(
         )
     )
     assert not done.model.document.parameters
+    assert list(pins(done)) == ["strength (cue left)", "strength (cue right)"]
+    assert told(done, "control")["one"] == ("carried", "2 presets")
     model = taken(done, "one: on")
     assert (model["cue left"].amplitude, model["cue right"].amplitude) == (7, 2)
 
@@ -220,6 +222,17 @@ def test_elements_that_a_parameter_file_lacks_are_reported(tmp_path):
         "part",
         "approximated",
     ) and "'watcher' is not in the file" in line.why
+
+
+def test_sizes_of_a_parameter_file_are_not_taken_over(tmp_path):
+    sim, _ = built(PAIR.replace("n = 60", "n = 40"))
+    sim.elements["line"].values["tau"] = 33
+    (tmp_path / "small.json").write_bytes(parameters(sim))
+    done = imported(launcher("PresetSelector('Select', gui, '', 'small.json', 'small')"), tmp_path)
+    (line,) = [line for line in done.report.lines if line.part == "preset"]
+    assert "'line' has another size there" in line.why and "'watcher'" not in line.why
+    model = taken(done, "small")
+    assert model["line"].tau == 33 and model["line"].element.axes[0].samples == 60
 
 
 def test_the_buttons_of_the_window_have_their_counterparts_in_the_studio():
@@ -346,7 +359,7 @@ def test_a_launcher_opens_by_its_path_and_says_what_was_lost(tmp_path):
     model = dd.load(path)
     assert model.document.name == "launcherPair" and "pins" in model.document.layout
     assert "line 17: dropped, 'fminsearch' is neither a variable nor a function" in model.document.notes
-    assert "line 18: dropped, loops with while are not read" in model.document.notes
+    assert "line 18: dropped, the loop runs the simulation" in model.document.notes
     assert ".m" in opening.endings()
     dd.save(model, tmp_path / "pair.json")
     assert kept_presets(dd.load(tmp_path / "pair.json").document) == kept_presets(model.document)

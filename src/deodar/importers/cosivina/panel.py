@@ -28,7 +28,9 @@ from deodar.importers.cosivina.controls import (
     Targets,
 )
 from deodar.importers.cosivina.responses import Follower, Leaf, Responses, Unfollowed, aligned
+from deodar.importers.cosivina.sizes import SIZES
 from deodar.importers.cosivina.translate import Translation
+from deodar.importers.cosivina.values import size
 from deodar.importers.report import Line, Verdict
 from deodar.leaves import get
 from deodar.model import edit
@@ -198,9 +200,12 @@ class Panel:
             if own is None or own.kind != e.kind:
                 lost.append(f"{e.label!r} is not in the model")
                 continue
+            values = {name: value for name, value in e.values.items() if name not in SIZES}
+            if any(name in e.values and size(e.values[name]) != size(own.values.get(name)) for name in SIZES):
+                lost.append(f"{e.label!r} has another size there")
             try:
                 present = self._responses.present(e.label)
-                changed = self._responses.changed(e.label, e.values)
+                changed = self._responses.changed(e.label, values)
             except Unfollowed as error:
                 if own.values != e.values:
                     lost.append(str(error))
@@ -229,10 +234,12 @@ class Panel:
                 what = "2 presets" if verdict == "carried" else "it has no slider of its own"
                 self._say(row.control, verdict, f"{what}: {taken} has one already")
                 continue
-            shared = self._shared(row)
             name = ""
-            if shared:
+            if self._shared(row):
                 doc, name = self._linked(doc, row, by, names)
+            if not name and len(leaves) > 1 and isinstance(row.control, SwitchControl):
+                self._say(row.control, "carried", "2 presets")
+                continue
             if name:
                 driven |= dict.fromkeys(leaves, name)
                 pins.append(_pin("", name, row.control, row.followers[0], row.control.label))

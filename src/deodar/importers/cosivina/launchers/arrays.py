@@ -195,6 +195,8 @@ def put_at(value: np.ndarray | None, indices: Sequence[Any], new: np.ndarray) ->
             if value.size or is_cells(value):
                 raise NotRead("an array would have values of different kinds")
             value = value.astype(new.dtype)
+        elif value.dtype == bool and value.size:
+            new = new != 0
         else:
             value, new = value.astype(float), new.astype(float)
     if len(indices) == 1:
@@ -217,10 +219,21 @@ def put_at(value: np.ndarray | None, indices: Sequence[Any], new: np.ndarray) ->
             grown[k] = np.zeros((0, 0))
     grown[tuple(slice(0, n) for n in shape)] = value.reshape(shape)
     target = tuple(len(p) for p in places)
-    grown[np.ix_(*places)] = (
-        np.broadcast_to(new.reshape(-1)[0], target) if extent == 1 else new.reshape(target, order="F")
-    )
+    filled = np.repeat(new.reshape(-1), math.prod(target)) if extent == 1 else new.reshape(-1, order="F")
+    grown[np.ix_(*places)] = filled.reshape(target, order="F")
     return grown
+
+
+def without(value: np.ndarray, indices: Sequence[Any]) -> np.ndarray:
+    """Return an array without the entries at indices from 1."""
+    long = [d for d, k in enumerate(indices) if k is not None]
+    if len(indices) == 1 and long:
+        kept = np.delete(value.reshape(-1, order="F"), _places(indices[0], value.size).reshape(-1))
+        return kept.reshape((-1, 1) if value.shape[0] > 1 and value.shape[1] == 1 else (1, -1))
+    if len(long) != 1 or len(indices) > value.ndim:
+        raise NotRead("only whole rows or columns are removed")
+    (d,) = long
+    return np.delete(value, _places(indices[d], value.shape[d]).reshape(-1), axis=d)
 
 
 def _along(value: np.ndarray, index: Any) -> tuple[Any, Any]:

@@ -14,6 +14,7 @@ from deodar.importers.cosivina.launchers.tree import (
     Jump,
     Loop,
     Plain,
+    Repetition,
     ScriptFunction,
     Step,
     Switch,
@@ -97,6 +98,8 @@ class _Blocks:
         match word:
             case "for" | "parfor":
                 step: Step = Loop(line, rest, tuple(self.closed(depth)))
+            case "while":
+                step = Repetition(line, rest, tuple(self.closed(depth)))
             case "if":
                 step = self.choice(line, rest, depth)
             case "switch":
@@ -108,13 +111,10 @@ class _Blocks:
                     self.body((), depth + 1)
                 self.close()
                 step = Attempt(line, tuple(body))
-            case "while" | "spmd" | "classdef":
+            case "spmd" | "classdef":
                 self.closed(depth)
-                what = {
-                    "while": "loops with while are not read; most of them run the simulation",
-                    "spmd": "it is computed in several processes",
-                }
-                step = Unread(line, what.get(word, "a class is not read"))
+                why = "it is computed in several processes" if word == "spmd" else "a class is not read"
+                step = Unread(line, why)
             case "break" | "continue" | "return":
                 step = Jump(line, word)
             case _:

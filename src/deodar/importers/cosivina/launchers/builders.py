@@ -7,7 +7,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from deodar.importers.cosivina.components import COMPONENTS
+from deodar.importers.cosivina.classes import CLASSES
+from deodar.importers.cosivina.components import components
 from deodar.importers.cosivina.constructors import CONSTRUCTORS, OUTPUTS, parameters_of
 from deodar.importers.cosivina.file import Simulator
 from deodar.importers.cosivina.launchers import arrays
@@ -154,9 +155,9 @@ def sources(
             continue
         kind = sim.elements[label].kind
         component = given[k] if k < len(given) and given[k] else output(kind)
-        if kind in CONSTRUCTORS and component not in COMPONENTS.get(kind, (output(kind),)):
-            known_ones = ", ".join(COMPONENTS.get(kind, (output(kind),)))
-            script.say(f"{label!r} is a {kind} without a component {component!r}; it has {known_ones}")
+        if kind in CLASSES and component not in components(kind):
+            has = ", ".join(components(kind))
+            script.say(f"{label!r} is a {kind} without a component {component!r}; it has {has}")
         found.append((label, component))
     return found
 
@@ -200,9 +201,10 @@ def set_parameter(script: Builder, built: BuiltElement, name: str, value: Any) -
         built.values[name] = value
 
 
-def load_settings(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> None:
-    """Take over the parameters of a file."""
+def load_settings(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> Any:
+    """Take over the parameters of a file; return that it was read."""
     load(script, sim, arrays.string(argument(arguments, 0)))
+    return arrays.flag(True)
 
 
 def load(script: Builder, sim: BuiltSimulator, name: str) -> None:
@@ -218,14 +220,14 @@ def load(script: Builder, sim: BuiltSimulator, name: str) -> None:
     for built in sim.elements.values():
         other = there.get(built.label)
         if other is None or other.kind != built.kind:
-            why = f"line {script.line}: {name} has no such {built.kind}; it keeps its values"
-            script.lines.append(Line(built.label, "element", built.kind, "dropped", why))
+            why = f"line {script.line}: it has no such {built.kind}, which keeps its values"
+            script.lines.append(Line(built.label, "preset", name, "dropped", why))
             continue
         built.values.update({n: v for n, v in other.values.items() if n in built.values})
     for label in there:
         if label not in sim.elements:
-            why = f"line {script.line}: {name} has it, the simulator does not"
-            script.lines.append(Line(label, "element", there[label].kind, "dropped", why))
+            why = f"line {script.line}: it has this {there[label].kind}, the simulator does not"
+            script.lines.append(Line(label, "preset", name, "dropped", why))
 
 
 def get_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> Any:

@@ -184,6 +184,7 @@ def _gauss(arguments: Arguments) -> Any:
 def _find(arguments: Arguments) -> Any:
     value = numbers(arguments[0])
     found = np.flatnonzero(value.reshape(-1, order="F")) + 1.0
+    found = found[: whole(arguments[1], 0)] if len(arguments) > 1 else found
     return found.reshape((1, -1) if value.shape[0] == 1 else (-1, 1))
 
 
@@ -221,6 +222,26 @@ def _strcmp(arguments: Arguments, fold: bool = False) -> Any:
     if is_cells(second) and not is_cells(first):
         return np.array([same(first, cell) for cell in second.reshape(-1)]).reshape(second.shape)
     return flag(same(first, second))
+
+
+def _strncmp(arguments: Arguments, fold: bool = False) -> Any:
+    first, second, count = arguments[0], arguments[1], whole(arguments[2], 0)
+
+    def cut(value: Any) -> Any:
+        if is_cells(value):
+            return cells([cut(cell) for cell in value.reshape(-1)]).reshape(value.shape)
+        if not is_text(value):
+            return value
+        found = string(value)
+        return text(found[:count]) if len(found) >= count else number(0)
+
+    return _strcmp((cut(first), cut(second)), fold)
+
+
+def _strfind(arguments: Arguments) -> Any:
+    inside, wanted = string(arguments[0]), string(arguments[1])
+    found = [k + 1.0 for k in range(len(inside)) if wanted and inside.startswith(wanted, k)]
+    return np.array([found]) if found else np.zeros((0, 0))
 
 
 # ----------------------------------------------------------------------------------------------------- text
@@ -461,6 +482,9 @@ FUNCTIONS: Mapping[str, Callable[[Arguments], Any]] = {
     "isscalar": lambda a: flag(isinstance(a[0], np.ndarray) and a[0].size == 1),
     "strcmp": _strcmp,
     "strcmpi": lambda a: _strcmp(a, fold=True),
+    "strncmp": _strncmp,
+    "strncmpi": lambda a: _strncmp(a, fold=True),
+    "strfind": _strfind,
     "num2str": _num2str,
     "int2str": lambda a: _num2str([_rounded(numbers(a[0]))]),
     "sprintf": _sprintf,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import PureWindowsPath
 from typing import Any, cast
 
@@ -16,7 +16,7 @@ from deodar.importers.cosivina.launchers import arrays, blocks, builders
 from deodar.importers.cosivina.launchers.builders import SIMULATOR_METHODS, WINDOW_METHODS, known
 from deodar.importers.cosivina.launchers.evaluate import FAILURES, Budget, Evaluator, Exhausted
 from deodar.importers.cosivina.launchers.expressions import NotRead, expression
-from deodar.importers.cosivina.launchers.functions import FUNCTIONS
+from deodar.importers.cosivina.launchers.functions import FUNCTIONS, RANDOM
 from deodar.importers.cosivina.launchers.objects import (
     BuiltElement,
     BuiltSimulator,
@@ -36,6 +36,7 @@ from deodar.importers.cosivina.launchers.tree import (
     NameNode,
     Node,
     Plain,
+    Repetition,
     ScriptFunction,
     Step,
     Switch,
@@ -50,6 +51,15 @@ QUIET = frozenset(
     )
 )
 """Functions that change nothing of a model, wherever they are called."""
+
+BUILDING = frozenset(("addElement", "addConnection", "addControl", "Simulator", "StandardGUI"))
+"""Calls that build a model."""
+
+RUNNING = frozenset(("step", "run", "stepWithTimer", "runWithTimer"))
+"""Methods that run a model."""
+
+MOST_REPEATED = 5000
+"""Most rounds of a `while` loop."""
 
 DEEPEST_CALL = 8
 """Largest depth of functions and scripts that call one another."""
@@ -132,6 +142,8 @@ class ScriptReader:
                 self._plain(step.tokens, scope)
             case Loop():
                 self._loop(step, scope)
+            case Repetition():
+                self._repeat(step, scope)
             case Choice():
                 self._choose(step, scope)
             case Switch():
@@ -153,7 +165,7 @@ class ScriptReader:
         if split is None:
             node = expression(tokens)
             called = _called(node)
-            if called in QUIET and called not in scope:
+            if called in QUIET | RANDOM and called not in scope:  # a seed, for example
                 return
             self._evaluator(scope).value(node) if not self._is_script(node, scope) else None
             return
@@ -275,7 +287,10 @@ class ScriptReader:
             evaluator = self._evaluator(scope)
             indices = evaluator.indices(np.zeros((0, 0)) if old is None else old, target.arguments)
             try:
-                new = arrays.put_at(old, indices, value)
+                if old is not None and not target.braces and value.shape == (0, 0):
+                    new = arrays.without(old, indices)
+                else:
+                    new = arrays.put_at(old, indices, value)
             except FAILURES as error:
                 raise NotRead(f"it cannot be computed ({error})") from None
             self._put(target.target, self._budget.made(new), scope)
@@ -318,6 +333,8 @@ class ScriptReader:
     # ------------------------------------------------------------------------------------------------- blocks
 
     def _loop(self, loop: Loop, scope: dict[str, Any]) -> None:
+        if _runs(loop.body) and not self._builds(loop.body, scope):
+            raise NotRead("the loop runs the simulation")
         head = loop.head
         if len(head) > 2 and head[0].value == "(" and head[-1].value == ")":
             head = head[1:-1]
@@ -338,6 +355,36 @@ class ScriptReader:
                     return
                 if str(jump) == "return":
                     raise
+
+    def _repeat(self, loop: Repetition, scope: dict[str, Any]) -> None:
+        names = {t.value for t in (*loop.condition, *_words(loop.body)) if t.form == "name"}
+        if any(isinstance(scope.get(name), (BuiltSimulator, BuiltWindow)) for name in names):
+            raise NotRead("the loop runs the simulation")
+        condition = expression(loop.condition)
+        for _ in range(MOST_REPEATED):
+            self._budget.step()
+            if not arrays.is_true(self._evaluator(scope).value(condition)):
+                return
+            try:
+                self._body(loop.body, scope)
+            except _Jumped as jump:
+                if str(jump) == "break":
+                    return
+                if str(jump) == "return":
+                    raise
+            self.line = loop.line
+        raise NotRead(f"the loop does not end within {MOST_REPEATED} rounds")
+
+    def _builds(self, body: Body, scope: dict[str, Any]) -> bool:
+        """Return whether statements build a model, or are names of scripts that may."""
+        for step in _steps(body):
+            if isinstance(step, Plain):
+                first = step.tokens[0].value
+                if any(t.value in BUILDING for t in step.tokens):
+                    return True
+                if len(step.tokens) == 1 and first not in QUIET | RANDOM and first not in scope:
+                    return first not in FUNCTIONS
+        return False
 
     def _choose(self, choice: Choice, scope: dict[str, Any]) -> None:
         for condition, body in choice.branches:
@@ -484,6 +531,38 @@ class ScriptReader:
             return file.parse(content)
         except DeodarError as error:
             raise NotRead(f"{plain} {error.problems[0].what}") from None
+
+
+def _steps(body: Body) -> Iterator[Step]:
+    """Yield steps and all that are inside them."""
+    for step in body:
+        yield step
+        match step:
+            case Loop() | Repetition() | Attempt():
+                yield from _steps(step.body)
+            case Choice(_, branches) | Switch(_, _, branches):
+                for _, inner in branches:
+                    yield from _steps(inner)
+            case _:
+                pass
+
+
+def _words(body: Body) -> Iterator[Token]:
+    """Yield the words of statements."""
+    for step in _steps(body):
+        if isinstance(step, Plain):
+            yield from step.tokens
+
+
+def _runs(body: Body) -> bool:
+    """Return whether statements run a simulation: they call a method such as `step`."""
+    return any(
+        isinstance(step, Plain)
+        and any(
+            a.value == "." and b.value in RUNNING for a, b in zip(step.tokens, step.tokens[1:], strict=False)
+        )
+        for step in _steps(body)
+    )
 
 
 def decoded(content: bytes) -> str:

@@ -117,6 +117,15 @@ class Loop:
 
 
 @dc.dataclass(frozen=True)
+class Repetition:
+    """A `while` loop: its condition in words."""
+
+    line: int
+    condition: tuple[Token, ...]
+    body: Body
+
+
+@dc.dataclass(frozen=True)
 class Choice:
     """Conditions in words and what depends on them; the condition of `else` is empty."""
 
@@ -168,5 +177,5 @@ class ScriptFunction:
     body: Body
 
 
-Step: TypeAlias = Plain | Loop | Choice | Switch | Attempt | Jump | Unread
+Step: TypeAlias = Plain | Loop | Repetition | Choice | Switch | Attempt | Jump | Unread
 Body: TypeAlias = tuple[Step, ...]
