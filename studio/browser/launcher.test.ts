@@ -15,6 +15,8 @@ sim.addElement(NeuralField('choice', n, 20, -5, 4), {'cue 1', 'cue 2'});
 sim.addElement(LateralInteractions1D('choice -> choice', n, 4, 12, 9, 8, -0.2), ...
   'choice', [], 'choice');
 gui = StandardGUI(sim, [50, 50, 700, 500]);
+gui.addVisualization(MultiPlot({'cue 2', 'cue 1'}, {'output', 'output'}, [1, 1], 'horizontal'), [1, 1]);
+gui.addVisualization(MultiPlot({'choice', 'choice'}, {'output', 'activation'}, [10, 1]), [2, 1]);
 gui.addControl(ParameterSlider('rest', 'choice', 'h', [-10, 0], '%0.1f', 1, 'resting level'), [1, 1]);
 gui.addControl(ParameterSlider('global', 'choice -> choice', 'amplitudeGlobal', [0, 2], '%0.2f', -1), [2, 1]);
 gui.addControl(ParameterSwitchButton('cues', {'cue 1', 'cue 2'}, {'amplitude', 'amplitude'}, ...
@@ -45,6 +47,9 @@ test("a launcher opens by its name, with its sliders in their ranges", async () 
     .click();
   await observer.until(() => observer.document?.elements.length === 4);
   await button(page, "Dismiss").click(); // the offer to show the report
+  for (const shown of ["Curves of cue 2", "Curves of choice"]) {
+    await page.getByRole("region", { name: shown, exact: true }).waitFor({ state: "attached" });
+  }
   const rest = slider(page, "rest", "Sliders");
   await rest.waitFor();
   expect([await rest.getAttribute("aria-valuemin"), await rest.getAttribute("aria-valuemax")]).toEqual([

@@ -74,6 +74,7 @@ def test_a_window_gives_the_document_of_the_same_launcher():
     gui, done = window(), imported(SCRIPT)
     assert gui.model.document.entries == done.model.document.entries
     assert gui.model.document.layout == done.model.document.layout
+    assert gui.model.document.layout["plots"] == [{"element": gui.model["u"].id, "port": "activation"}]
     assert gui.model.document.parameters == done.model.document.parameters
     assert [line for line in gui.report.lines if line.part == "control"] == [
         line for line in done.report.lines if line.part == "control"
@@ -109,7 +110,7 @@ def test_a_window_may_be_connected_later():
     gui.updateVisualizations()
     gui.checkAndUpdateControls()
     assert [e.path for e in gui.model.document.entries] == ["cue 1", "cue 2", "u", "u -> u"]
-    assert [line.what for line in gui.report.losses] == ["TimeDisplay"]
+    assert [line.what for line in gui.report.lines if line.part == "visualization"] == ["TimeDisplay"]
 
 
 def test_a_simulator_gives_its_model():

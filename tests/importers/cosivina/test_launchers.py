@@ -300,16 +300,43 @@ def test_sliders_of_placeholders_are_reported():
     assert told(done, "control")["speed"] == ("dropped", "'robot' is a placeholder")
 
 
-def test_visualizations_are_reported_and_may_hold_anything():
-    plot = (
-        "gui.addVisualization(MultiPlot({'line', 'line'}, {'activation', 'output'}, [1, 10], ..."
+def test_visualizations_are_the_plots_that_are_shown_first():
+    plots = (
+        "gui.addVisualization(MultiPlot({'line', 'line'}, {'output', 'activation'}, [1, 10], ..."
         "\n  'horizontal', {'XTick', [1:5, unknownThing(3)]}, {{'b'}, {'r'}}, 'line'), [1, 1]);\n"
+        "gui.addVisualization(ScaledImage('line -> line', 'fullSum', [0, 1]), [1, 2]);\n"
+        "gui.addVisualization(SlicePlot('line', 'activation', 1), [1, 2]);\n"
+        "gui.addVisualization(KernelPlot('line -> line', 'kernel', 'local'), [1, 3]);\n"
+        "gui.addVisualization(MultiPlot('lines', 'activation'), [1, 3]);\n"
+        "gui.addVisualization(MultiPlot(rand, 3), [1, 3]);\n"
+        "gui.addVisualization(MultiPlot(), [1, 3]);\n"
+        "gui.addVisualization(TimeDisplay(), [1, 3]);\n"
     )
-    done = imported(launcher(SLIDER, end=plot + "gui.run(inf);\n"))
-    assert [(line.what, line.verdict) for line in done.report.lines if line.part == "visualization"] == [
-        ("MultiPlot", "dropped")
+    done = imported(launcher(SLIDER, end=plots + "gui.run(inf);\n"))
+    assert done.model.document.layout["plots"] == [
+        {"element": done.model["line"].id, "port": "activation"},
+        {"element": done.model["line -> line"].id, "port": "total"},
+    ]
+    found = [(line.what, line.verdict) for line in done.report.lines if line.part == "visualization"]
+    assert found == [
+        ("MultiPlot", "approximated"),
+        ("ScaledImage", "approximated"),
+        ("SlicePlot", "approximated"),
+        ("KernelPlot", "dropped"),
+        ("MultiPlot", "dropped"),
+        ("MultiPlot", "dropped"),
+        ("MultiPlot", "dropped"),
+        ("TimeDisplay", "carried"),
     ]
     assert not [line for line in done.report.lines if line.part == "statement"]
+
+
+def test_a_window_with_many_plots_shows_the_first_of_them():
+    model = "sim = Simulator();\nfor k = 1:20\n sim.addElement(NeuralField(sprintf('u%d', k), 5));\nend\n"
+    plots = "for k = 1:20\n gui.addVisualization(MultiPlot(sprintf('u%d', k), 'activation'));\nend\n"
+    done = imported(launcher(model=model, end=plots))
+    assert len(done.model.document.layout["plots"]) == 12
+    assert sum(line.part == "visualization" and line.verdict == "dropped" for line in done.report.lines) == 8
 
 
 def test_a_file_that_the_simulator_loads_is_read_beside_the_launcher(tmp_path):

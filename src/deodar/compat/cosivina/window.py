@@ -12,6 +12,7 @@ from deodar.compat.cosivina.simulator import Simulator
 from deodar.errors import DeodarError, ModelError, RunWarning
 from deodar.importers.cosivina import file
 from deodar.importers.cosivina.panel import Panel
+from deodar.importers.cosivina.plots import PlotRequest, with_plots
 from deodar.importers.cosivina.translate import Translation, translated
 from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
@@ -30,7 +31,7 @@ class StandardGUI:
     def __init__(self, simulatorHandle: Simulator | None = None, *settings: Any) -> None:
         self._simulator = simulatorHandle
         self._controls: list[WindowControl] = []
-        self._plots: list[str] = []
+        self._plots: list[PlotRequest] = []
         self.pauseSimulation = self.quitSimulation = self.resetSimulation = False
 
     def connect(self, simulatorHandle: Simulator) -> None:
@@ -42,8 +43,8 @@ class StandardGUI:
         self._controls.append(control)
 
     def addVisualization(self, visualization: Any, *position: Any) -> None:
-        """Add a plot, which is not drawn: plots are chosen in the studio."""
-        self._plots.append(type(visualization).__name__)
+        """Add a plot, which the studio shows."""
+        self._plots.append(_request(visualization))
 
     def init(self) -> None:
         """Open the window: there is none."""
@@ -90,8 +91,8 @@ class StandardGUI:
 
         def finish(translation: Translation, doc: Document) -> tuple[Document, list[Line]]:
             doc, lines = Panel(translation, [c.control for c in self._controls], _file).finish(doc)
-            why = "plots are chosen in the studio"
-            return doc, [*lines, *(Line("", "visualization", name, "dropped", why) for name in self._plots)]
+            doc, shown = with_plots(doc, translation, self._plots)
+            return doc, [*lines, *shown]
 
         return translated(simulator, "simulator", False, finish)
 
@@ -105,8 +106,16 @@ def _file(path: str) -> file.Simulator:
         raise ValueError(f"{path} {error.problems[0].what}") from None
 
 
+def _request(visualization: Any) -> PlotRequest:
+    """Return what a plot shows, by its first two arguments: labels and components."""
+    given = getattr(visualization, "arguments", ())[:2]
+    names = [[v] if isinstance(v, str) else list(v) if isinstance(v, (list, tuple)) else [] for v in given]
+    shown = tuple(zip(*names, strict=False)) if len(names) == 2 else ()
+    return PlotRequest(type(visualization).__name__, shown)
+
+
 class Visualization:
-    """A plot, which is not drawn; it takes any arguments."""
+    """A plot, which is not drawn here; it takes any arguments, first labels and components."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         self.arguments = arguments

@@ -22,6 +22,7 @@ from deodar.importers.cosivina.launchers.builders import argument
 from deodar.importers.cosivina.launchers.expressions import NotRead
 from deodar.importers.cosivina.launchers.functions import shown
 from deodar.importers.cosivina.launchers.objects import ClassCall, MissingValue
+from deodar.importers.cosivina.plots import PlotRequest
 
 Arguments = Sequence[Any]
 
@@ -36,6 +37,16 @@ def control_of(call: ClassCall) -> Control:
         return CONTROLS[call.name](label, call.arguments)
     except NotRead as error:
         return LostControl(label, call.name, f"line {call.line}: {error}")
+
+
+def plot_of(call: ClassCall) -> PlotRequest:
+    """Return the visualization of a call of its class."""
+    labels, components = (call.arguments[k] if k < len(call.arguments) else None for k in (0, 1))
+    try:
+        shown = tuple(zip(arrays.names_of(labels), arrays.names_of(components), strict=False))
+    except NotRead:
+        shown = ()
+    return PlotRequest(call.name, shown, f"line {call.line}")
 
 
 def _is_line(value: np.ndarray) -> bool:

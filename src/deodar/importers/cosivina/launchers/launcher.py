@@ -12,10 +12,11 @@ from deodar import codec
 from deodar.errors import DocumentError
 from deodar.importers._beside import Beside, nothing
 from deodar.importers.cosivina import file
-from deodar.importers.cosivina.launchers.controls import control_of
-from deodar.importers.cosivina.launchers.objects import BuiltSimulator, BuiltWindow, ClassCall
+from deodar.importers.cosivina.launchers.controls import control_of, plot_of
+from deodar.importers.cosivina.launchers.objects import BuiltSimulator, BuiltWindow
 from deodar.importers.cosivina.launchers.running import ScriptReader, decoded
 from deodar.importers.cosivina.panel import Panel
+from deodar.importers.cosivina.plots import with_plots
 from deodar.importers.cosivina.translate import Translation, translated
 from deodar.importers.imported import Imported
 from deodar.importers.report import Line
@@ -62,7 +63,7 @@ def read_launcher(content: bytes, name: str, bugs: bool = False, beside: Beside 
             fix="A launcher has `sim = Simulator();` and `sim.addElement(...)`",
         )
     simulator = file.parse(simulator_file(sim))
-    calls = [] if gui is None else gui.plots
+    plots = [plot_of(call) for call in ([] if gui is None else gui.plots)]
     controls = [control_of(call) for call in ([] if gui is None else gui.controls)]
 
     def files(path: str) -> file.Simulator:
@@ -70,7 +71,8 @@ def read_launcher(content: bytes, name: str, bugs: bool = False, beside: Beside 
 
     def finish(translation: Translation, doc: Document) -> tuple[Document, list[Line]]:
         doc, lines = Panel(translation, controls, files).finish(doc)
-        return doc, [*reader.lines, *lines, *(_lost_plot(call) for call in calls)]
+        doc, shown = with_plots(doc, translation, plots)
+        return doc, [*reader.lines, *lines, *shown]
 
     return translated(simulator, name, bugs, finish)
 
@@ -126,9 +128,3 @@ def plain(value: Any) -> Any:
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
         return int(value)
     return value if isinstance(value, (int, float, str, dict)) else None
-
-
-def _lost_plot(call: ClassCall) -> Line:
-    return Line(
-        "", "visualization", call.name, "dropped", f"line {call.line}: plots are chosen in the studio"
-    )
