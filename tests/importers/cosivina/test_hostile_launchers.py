@@ -11,6 +11,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
+from deodar.importers import cosivina
 from deodar.importers.cosivina import read
 from deodar.importers.cosivina.launchers import evaluate
 from deodar.importers.cosivina.launchers.launcher import is_launcher
@@ -143,6 +144,16 @@ def test_scripts_that_are_no_launchers_are_one_error(text, says):
     with pytest.raises(DocumentError) as caught:
         read(("sim = Simulator();\n" + text).encode(), "x.m")
     assert says in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("line", [b"\n", b" \n", b"x = 1;\n", b"from\n", b"import", b"def f(", b"gui . "])
+def test_the_format_of_a_long_file_is_recognised_soon(line):
+    content = line * (6_000_000 // len(line))
+    start = time.perf_counter()
+    assert not is_launcher(content) and not cosivina.sniff(content)
+    with pytest.raises(DocumentError):
+        read(content, "x.m")
+    assert time.perf_counter() - start < 10
 
 
 def test_a_launcher_of_100_megabytes_is_refused_before_it_is_read(tmp_path):

@@ -24,16 +24,23 @@ from deodar.model.document import Document
 
 WORDS = re.compile(
     rb"(?m)^[^%\n'\"]*\b(?:Simulator\s*[(;]|(?:addElement|addControl|addVisualization|StandardGUI)\s*\()"
-    rb"|^\s*gui\s*\.\s*run\s*\("
+    rb"|^[ \t]*gui[ \t]*\.[ \t]*run[ \t]*\("
 )
 """What a launcher has somewhere, outside comments."""
 
-PYTHON = re.compile(rb"(?m)^\s*(?:from\s+\w[\w.]*\s+import\b|import\s+\w+|def\s+\w+\s*\(.*\)\s*(?:->.*)?:)")
+PYTHON = re.compile(
+    rb"(?m)^[ \t]*(?:from[ \t]+\w[\w.]*[ \t]+import\b|import[ \t]+\w+|def[ \t]+\w+[ \t]*\([^\n]*:[ \t\r]*$)"
+)
 """What only a script of Python has."""
 
 
-def is_launcher(head: bytes) -> bool:
+HEAD = 65536
+"""Number of bytes by which a launcher is recognised."""
+
+
+def is_launcher(content: bytes) -> bool:
     """Return whether a file begins like a script of MATLAB that builds a simulator."""
+    head = content[:HEAD]
     return (
         head.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] not in (b"{", b"[", b"<", b"")
         and PYTHON.search(head) is None

@@ -104,11 +104,15 @@ class _Scanner:
         self.tokens: list[Token] = []
         self.open: list[str] = []
         self.apart = False
+        self.first = self.at  # where its first word ends
 
     def all(self) -> list[Statement]:
         """Return all statements."""
         text = self.text
-        while self.at < len(text):
+        while self.at < len(text) or self.open:
+            if self.at >= len(text):
+                self.begin_again()
+                continue
             if (self.at == 0 or text[self.at - 1] == "\n") and (block := BLOCK.match(text, self.at)):
                 self.skip_block(block)
             elif space := SPACE.match(text, self.at):
@@ -121,10 +125,16 @@ class _Scanner:
                 self.end_line()
             else:
                 self.word()
-        if self.open:
-            self.fail(f"a {self.open[-1]!r} is missing")
         self.finish()
         return self.found
+
+    def begin_again(self) -> None:
+        """Report a statement whose brackets never close, and continue with the line behind its first one."""
+        at, first = self.first, self.tokens[0].line
+        self.fail(f"a {self.open[-1]!r} is missing")
+        self.at, self.line = at, first
+        end = LINE.match(self.text, self.at)
+        self.at = len(self.text) if end is None else end.end()
 
     def skip_block(self, opening: re.Match[str]) -> None:
         """Skip a block of comments, which lines with %{ and %} alone enclose."""
@@ -208,6 +218,8 @@ class _Scanner:
         self.count += 1
         if self.count > MOST_TOKENS:
             raise DocumentError(f"is a script of more than {MOST_TOKENS} words")
+        if not self.tokens:
+            self.first = self.at
         following = self.text[self.at : self.at + 1]
         self.tokens.append(Token(form, value, self.line, self.apart, bool(following.strip())))
         self.apart = False
