@@ -92,6 +92,16 @@ export type Answer = {
   text?: string;
 };
 
+// Apply a preset that the document keeps in its layout, as one step of undo.
+//
+// The answer lists the values that could not be applied.
+export type ApplyKeptPreset = {
+  type: "apply_kept_preset";
+  request?: number;
+  session?: number;
+  name: string;
+};
+
 // Apply the values of another file below the root, by names and kinds, as one step of undo.
 //
 // Connections stay. The answer lists the values that did not match.
@@ -1506,6 +1516,7 @@ export type ToServer =
   | Comment
   | FindFits
   | ApplyPreset
+  | ApplyKeptPreset
   | ApplyPresetText
   | Undo
   | Redo
@@ -1764,6 +1775,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "add_document_parameter",
   "add_element",
   "add_template",
+  "apply_kept_preset",
   "apply_preset",
   "apply_preset_text",
   "arrange",

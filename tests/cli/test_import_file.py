@@ -8,6 +8,7 @@ import deodar as dd
 from deodar.cli import main
 from deodar.importers import stored_report
 from tests.importers.cosivina.files import SAMPLES, element, written
+from tests.importers.cosivina.scripts import launcher
 
 SAMPLE = next(p for p in SAMPLES if "OneLayer" in p.stem)
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
@@ -102,3 +103,24 @@ def test_an_unreadable_file_is_an_error_of_one_line(tmp_path, capsys):
     error = capsys.readouterr().err
     assert "is not JSON" in error and "Traceback" not in error and error.count("\n") == 1
     assert main(["import", str(tmp_path / "absent.json")]) == 1
+
+
+def test_a_launcher_is_written_with_its_sliders_and_presets(tmp_path, capsys):
+    script = tmp_path / "launcherPair.m"
+    script.write_text(
+        launcher(
+            "ParameterSlider('h', 'line', 'h', [-10, 0])",
+            "ParameterSwitchButton('go', 'cue left', 'amplitude', 0, 6)",
+        )
+    )
+    out = tmp_path / "pair.json"
+    assert main(["import", str(script), "-o", str(out), "--strict"]) == 0
+    assert "8 elements" in capsys.readouterr().out
+    layout = dd.load(out).document.layout
+    assert len(layout["pins"]) == 2 and len(layout["presets"]) == 2
+    assert main(["import", str(script), "--json"]) == 0
+    lines = json.loads(capsys.readouterr().out)["lines"]
+    assert [line["where"] for line in lines if line["part"] == "control"] == ["h", "go"]
+    script.write_text("sim = Simulator();\nq = 3")
+    assert main(["import", str(script)]) == 1
+    assert "builds no simulator of cosivina" in capsys.readouterr().err

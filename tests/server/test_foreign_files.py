@@ -11,6 +11,7 @@ from deodar.parameters import FrozenArray
 from deodar.server import content
 from deodar.server.workspace import Workspace
 from tests.importers.cosivina.files import element, text, written
+from tests.importers.cosivina.scripts import PAIR, built, launcher, parameters
 from tests.importers.dnf_composer.files import HERE as SIMULATIONS
 from tests.server.page import Page, play, studio
 
@@ -123,6 +124,58 @@ def test_a_file_of_another_tool_may_be_dropped(tmp_path: Path) -> None:
         assert (await p.ask("apply_preset_text", name="preset.json", text="{"))["problems"]
         broken = await p.do("open_text", name="preset.json", text=text(parts())[:-1], discard=True)
         assert broken["imported"] == "" and p.said["file_problems"]["problems"]
+
+    with studio(tmp_path) as address:
+        play(address, scene)
+
+
+def value(p: Page, path: str, name: str) -> Any:
+    """Return the value of a parameter in the document of a page."""
+    return next(e["values"][name] for e in p.document["elements"] if e["path"] == path)
+
+
+def test_a_launcher_of_cosivina_opens_with_pins_and_presets(tmp_path: Path) -> None:
+    sim, _ = built(PAIR)
+    sim.elements["line"].values["h"] = -7
+    (tmp_path / "calm.json").write_bytes(parameters(sim))
+    (tmp_path / "launcherPair.m").write_text(
+        launcher(
+            "ParameterSlider('rest', {'cue left', 'cue right'}, {'amplitude', 'amplitude'}, [0, 9])",
+            "ParameterSwitchButton('go', 'line', 'tau', 20, 40)",
+            "PresetSelector('Select', gui, '', {'calm.json'}, {'calm'})",
+        )
+    )
+
+    async def scene(p: Page) -> None:
+        opened = await p.do("open_file", path="launcherPair.m")
+        assert opened["imported"].startswith("Imported from launcherPair.m (cosivina): 8 elements")
+        layout = p.document["layout"]
+        assert [pin["parameter"] for pin in layout["pins"]] == ["rest", "tau"]
+        assert [preset["name"] for preset in layout["presets"]] == ["go: off", "go: on", "calm"]
+        answer = await p.do("apply_kept_preset", name="go: on")
+        assert (answer["carried"], answer["unmatched"]) == (1, [])
+        await p.until(lambda: value(p, "line", "tau") == 40)
+        assert (await p.do("apply_kept_preset", name="calm"))["carried"] == 2  # tau and the resting level
+        await p.until(lambda: value(p, "line", "resting_level") == -7 and value(p, "line", "tau") == 20)
+        await p.do("undo")
+        await p.until(lambda: value(p, "line", "tau") == 40)
+        problems = (await p.ask("apply_kept_preset", name="calms"))["problems"]
+        assert "no preset 'calms'" in problems[0]["what"]
+        await p.do("save", path="own.json")
+
+    with studio(tmp_path) as address:
+        play(address, scene)
+    listed = Workspace(tmp_path).listed(1, "").files
+    assert listed == ["calm.json", "launcherPair.m", "own.json"]
+    assert '"go: on"' in (tmp_path / "own.json").read_text()
+
+
+def test_a_dropped_launcher_reports_the_files_that_were_not_dropped_with_it(tmp_path: Path) -> None:
+    async def scene(p: Page) -> None:
+        text = launcher("PresetSelector('Select', gui, '', {'calm.json'}, {'calm'})")
+        opened = await p.do("open_text", name="launcherPair.m", text=text)
+        assert "8 elements" in opened["imported"] and "presets" not in p.document["layout"]
+        assert "preset calm: dropped" in p.document["notes"]
 
     with studio(tmp_path) as address:
         play(address, scene)

@@ -12,6 +12,7 @@ from deodar.importers.report import ImportReport, Line
 from deodar.leaves import get
 from deodar.model import edit
 from deodar.model.document import Document, Entry
+from deodar.model.kept_presets import KeptPreset, kept_presets, take_preset
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, describe
 from deodar.numerics.convolution import boundaries
@@ -27,7 +28,8 @@ of one.
 
 
 def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> ImportReport:
-    """Set the parameters of a model to the values that elements of the same label and class have in a file.
+    """Set the parameters of a model to the values of one of its presets, or to those that elements of the
+    same label and class have in a file.
 
     Connections do not change.
 
@@ -35,7 +37,8 @@ def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> ImportRe
 
     Args:
         model: an open model.
-        path: a file of another tool, or a document of deodar.
+        path: the name of a preset that the document has, as a launcher of cosivina gives them; otherwise a
+            file of another tool, or a document of deodar.
         bugs: whether to reproduce known errors of the other tool instead of correcting them.
 
     Returns:
@@ -45,10 +48,23 @@ def apply_preset(model: Model, path: str | Path, bugs: bool = False) -> ImportRe
     Raises:
         DocumentError: the file cannot be read; the model is then unchanged.
     """
+    own = next((p for p in kept_presets(model.document) if p.name == path), None)
+    if own is not None:
+        doc, lines = kept(model.document, own)
+        model.history.commit(doc)
+        return ImportReport("deodar", own.name, lines)
     tool = tool_of(path)
     doc, lines = applied(model.document, load(path, bugs=bugs).document)
     model.history.commit(doc)
     return ImportReport(tool.NAME if tool is not None else "deodar", Path(path).name, lines)
+
+
+def kept(doc: Document, preset: KeptPreset) -> tuple[Document, list[Line]]:
+    """Return a document with the values of one of its presets, and a line about each value."""
+    new, lines = take_preset(doc, preset)
+    return new, [
+        Line(where, "parameter", path, "dropped" if why else "carried", why) for where, path, why in lines
+    ]
 
 
 def applied(doc: Document, preset: Document) -> tuple[Document, list[Line]]:

@@ -20,7 +20,8 @@ class Line:
     Attributes:
         where: label of the element in the file; "" for the file itself.
         part: `element`, `parameter`, `connection`, `component` (of an element, if the model has it under
-            another name), `key` (of a JSON object, if it occurs more than once), `group` or `file`.
+            another name), `key` (of a JSON object, if it occurs more than once), `group`, `file`, or of a
+            script `control`, `preset`, `visualization` or `statement`.
         what: the class, the name of the parameter or component, the source, or the key.
         verdict: `carried` (the model does what the file states), `approximated`, or `dropped`.
         why: how it was approximated or why it was dropped; for a carried item, its counterpart.
@@ -78,7 +79,7 @@ class ImportReport:
     def summary(self) -> str:
         """Return the report as one sentence."""
         parts = Counter(
-            line.part for line in self.lines if line.part in ("element", "parameter", "connection")
+            line.part for line in self.lines if line.part in ("element", "parameter", "connection", "control")
         )
         counted = ", ".join(f"{n} {part}{'s' if n != 1 else ''}" for part, n in parts.items()) or "nothing"
         return f"{counted}; " + ", ".join(f"{self.count(v)} {v}" for v in VERDICTS)

@@ -21,6 +21,7 @@ from deodar.live.engine import Injection
 from deodar.live.section import Section
 from deodar.live.trace import TraceRequest
 from deodar.model import edit, files, find
+from deodar.model.kept_presets import kept_preset
 from deodar.model.paths import quote
 from deodar.numerics.axes import Axes
 from deodar.recording import places
@@ -203,20 +204,28 @@ async def _arrange(hub: Hub, page: Page, m: to_server.Arrange) -> None:
 async def _apply_preset(hub: Hub, page: Page, m: to_server.ApplyPreset) -> Answer:
     place = hub.workspace.inside(m.path)
     preset = await in_file_thread(lambda: content.load(hub.workspace, place), m.path)
-    return await _take_over(hub, page, m.request, preset)
+    return await _take_over(hub, m.request, lambda doc: presets.applied(doc, preset))
+
+
+@handles(to_server.ApplyKeptPreset)
+async def _apply_kept_preset(hub: Hub, page: Page, m: to_server.ApplyKeptPreset) -> Answer:
+    return await _take_over(hub, m.request, lambda doc: presets.kept(doc, kept_preset(doc, m.name)))
 
 
 @handles(to_server.ApplyPresetText)
 async def _apply_preset_text(hub: Hub, page: Page, m: to_server.ApplyPresetText) -> Answer:
-    return await _take_over(hub, page, m.request, await asyncio.to_thread(content.read, m.text, m.name))
+    preset = await asyncio.to_thread(content.read, m.text, m.name)
+    return await _take_over(hub, m.request, lambda doc: presets.applied(doc, preset))
 
 
-async def _take_over(hub: Hub, page: Page, request: int, preset: edit.Document) -> Answer:
-    """Apply the values of another document to the open one."""
+async def _take_over(
+    hub: Hub, request: int, take: Callable[[edit.Document], tuple[edit.Document, list[Line]]]
+) -> Answer:
+    """Apply the values of a preset to the open document."""
     lines: list[Line] = []
 
     def change(doc: edit.Document) -> edit.Document:
-        new, found = presets.applied(doc, preset)
+        new, found = take(doc)
         lines.extend(found)
         return new
 

@@ -451,6 +451,16 @@ class ApplyPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset"
 
 
 @MESSAGES.register
+class ApplyKeptPreset(DocumentRequest, frozen=True, kw_only=True, tag="apply_kept_preset"):
+    """Apply a preset that the document keeps in its layout, as one step of undo.
+
+    The answer lists the values that could not be applied.
+    """
+
+    name: Text
+
+
+@MESSAGES.register
 class ApplyPresetText(DocumentRequest, frozen=True, kw_only=True, tag="apply_preset_text"):
     """Apply the values of a file as `apply_preset` does, given its text."""
 

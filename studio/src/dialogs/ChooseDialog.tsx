@@ -10,7 +10,7 @@ import { parent } from "../files/paths";
 import { useFolder } from "./useFolder";
 
 const ACCEPTED = {
-  files: "application/json,.json,.deodar",
+  files: "application/json,.json,.deodar,.dnf,.m",
   pictures: "image/*",
   values: "application/json,.json",
   records: "",

@@ -70,6 +70,7 @@ describe("names of documents", () => {
 it("files are sorted by type and name", () => {
   expect(sortOf({ name: "a.json", type: "" })).toBe("document");
   expect(sortOf({ name: "a", type: "application/json" })).toBe("document");
+  expect(sortOf({ name: "launcher.m", type: "text/x-matlab" })).toBe("document");
   expect(sortOf({ name: "a.deodar", type: "" })).toBe("package");
   expect(sortOf({ name: "a.txt", type: "text/plain" })).toBe("other");
 });

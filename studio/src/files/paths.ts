@@ -62,7 +62,7 @@ export type FileSort = "document" | "package" | "other";
 
 // What a file of the person's own is, from its type and its name.
 export function sortOf(file: { name: string; type: string }): FileSort {
-  if (file.type === "application/json" || /\.json$/i.test(file.name)) {
+  if (file.type === "application/json" || /\.(json|dnf|m)$/i.test(file.name)) {
     return "document";
   }
   if (/\.deodar$/i.test(file.name)) {

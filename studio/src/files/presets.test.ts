@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from "vitest";
 
 import { fresh, notices, person, sent, server } from "./scripted";
-import { takeValues, takenText } from "./presets";
+import { applyKeptPreset, takeValues, takenText } from "./presets";
 
 beforeEach(fresh);
 
@@ -56,5 +56,30 @@ describe("applying the values of a file", () => {
   it("states the number in words", () => {
     expect(takenText(0, "a.json")).toBe("No value of a.json differs from what is open.");
     expect(takenText(1, "a.json")).toBe("1 value was taken over from a.json.");
+  });
+});
+
+describe("a preset of the document", () => {
+  it("is applied without a word", async () => {
+    server({ carried: 2 });
+    person();
+    expect(await applyKeptPreset("go: on")).toBe(true);
+    expect(sent).toEqual([{ type: "apply_kept_preset", name: "go: on" }]);
+    expect(notices()).toEqual([]);
+  });
+
+  it("lists the values that could not be applied", async () => {
+    server({ carried: 1, unmatched: ["u: parameter tau: dropped"] });
+    const questions = person("undo");
+    expect(await applyKeptPreset("go: on")).toBe(false);
+    expect(questions[0]?.question).toMatchObject({ file: "go: on", carried: 1 });
+    expect(sent.map((m) => m.type)).toEqual(["apply_kept_preset", "undo"]);
+  });
+
+  it("that is unknown is a problem", async () => {
+    server({ problems: [{ what: "the document has no preset 'x'" }] });
+    person();
+    expect(await applyKeptPreset("x")).toBe(false);
+    expect(notices()).toEqual(["error: the document has no preset 'x'"]);
   });
 });

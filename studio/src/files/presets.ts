@@ -22,6 +22,13 @@ export async function applyPreset(path: string): Promise<boolean> {
   return shown(await sent(path), lastPart(path));
 }
 
+// Applies a preset that the document keeps. The controls show what changed; only values that could not be
+// applied are listed.
+export async function applyKeptPreset(name: string): Promise<boolean> {
+  const { answer } = await socket.ask({ type: "apply_kept_preset", name });
+  return (answer.unmatched ?? []).length > 0 ? shown(answer, name) : done(answer);
+}
+
 async function shown(answer: Answer, file: string): Promise<boolean> {
   if (!done(answer)) {
     return false;

@@ -1,10 +1,8 @@
 // Arrangements of panels: the first one, whether a stored one can be used, and what counts as a change.
 
 import type { DockviewApi, SerializedDockview } from "dockview-react";
-import { firstToPlot, mainPort, plotKinds, portAxes } from "../plots/kinds/kinds";
-import { useStudio } from "../store";
-import { plotTitle } from "./openPlot";
-import { NARROW } from "./placement";
+import { type FirstPlot, firstPlots } from "./firstPlots";
+import { NARROW, placeFor } from "./placement";
 import { TOOL_NAMES, TOOLS } from "./tools";
 
 const COMPONENTS: string[] = [...TOOL_NAMES, "plot"];
@@ -12,23 +10,22 @@ const SIDE_BELOW = 260;
 const PLOT = 0.4;
 const NARROW_BELOW = 0.5;
 
-// The architecture at the left with a plot of the first field below it; inspector and sliders at the right.
-// On a narrow page the architecture is above, and the others share the place below it.
+// The architecture at the left with the first plots below it; inspector and sliders at the right. On a narrow
+// page the architecture is above, and the others share the place below it.
 export function arrangeFirst(api: DockviewApi): void {
   api.clear();
   api.addPanel({ id: "graph", component: "graph", title: TOOLS.graph.title });
-  const plot = firstPlot();
+  const plots = firstPlots();
   if (api.width > 0 && api.width < NARROW) {
-    arrangeNarrow(api, plot);
+    arrangeNarrow(api, plots);
   } else {
-    arrangeWide(api, plot);
+    arrangeWide(api, plots);
   }
+  api.getPanel(plots[0]?.id ?? "")?.api.setActive();
   api.getPanel("graph")?.api.setActive();
 }
 
-type FirstPlot = { id: string; component: string; title: string; params: object };
-
-function arrangeNarrow(api: DockviewApi, plot: FirstPlot | null): void {
+function arrangeNarrow(api: DockviewApi, plots: FirstPlot[]): void {
   const below = { referencePanel: "graph", direction: "below" } as const;
   const within = { referencePanel: "inspector", direction: "within" } as const;
   api.addPanel({
@@ -39,12 +36,12 @@ function arrangeNarrow(api: DockviewApi, plot: FirstPlot | null): void {
     initialHeight: Math.round(NARROW_BELOW * api.height),
   });
   api.addPanel({ id: "pins", component: "pins", title: TOOLS.pins.title, position: within });
-  if (plot !== null) {
+  for (const plot of plots) {
     api.addPanel({ ...plot, position: within });
   }
 }
 
-function arrangeWide(api: DockviewApi, plot: FirstPlot | null): void {
+function arrangeWide(api: DockviewApi, plots: FirstPlot[]): void {
   api.addPanel({
     id: "inspector",
     component: "inspector",
@@ -59,29 +56,18 @@ function arrangeWide(api: DockviewApi, plot: FirstPlot | null): void {
     position: { referencePanel: "inspector", direction: "below" },
     initialHeight: SIDE_BELOW,
   });
-  if (plot !== null) {
+  const [first, ...others] = plots;
+  if (first !== undefined) {
     api.addPanel({
-      ...plot,
+      ...first,
       position: { referencePanel: "graph", direction: "below" },
       initialHeight: Math.round(PLOT * api.height),
     });
   }
-}
-
-function firstPlot(): FirstPlot | null {
-  const { document, kinds } = useStudio.getState();
-  const element = document === null ? null : firstToPlot(document, kinds);
-  if (document === null || element === null) {
-    return null;
+  for (const plot of others) {
+    const position = placeFor(api);
+    api.addPanel({ ...plot, ...(position === null ? {} : { position }) });
   }
-  const port = mainPort(element, kinds.get(element.kind));
-  const kind = plotKinds(portAxes(document, element, port))[0] ?? "course";
-  return {
-    id: "plot-1",
-    component: "plot",
-    title: plotTitle({ element: element.id, kind }),
-    params: { element: element.id, kind, port, settings: {} },
-  };
 }
 
 // The arrangement stored in the document, or the default if it is missing or invalid.

@@ -11,6 +11,7 @@ import { AddButton } from "../widgets/AddButton";
 import { moved } from "../inspector/parameters/part";
 import { useStudio } from "../store";
 import { MenuList } from "../widgets/MenuList";
+import { KeptPresets } from "./KeptPresets";
 import { PinRow } from "./PinRow";
 import { isAt, keepPins, pinsOf, withPin } from "./pins";
 
@@ -60,6 +61,7 @@ export function Pins() {
         ))}
       </ul>
       <DocumentParameterMenu />
+      <KeptPresets />
     </div>
   );
 }

@@ -15,6 +15,7 @@ import { IconBookmark } from "@tabler/icons-react";
 import { type FormEvent, useState } from "react";
 
 import { applyPreset } from "../files/presets";
+import { KeptPresets } from "../pins/KeptPresets";
 import { whenText } from "../files/when";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -102,6 +103,7 @@ function Presets() {
         save="Save preset"
         send={(name) => request({ type: "save_preset", name })}
       />
+      <KeptPresets />
       {kept?.map(({ name, path, saved, size }) => (
         <Row
           key={name}

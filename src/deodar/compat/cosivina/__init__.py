@@ -2,12 +2,20 @@
 
 `from deodar.compat.cosivina import *` takes the place of `from cosivina.nonumba import *`. A `Simulator`
 collects elements and connections as cosivina's JSON files hold them, the importer translates them, and a
-session of deodar runs the result in double precision.
+session of deodar runs the result in double precision. A `StandardGUI` collects the controls of a window, in
+the words of the toolbox for MATLAB, as pinned sliders and presets of a model.
 """
 
 from __future__ import annotations
 
 from deodar.compat.cosivina import options
+from deodar.compat.cosivina.controls import (
+    GlobalControlButton,
+    ParameterDropdownSelector,
+    ParameterSlider,
+    ParameterSwitchButton,
+    PresetSelector,
+)
 from deodar.compat.cosivina.elements import (
     BoostStimulus,
     CustomStimulus,
@@ -32,6 +40,19 @@ from deodar.compat.cosivina.elements import (
     Transpose,
 )
 from deodar.compat.cosivina.simulator import Simulator
+from deodar.compat.cosivina.window import (
+    KernelPlot,
+    MultiPlot,
+    RGBImage,
+    ScaledImage,
+    SlicePlot,
+    StandardGUI,
+    StaticText,
+    SurfacePlot,
+    TilePlot,
+    TimeDisplay,
+    XYPlot,
+)
 
 __all__ = [
     "BoostStimulus",
@@ -42,19 +63,35 @@ __all__ = [
     "GaussKernel2D",
     "GaussStimulus1D",
     "GaussStimulus2D",
+    "GlobalControlButton",
     "KernelFFT",
+    "KernelPlot",
     "LateralInteractions1D",
     "LateralInteractions2D",
     "MexicanHatKernel1D",
     "MexicanHatKernel2D",
+    "MultiPlot",
     "NeuralField",
     "NormalNoise",
+    "ParameterDropdownSelector",
+    "ParameterSlider",
+    "ParameterSwitchButton",
     "PointwiseProduct",
+    "PresetSelector",
+    "RGBImage",
     "ScaleInput",
+    "ScaledImage",
     "Simulator",
+    "SlicePlot",
+    "StandardGUI",
+    "StaticText",
     "SumAllDimensions",
     "SumDimension",
     "SumInputs",
+    "SurfacePlot",
+    "TilePlot",
+    "TimeDisplay",
     "Transpose",
+    "XYPlot",
     "options",
 ]

@@ -10,6 +10,7 @@ import numpy as np
 
 from deodar.errors import ParameterError, UnknownName, did_you_mean
 from deodar.importers.cosivina.components import components
+from deodar.importers.cosivina.constructors import CONSTRUCTORS
 
 
 class Element:
@@ -108,61 +109,35 @@ class FileElement(Element):
         return self._names
 
 
-KERNEL_1D = {"circular": True, "normalized": True, "cutoffFactor": 5.0}
-KERNEL_2D = {"circularY": True, "circularX": True, "normalized": True, "cutoffFactor": 5.0}
-DIFFERENCE_1D = {"sigmaExc": 1.0, "amplitudeExc": 0.0, "sigmaInh": 1.0, "amplitudeInh": 0.0}
-DIFFERENCE_2D = {
-    "sigmaExcY": 1.0,
-    "sigmaExcX": 1.0,
-    "amplitudeExc": 0.0,
-    "sigmaInhY": 1.0,
-    "sigmaInhX": 1.0,
-    "amplitudeInh": 0.0,
-}
-GLOBAL = {"amplitudeGlobal": 0.0}
-SIZE = {"size": (1, 1)}
-
-
 class NeuralField(Element):
     """A dynamic neural field with the logistic sigmoid."""
 
-    PARAMETERS = {**SIZE, "tau": 10.0, "h": -5.0, "beta": 4.0}
+    PARAMETERS = CONSTRUCTORS["NeuralField"]
 
 
 class GaussStimulus1D(Element):
     """A Gaussian stimulus on a row."""
 
-    PARAMETERS = {
-        **SIZE,
-        "sigma": 1.0,
-        "amplitude": 0.0,
-        "position": 1.0,
-        "circular": True,
-        "normalized": False,
-    }
+    PARAMETERS = CONSTRUCTORS["GaussStimulus1D"]
 
 
 class GaussStimulus2D(Element):
     """A Gaussian stimulus on a plane."""
 
-    PARAMETERS = {
-        **SIZE,
-        **{"sigmaY": 1.0, "sigmaX": 1.0, "amplitude": 0.0, "positionY": 1.0, "positionX": 1.0},
-        **{"circularY": True, "circularX": True, "normalized": False},
-    }
+    PARAMETERS = CONSTRUCTORS["GaussStimulus2D"]
 
 
 class BoostStimulus(Element):
     """A number."""
 
-    PARAMETERS = {"amplitude": 0.0}
+    PARAMETERS = CONSTRUCTORS["BoostStimulus"]
     FIXED = ()
 
 
 class CustomStimulus(Element):
     """A stimulus of any shape; it has the size of its pattern."""
 
-    PARAMETERS = {"pattern": None}
+    PARAMETERS = CONSTRUCTORS["CustomStimulus"]
     FIXED = ("size", "pattern")
     ARGUMENTS = {"pattern": "stimulusPattern"}
 
@@ -185,59 +160,55 @@ class CustomStimulus(Element):
 class GaussKernel1D(Element):
     """A convolution of a row with a Gaussian."""
 
-    PARAMETERS = {**SIZE, "sigma": 1.0, "amplitude": 0.0, **KERNEL_1D}
+    PARAMETERS = CONSTRUCTORS["GaussKernel1D"]
 
 
 class GaussKernel2D(Element):
     """A convolution of a plane with a Gaussian."""
 
-    PARAMETERS = {**SIZE, "sigmaY": 1.0, "sigmaX": 1.0, "amplitude": 0.0, **KERNEL_2D}
+    PARAMETERS = CONSTRUCTORS["GaussKernel2D"]
 
 
 class MexicanHatKernel1D(Element):
     """A convolution of a row with a difference of Gaussians."""
 
-    PARAMETERS = {**SIZE, **DIFFERENCE_1D, **KERNEL_1D}
+    PARAMETERS = CONSTRUCTORS["MexicanHatKernel1D"]
 
 
 class MexicanHatKernel2D(Element):
     """A convolution of a plane with a difference of Gaussians."""
 
-    PARAMETERS = {**SIZE, **DIFFERENCE_2D, **KERNEL_2D}
+    PARAMETERS = CONSTRUCTORS["MexicanHatKernel2D"]
 
 
 class LateralInteractions1D(Element):
     """A convolution of a row with a difference of Gaussians, and a constant."""
 
-    PARAMETERS = {**SIZE, **DIFFERENCE_1D, **GLOBAL, **KERNEL_1D}
+    PARAMETERS = CONSTRUCTORS["LateralInteractions1D"]
 
 
 class LateralInteractions2D(Element):
     """A convolution of a plane with a difference of Gaussians, and a constant."""
 
-    PARAMETERS = {**SIZE, **DIFFERENCE_2D, **GLOBAL, **KERNEL_2D}
+    PARAMETERS = CONSTRUCTORS["LateralInteractions2D"]
 
 
 class KernelFFT(Element):
     """A convolution with a difference of Gaussians over the whole input, and a constant."""
 
-    PARAMETERS = {
-        **SIZE,
-        **{"sigmaExc": None, "amplitudeExc": 0.0, "sigmaInh": None, "amplitudeInh": 0.0},
-        **{"amplitudeGlobal": 0.0, "circular": None, "normalized": True, "paddingFactor": 5.0},
-    }
+    PARAMETERS = CONSTRUCTORS["KernelFFT"]
 
 
 class SumInputs(Element):
     """The sum of all inputs."""
 
-    PARAMETERS = SIZE
+    PARAMETERS = CONSTRUCTORS["SumInputs"]
 
 
 class SumDimension(Element):
     """The sum of the input over one dimension or more."""
 
-    PARAMETERS = {"sumDimensions": (1,), **SIZE, "amplitude": 1.0, "dimensionOrder": (1, 2)}
+    PARAMETERS = {**CONSTRUCTORS["SumDimension"], "dimensionOrder": (1, 2)}
     FIXED = ("sumDimensions", "size", "dimensionOrder")
     ARGUMENTS = {"size": "outputSize"}
 
@@ -245,7 +216,7 @@ class SumDimension(Element):
 class SumAllDimensions(Element):
     """The sums of a plane along each dimension, and the full sum."""
 
-    PARAMETERS = SIZE
+    PARAMETERS = CONSTRUCTORS["SumAllDimensions"]
     ARGUMENTS = {"size": "inputSize"}
     defaultOutputComponent = "fullSum"
 
@@ -253,31 +224,31 @@ class SumAllDimensions(Element):
 class ScaleInput(Element):
     """The input times a factor."""
 
-    PARAMETERS = {**SIZE, "amplitude": 0.0}
+    PARAMETERS = CONSTRUCTORS["ScaleInput"]
 
 
 class NormalNoise(Element):
     """White noise; deodar draws it, so NumPy's random state has no effect."""
 
-    PARAMETERS = {**SIZE, "amplitude": 0.0}
+    PARAMETERS = CONSTRUCTORS["NormalNoise"]
 
 
 class PointwiseProduct(Element):
     """The product of two inputs."""
 
-    PARAMETERS = SIZE
+    PARAMETERS = CONSTRUCTORS["PointwiseProduct"]
 
 
 class Transpose(Element):
     """The transposed input; the size is that of the output."""
 
-    PARAMETERS = SIZE
+    PARAMETERS = CONSTRUCTORS["Transpose"]
 
 
 class ExpandDimension2D(Element):
     """A row or a column, repeated along the other dimension of a plane."""
 
-    PARAMETERS = {"expandDimension": 1, **SIZE}
+    PARAMETERS = CONSTRUCTORS["ExpandDimension2D"]
     FIXED = ("expandDimension", "size")
     ARGUMENTS = {"size": "outputSize"}
 

@@ -16,8 +16,10 @@ from deodar.compat.cosivina.running import Running
 from deodar.errors import DocumentError, ModelError, ParameterError, RunWarning, UnknownName, did_you_mean
 from deodar.importers.cosivina import file
 from deodar.importers.cosivina.components import components
+from deodar.importers.cosivina.translate import read
 from deodar.importers.report import ImportReport
 from deodar.model import output
+from deodar.model.model import Model
 from deodar.recording import mat
 
 Labels = str | Sequence[str] | None
@@ -127,7 +129,12 @@ class Simulator:
     @property
     def report(self) -> ImportReport:
         """The report of the translation of the present architecture."""
-        return Running(self._content(), self._seed).report
+        return read(self.content(), "simulator.json").report
+
+    @property
+    def model(self) -> Model:
+        """The model that deodar runs, of the present architecture."""
+        return read(self.content(), "simulator.json").model
 
     def init(self) -> None:
         """Set the time to `tZero`, and all elements to their initial state.
@@ -135,7 +142,7 @@ class Simulator:
         Warns:
             RunWarning: deodar has no counterpart of an element or a connection.
         """
-        self._running = Running(self._content(), self._seed)
+        self._running = Running(self.content(), self._seed)
         self._seed += 1
         lost = self._running.report.losses
         _warn([str(line) for line in lost if line.part != "parameter" or line.verdict == "approximated"])
@@ -208,7 +215,7 @@ class Simulator:
 
     def saveSettings(self, filename: str | Path) -> bool:
         """Write architecture and parameters as a JSON file; an existing file is replaced."""
-        output.write(Path(filename), self._content())
+        output.write(Path(filename), self.content())
         return True
 
     def loadSettings(self, filename: str | Path, parameters: str = "changeable") -> bool:
@@ -250,8 +257,8 @@ class Simulator:
 
     # ------------------------------------------------------------------------------------------------ inside
 
-    def _content(self) -> bytes:
-        """Return the content of a file."""
+    def content(self) -> bytes:
+        """Return the content of a file, as `saveSettings` writes it."""
         entries = [
             {
                 "label": e.label,
@@ -293,7 +300,7 @@ class Simulator:
         if self._running is None:
             self.init()
         assert self._running is not None
-        self._running.take(self._content())
+        self._running.take(self.content())
         return self._running
 
     def _element(self, label: str) -> Element:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import PurePath
 
 from deodar.elements.placeholder import Placeholder
@@ -37,20 +38,32 @@ def read(content: bytes, name: str, bugs: bool = False, beside: Beside = nothing
         bugs: whether to reproduce known errors of cosivina instead of correcting them.
         beside: not used: a file of cosivina needs no other files.
     """
-    simulator = file.parse(content)
+    return translated(file.parse(content), name, bugs)
+
+
+def translated(simulator: Simulator, name: str, bugs: bool, finish: Finish | None = None) -> Imported:
+    """Return the model of a simulator, and the report.
+
+    Args:
+        simulator: the content of a file.
+        name: name of the file.
+        bugs: whether to reproduce known errors of cosivina.
+        finish: adds to the document what else the file holds, and returns report lines about it.
+    """
     translation = Translation(simulator, bugs)
-    report = ImportReport("cosivina", name, translation.lines(), translation.met)
-    title = PurePath(name).stem
-    doc = edit.describe(
-        Document(title or "cosivina"),
-        time_unit="ms",
-        dt=simulator.step,
-        t0=simulator.start,
-        notes=report.text(),
-    )
+    doc = Document(PurePath(name).stem or "cosivina")
     elements = [element for piece in translation.pieces.values() for element in piece.elements]
     doc = assembled(doc, elements + translation.wiring.extra, translation.wiring.connections)
+    lines: list[Line] = []
+    if finish is not None:
+        doc, lines = finish(translation, doc)
+    report = ImportReport("cosivina", name, [*translation.lines(), *lines], translation.met)
+    doc = edit.describe(doc, time_unit="ms", dt=simulator.step, t0=simulator.start, notes=report.text())
     return Imported(Model(document=doc), report)
+
+
+Finish = Callable[["Translation", Document], tuple[Document, list[Line]]]
+"""Adds to a document, and returns it with report lines."""
 
 
 class Translation:
