@@ -13,6 +13,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import RunWarning, WorldError
+from deodar.worlds import _capture
 from deodar.worlds.event_file import aedat2, aedat4
 
 HERE = Path(__file__).parent
@@ -57,11 +58,13 @@ def content_of(name: str) -> bytes:
     if name == "aedat":
         k = np.arange(400)
         return aedat2.encoded(250 * k, k % 128, 3 * k % 128, k % 3 == 0)
+    if name == "avi":
+        return _capture.example().read_bytes()
     return (HERE / f"{name.removesuffix('.aedat4')}.aedat4").read_bytes()
 
 
 @pytest.mark.usefixtures("shared")
-@pytest.mark.parametrize("name", ["aedat", "one.aedat4", "two.aedat4", "plain.aedat4"])
+@pytest.mark.parametrize("name", ["aedat", "one.aedat4", "two.aedat4", "plain.aedat4", "avi"])
 def test_200_damaged_files_are_worlds_or_one_error(name: str, tmp_path: Path) -> None:
     content, axes = content_of(name), dd.EventFile.example_axes("events")
     path = tmp_path / f"damaged.{name.rpartition('.')[2]}"
@@ -71,7 +74,7 @@ def test_200_damaged_files_are_worlds_or_one_error(name: str, tmp_path: Path) ->
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:
-                seen = dd.EventFile(path)
+                seen = dd.EventFile(path, size=(64, 48) if name == "avi" else None)
                 reading = seen.sense("events", axes, 10.0)
             except WorldError as error:
                 assert len(error.problems) == 1 and str(path) in str(error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,9 @@ from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.recording.opened import again, named
 from deodar.server.embodiment import Embodiment, preview
+from deodar.worlds import _capture
 from deodar.worlds.event_file import aedat2
+from deodar.worlds.eye.event_camera import EventCamera
 
 HERE = Path(__file__).parent
 PIXELS = (dd.Axis("column", 0, 127, 128), dd.Axis("row", 0, 127, 128))
@@ -132,6 +135,14 @@ def test_a_record_names_the_file_and_opens_it_again(name: str) -> None:
     assert opened.describe() == said and opened.stream == stream and opened.period == 5.0
 
 
+def test_a_record_of_a_video_names_the_pixels(tmp_path: Path) -> None:
+    camera = EventCamera(threshold=0.3, shot=2.0)
+    said = dd.EventFile(_capture.example(), size=(64, 48), camera=camera).describe()
+    assert said["format"] == "video"
+    opened = again(dd.EventFile, said)
+    assert isinstance(opened, dd.EventFile) and opened.camera == camera and opened.describe() == said
+
+
 def test_a_recording_takes_the_place_of_the_events_of_an_eye() -> None:
     file = dd.EventFile.example()
     world = dd.Combined(dd.Eye(endless=False), {"events": file})
@@ -186,6 +197,7 @@ def test_a_simulated_eye_is_the_default_for_events() -> None:
         ({"size": (0, 10)}, "expected columns and rows"),
         ({"size": "large"}, "expected columns and rows"),
         ({"size": (100_000, 100_000)}, "states a sensor of 100000 x 100000 pixels"),
+        ({"camera": "DVS128"}, "expected an EventCamera"),
     ],
 )
 def test_wrong_settings_are_refused(settings, said: str) -> None:
@@ -197,13 +209,13 @@ def test_wrong_settings_are_refused(settings, said: str) -> None:
     ("argument", "said"),
     [
         ("none.aedat", "none.aedat: there is no such file"),
-        ("{}", "cannot be read"),
+        ("{}", "there is no such file"),
         ("one.aedat4,peroid=5", "there is no setting 'peroid'. Did you mean 'period'"),
         ("one.aedat4,period=fast", "period is 'fast'; expected a number of ms"),
         ("one.aedat4,size=64", "size is '64'; expected columns and rows"),
         ("one.aedat4,loop=perhaps", "loop is 'perhaps'; expected yes or no"),
         ("one.aedat4,stream=x", "stream is 'x'; expected 0, 1"),
-        ("a\0b.aedat", "cannot be read"),
+        ("a\0b.aedat", "there is no such file"),
     ],
 )
 def test_an_argument_that_names_nothing_is_refused(
@@ -212,6 +224,14 @@ def test_an_argument_that_names_nothing_is_refused(
     monkeypatch.chdir(HERE)
     with pytest.raises(WorldError, match=said):
         dd.EventFile.open(argument.format(tmp_path))
+
+
+def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.aedat")
+    with pytest.raises(WorldError, match="there is no such file"):
+        dd.EventFile(tmp_path / "pipe.aedat")
+    with pytest.raises(WorldError, match="file is 5; expected the path of a recording"):
+        dd.EventFile(5)  # type: ignore[arg-type]
 
 
 def test_an_argument_states_settings_after_commas(tmp_path: Path) -> None:

@@ -1,8 +1,9 @@
-"""A recording of an event camera as a world."""
+"""A file of events, or a video turned into events, as a world."""
 
 from __future__ import annotations
 
 import atexit
+import dataclasses as dc
 import hashlib
 import shutil
 import tempfile
@@ -22,7 +23,11 @@ from deodar.worlds._settings import number
 from deodar.worlds.event_file import aedat2, aedat4
 from deodar.worlds.event_file.argument import parse_argument
 from deodar.worlds.event_file.events import RecordedEvents, require_size
-from deodar.worlds.eye.event_camera import shares
+from deodar.worlds.event_file.filmed import FilmedEvents
+from deodar.worlds.eye.event_camera import EventCamera, shares
+
+FILMED_SIDE = 128
+"""Columns and rows of the sensor before a video, if no size is stated."""
 
 PREVIEWED = 20
 """Periods whose events the preview shows."""
@@ -30,36 +35,43 @@ PREVIEWED = 20
 
 @register
 class EventFile(World):
-    r"""A recording of an event camera.
+    r"""A recording of an event camera, or a video that an event camera sees.
 
-    It reads AEDAT2 files of a DVS128 or eDVS (.aedat) and AEDAT4 files (.aedat4; extra `events`), and plays
-    in the time of the model from the first event on. After the end there are no events, or the recording
-    starts again.
+    It reads AEDAT2 files of a DVS128 or eDVS (.aedat), AEDAT4 files (.aedat4; extra `events`) and videos
+    (extra `vision`), and plays in the time of the model from the first event on. After the end there are no
+    events, or the recording starts again.
 
     Events of a file are sorted if time goes back by 0.1 s or less; a file where it goes back further is
     refused, because the time of the camera was reset there. AEDAT2 counts time modulo 2^32 microseconds,
     which is undone, so that a pause without events must be shorter than 35 minutes. What is left of a file
     that is damaged or cut off is read. Each of these repairs is a `RunWarning`.
 
+    Of a video the luma Y (0 to 255) is the light; between two pictures its logarithm changes linearly. All
+    copies of a model see the same events, which follow from the seed.
+
     Equation:
         y(x, y, t) = \frac{\text{events in the cell of } (x, y) \text{ at } t - \mathrm{period} \le t' < t}
             {\text{pixels of the cell} \cdot \mathrm{period}}
+        L = \ln(Y + 8) \text{ (log luminance of a video)}
 
     Parameters:
-        file: path of the recording.
+        file: path of the recording or video.
         period: ms between two readings; a whole number of steps of the model.
         loop: whether the recording starts again after its end.
-        size: columns and rows of the sensor; None: those that the file states, 128 x 128 for AEDAT2.
+        size: columns and rows of the sensor; None: those that the file states, 128 x 128 for AEDAT2 and
+            videos. A video keeps its aspect ratio; the rest of the sensor is black.
         stream: position among the streams of events of an AEDAT4 file, 0 for the first.
         jaer: whether the addresses of AEDAT2 are those of a DVS128 in jAER: column 127 - x, row 127 - y, and
             bit 0 for brighter. Otherwise the column is x, the row y, and the bit 1.
+        camera: the pixels before a video, an `EventCamera` (`deodar.worlds.eye.event_camera`).
 
     Shapes:
         All sensors are sampled over two axes in pixels, columns from the left and rows from the top: the rate
         over the cell of each sample in the last period, per pixel and second.
 
     Reference:
-        iniVation AG, file formats AEDAT 2.0 and AEDAT 4.0 (docs.inivation.com).
+        iniVation AG, file formats AEDAT 2.0 and AEDAT 4.0 (docs.inivation.com); Hu, Liu & Delbruck (2021),
+        v2e, CVPR Workshops (events from videos).
     """
 
     sensors: Mapping[str, Signal] = {
@@ -68,7 +80,10 @@ class EventFile(World):
         "off": Signal("rate of the events of darker pixels", unit="1/s"),
     }
     stands_in = False
-    opens = (".aedat", ".aedat4")
+    opens = (
+        *(".aedat", ".aedat4"),
+        *(".mp4", ".avi", ".mov", ".mkv", ".webm", ".m4v", ".mpg", ".mpeg"),
+    )
 
     def __init__(
         self,
@@ -78,30 +93,47 @@ class EventFile(World):
         size: Sequence[float] | None = None,
         stream: int = 0,
         jaer: bool = True,
+        camera: EventCamera | None = None,
     ) -> None:
+        if not isinstance(file, (str, Path)):
+            raise WorldError(f"file is {show(file)}; expected the path of a recording or video")
         self.period = self._step = number("period", period, above=0.0)
         self.loop, self.jaer = bool(loop), bool(jaer)
         if isinstance(stream, bool) or real(stream) is None or stream < 0 or stream != int(stream):
             raise WorldError(f"stream is {show(stream)}; expected a whole number, 0 for the first")
+        if camera is not None and not isinstance(camera, EventCamera):
+            raise WorldError(f"camera is {show(camera)}; expected an EventCamera")
         self.stream, self.name = int(stream), str(file)
+        self.camera = EventCamera() if camera is None else camera
         sides = None if size is None else _sides(size)
         path = Path(file)
         self.format = _format(path)
+        self._film: FilmedEvents | None = None
+        self._events: RecordedEvents | None = None
+        if self.format == "video":
+            shape = sides or (FILMED_SIDE, FILMED_SIDE)
+            self._film = FilmedEvents(path, shape, self.camera, self._step, self.loop)
+            self.size = shape
+            return
         if self.format == "AEDAT2":
-            self._events: RecordedEvents = aedat2.read(path, sides, self.jaer)
+            self._events = aedat2.read(path, sides, self.jaer)
         else:
             self._events = aedat4.read(path, sides, self.stream)
         self.size = self._events.size
 
     @property
-    def duration(self) -> float:
-        """Duration in ms, from the first event to the last."""
-        return self._events.duration / 1000
+    def duration(self) -> float | None:
+        """Duration of a recording in ms, from its first event to its last; None for a video."""
+        return None if self._events is None else self._events.duration / 1000
 
     @property
-    def count(self) -> int:
-        """Number of the events."""
-        return len(self._events.times)
+    def count(self) -> int | None:
+        """Number of the events of a recording; None for a video."""
+        return None if self._events is None else len(self._events.times)
+
+    def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        if self._film is not None:
+            self._film.reset(seed)
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
         self.require(sensor)
@@ -114,13 +146,24 @@ class EventFile(World):
 
     def _counts(self, time: float) -> tuple[np.ndarray, np.ndarray]:
         """Return the numbers of on and off events of each pixel in the period before a time in ms."""
+        if self._events is None:
+            assert self._film is not None
+            return self._film.counts(float(time))
         start, stop = round((time - self._step) * 1000), round(time * 1000)
         return self._events.counts(start, stop, self.loop)
+
+    def keep(self) -> Any:
+        return None if self._film is None else self._film.keep()
+
+    def put(self, kept: Any) -> None:
+        if self._film is not None and kept is not None:
+            self._film.put(kept)
 
     def preview(self) -> np.ndarray:
         """Return a picture (rows, columns, 3), 0 to 1, of the events in the first 20 periods: white where
         pixels became brighter, black where they became darker.
         """
+        self.reset(0)
         readings = [self._counts(k * self._step) for k in range(1, PREVIEWED + 1)]
         more = np.sum([on - off for on, off in readings], axis=0)
         grey = 0.5 + 0.5 * more / max(1.0, float(np.abs(more).max()))
@@ -138,6 +181,7 @@ class EventFile(World):
     def describe(self) -> JsonObject:
         with open(self.name, "rb") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
+        camera: JsonObject = {**dc.asdict(self.camera)}
         return {
             "world": "EventFile",
             "file": self.name,
@@ -145,6 +189,7 @@ class EventFile(World):
             "size": list(self.size),
             "period": self.period,
             "loop": self.loop,
+            **({"camera": camera} if self.format == "video" else {}),
             **({"jaer": self.jaer} if self.format == "AEDAT2" else {}),
             **({"stream": self.stream} if self.format == "AEDAT4" else {}),
             "sha256": digest,
@@ -159,8 +204,9 @@ class EventFile(World):
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> EventFile:
         said: Mapping[str, Any] = described
+        camera = EventCamera(**said["camera"]) if "camera" in said else None
         settings = {name: said[name] for name in ("stream", "jaer") if name in said}
-        return cls(said["file"], said["period"], said["loop"], said["size"], **settings)
+        return cls(said["file"], said["period"], said["loop"], said["size"], camera=camera, **settings)
 
     @classmethod
     def example(cls) -> EventFile:
@@ -180,15 +226,14 @@ class EventFile(World):
 
 def _format(path: Path) -> str:
     """Return what a file is, by its beginning, or raise WorldError if its ending says otherwise."""
+    fix = "Name a recording (.aedat, .aedat4) or a video"
+    if not path.is_file():  # reading a pipe would wait
+        raise WorldError("there is no such file", where=str(path), fix=fix)
     try:
         with path.open("rb") as file:
             head = file.read(16)
-    except (OSError, ValueError) as error:
-        raise WorldError(
-            "there is no such file" if isinstance(error, FileNotFoundError) else f"cannot be read: {error}",
-            where=str(path),
-            fix="Name a recording (.aedat, .aedat4)",
-        ) from None
+    except OSError as error:
+        raise WorldError(f"cannot be read: {error.strerror}", where=str(path), fix=fix) from None
     if head.startswith(aedat2.VERSION):
         return "AEDAT2"
     if head.startswith(aedat4.VERSION):
@@ -200,8 +245,10 @@ def _format(path: Path) -> str:
             where=str(path),
             fix="Save it as AEDAT4, with the program of the camera's maker",
         )
-    what = "is empty" if not head else "is not a recording of events: it does not begin with '#!AER-DAT'"
-    raise WorldError(what, where=str(path), fix="Name a recording in AEDAT2 or AEDAT4")
+    if path.suffix.lower() in (".aedat", ".aedat4"):
+        what = "is empty" if not head else "is not a recording of events: it does not begin with '#!AER-DAT'"
+        raise WorldError(what, where=str(path), fix="Name a recording in AEDAT2 or AEDAT4")
+    return "video"
 
 
 def _sides(size: Any) -> tuple[int, int]:
