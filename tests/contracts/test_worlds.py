@@ -44,7 +44,8 @@ def test_sensors_read_together_have_the_readings_of_each_alone(kind):
 def test_a_sensor_of_the_example_has_a_varying_reading(kind):
     world = WORLDS[kind].example()
     world.reset(3)
-    assert any(np.ptp(world.sense(s, example_axes(kind, s), 0.0)) > 0 for s in world.sensors)
+    times = (0.0, world.period or 0.0)
+    assert any(np.ptp(world.sense(s, example_axes(kind, s), t)) > 0 for s in world.sensors for t in times)
 
 
 @pytest.mark.parametrize("kind", WORLDS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
-from deodar.server.embodiment import Embodiment, problems, warnings
+from deodar.server.embodiment import Embodiment, preview, problems, warnings
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 
@@ -88,3 +89,14 @@ def test_a_robot_drives_in_the_studio_s_session() -> None:
     session = dd.Session(driving(), world=Embodiment().world(driving().document))
     session.step(3)
     assert session.read("eyes").shape == (8,)
+
+
+def test_a_world_may_have_a_preview_of_its_own() -> None:
+    class Striped(Picture):
+        def preview(self) -> np.ndarray:
+            return np.tile(np.array([[[0.0], [1.0], [0.5]]]), (2, 1, 3))
+
+    shown = preview(Striped(np.zeros((4, 4, 3))), None)
+    assert (shown.width, shown.height) == (3, 2)
+    assert list(base64.b64decode(shown.pixels)) == [0, 0, 0, 255, 255, 255, 127, 127, 127] * 2
+    assert preview(Picture.example(), None).width == 160

@@ -102,6 +102,8 @@ def test_the_command_line_names_all_worlds(tmp_path: Path):
     world = named(f"combined:mujoco:table,period=20; camera=video:{file}", "--world")
     assert isinstance(world, Combined) and world.period == 20
     assert isinstance(world.others["camera"], Video)
+    hyphens = named(f"Com-Bined:mu-joco:table;camera=video:{file}", "--world")
+    assert isinstance(hyphens, Combined), "neither case nor hyphens count"
     for text, said in (
         ("mujoco:table", "no sensor is read from another world"),
         ("mujoco:table;video:x", "names no sensor"),

@@ -54,6 +54,19 @@ def test_a_video_keeps_its_last_picture_or_repeats(film: Path) -> None:
         assert abs(middle(again.sense("picture", FINE, moment)) - (2 * (place // 40) + 7.5)) < 1.0
 
 
+def test_a_repeated_video_is_read_once_for_each_repetition(
+    film: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world = Video(film, loop=True)
+    world.sense("picture", AXES, 2000.0)
+    read: list[int] = []
+    following = _capture.VideoReader._next
+    monkeypatch.setattr(_capture.VideoReader, "_next", lambda self: read.append(1) or following(self))
+    for k in range(25):
+        world.sense("picture", AXES, 2000.0 + 40 * k)
+    assert len(read) <= 26
+
+
 def test_a_video_can_be_pickled(film: Path) -> None:
     world = pickle.loads(pickle.dumps(Video(film)))
     np.testing.assert_array_equal(

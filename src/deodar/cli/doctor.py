@@ -17,7 +17,13 @@ from deodar.errors import DocumentError
 
 HELP = "list installed packages, devices, the cache of compiled programs, and what is missing"
 
-EXTRAS = {"docs": "zensical", "test": "pytest", "video": "imageio-ffmpeg", "vision": "opencv-python-headless"}
+EXTRAS = {
+    "docs": "zensical",
+    "events": "aedat",
+    "test": "pytest",
+    "video": "imageio-ffmpeg",
+    "vision": "opencv-python-headless",
+}
 """For each extra a package whose presence shows that the extra is installed."""
 
 GIB = 2**30

@@ -183,6 +183,7 @@ class Hebbian(Coupling):
         return cls(
             [target],
             gated=True,
+            apart=True,
             random=True,
             initial=0.4,
             share=0.8,

@@ -198,14 +198,19 @@ def _lacking(path: str, element: Sensor | Motor, world: World | None) -> Problem
 
 
 def preview(world: World, doc: Document | None) -> WorldPreview:
-    """Return what a world looks like: from above, or else what its first sensor of any shape reads."""
+    """Return what a world looks like: from above, or its own preview, or else what its first sensor of any
+    shape reads.
+    """
     picture = np.zeros((0, 0, 3))
     try:
         with errors_of(type(world), "preview"):
             world.reset(0)
             seen = world.scene()
             free = [name for name, signal in world.sensors.items() if signal.shape is None]
-            if seen is None and free:
+            own = world.preview() if seen is None else None
+            if own is not None:
+                picture = own
+            elif seen is None and free:
                 picture = world.sense(free[0], PREVIEW, 0.0).transpose(1, 0, 2)
     finally:
         close = getattr(world, "close", None)

@@ -65,8 +65,8 @@ class World:
             class needs an extra or a device.
         repeatable: whether a restored state leads to the same readings again; False if they come from
             outside, as those of a camera.
-        opens: endings of the files that `open` reads, in lower case with the dot, such as .png; empty if its
-            argument does not name a file.
+        opens: endings of the files that `open` reads, in lower case with the dot, such as .png, the formats
+            of this class before those that others open too; empty if its argument does not name a file.
 
     Attributes:
         period: ms between two exchanges; None: the world never changes, and a run reads each sensor once.
@@ -120,6 +120,13 @@ class World:
 
     def scene(self) -> Scene | None:
         """Return the present view from above; None if the world has none."""
+        return None
+
+    def preview(self) -> np.ndarray | None:
+        """Return a picture (height, width, 3), values 0 to 1, by which a user recognises the world.
+
+        None: the scene, or the reading of the first sensor without a shape, is such a picture.
+        """
         return None
 
     def move(self, name: str, center: Sequence[float]) -> None:

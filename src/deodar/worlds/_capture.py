@@ -48,9 +48,11 @@ class VideoReader:
     Attributes:
         size: width and height in pixels.
         rate: pictures per second.
+        pictures: number of pictures, known once the last one was read; before that None.
     """
 
     def __init__(self, path: Path) -> None:
+        self.pictures: int | None = None
         if not path.is_file():
             raise WorldError(
                 "there is no such video",
@@ -71,7 +73,7 @@ class VideoReader:
         first = self._next()
         if first is None or not self.rate > 0:
             raise WorldError("cannot be read as a video", where=str(self.path))
-        self._shown, self._number, self._end = first, 0, False
+        self._shown, self._number = first, 0
 
     def picture(self, moment: float, again: bool) -> np.ndarray:
         """Return the picture (height, width, 3) at a time in ms.
@@ -79,14 +81,14 @@ class VideoReader:
         After the end of the video, return the last picture, or with `again` start from the first one.
         """
         wanted = int(moment * self.rate / 1000 + 1e-6)
-        if again and self._end:
-            wanted %= self._number + 1
+        if again and self.pictures is not None:
+            wanted %= self.pictures
         if wanted < self._number:
             self.rewind()
         while self._number < wanted:
             picture = self._next()
             if picture is None:
-                self._end = True
+                self.pictures = self._number + 1
                 return self.picture(moment, again) if again else self._shown
             self._shown, self._number = picture, self._number + 1
         return self._shown

@@ -11,12 +11,14 @@ def named_kind(text: str, where: str) -> tuple[type[World], str]:
     """Return the class of a world and the argument for its `open`; messages call the place of this text
     `where`.
 
+    Case and hyphens do not count: `event-file` is `EventFile`.
+
     Raises:
         WorldError: there is no such class, or the text has no argument.
     """
     name, _, argument = text.partition(":")
     kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
-    found = kinds.get(name.casefold())
+    found = kinds.get(name.casefold().replace("-", ""))
     if found is None:
         raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
     if not argument:

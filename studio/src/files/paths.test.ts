@@ -82,4 +82,7 @@ it("finds the kind of world that opens a file, by the ending of its name", () =>
   ] as Kind[];
   expect(opening(kinds, "a.JPG")?.name).toBe("Picture");
   expect(opening(kinds, "a.txt")).toBeUndefined();
+  const both = ["aedat", "mp4"].map((own) => ({ name: own, opens: [`.${own}`, ".mp4"] })) as Kind[];
+  expect(opening(both, "a.mp4")?.name).toBe("mp4");
+  expect(opening(both, "a.aedat")?.name).toBe("aedat");
 });

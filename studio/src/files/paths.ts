@@ -71,8 +71,16 @@ export function sortOf(file: { name: string; type: string }): FileSort {
   return "other";
 }
 
-// The first of some kinds of worlds that opens files with the ending of a name.
+// The kind of world that opens files with the ending of a name. Of several it is the one that lists the
+// ending earliest, because each kind lists its own formats first.
 export function opening(kinds: Iterable<Kind>, name: string): Kind | undefined {
   const lower = name.toLowerCase();
-  return [...kinds].find((kind) => kind.opens.some((ending) => lower.endsWith(ending)));
+  let first: { kind: Kind; at: number } | undefined;
+  for (const kind of kinds) {
+    const at = kind.opens.findIndex((ending) => lower.endsWith(ending));
+    if (at >= 0 && (first === undefined || at < first.at)) {
+      first = { kind, at };
+    }
+  }
+  return first?.kind;
 }

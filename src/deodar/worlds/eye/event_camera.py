@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 from deodar.element import Arrays
@@ -88,13 +89,15 @@ def rate(events: Array, axes: Axes, period: float) -> Array:
         axes: the two axes of the reading, in pixels; a cell outside of the sensor has no events.
         period: the period, ms.
     """
-    one, other = (_shares(axis, size, events.dtype) for axis, size in zip(axes, events.shape, strict=True))
+    one, other = (
+        jnp.asarray(shares(axis, size), events.dtype) for axis, size in zip(axes, events.shape, strict=True)
+    )
     return jnp.einsum("ic,cr,jr->ij", one, events, other) * (1000.0 / period)
 
 
-def _shares(axis: Axis, pixels: int, dtype: jnp.dtype) -> Array:
+def shares(axis: Axis, pixels: int) -> np.ndarray:
     """Return the share of a sample's cell that each pixel covers, (samples, pixels)."""
     low, high = axis.points - axis.step / 2, axis.points + axis.step / 2
-    edges = jnp.arange(pixels + 1) - 0.5
-    overlap = jnp.minimum(high[:, None], edges[None, 1:]) - jnp.maximum(low[:, None], edges[None, :-1])
-    return (jnp.maximum(overlap, 0.0) / axis.step).astype(dtype)
+    edges = np.arange(pixels + 1) - 0.5
+    overlap = np.minimum(high[:, None], edges[None, 1:]) - np.maximum(low[:, None], edges[None, :-1])
+    return np.maximum(overlap, 0.0) / axis.step
