@@ -35,7 +35,7 @@ def onset(values: np.ndarray, above: float) -> int:
     return int(here[0])
 
 
-@pytest.mark.parametrize("first", [(25.0, 90.0), (100.0, 50.0), (60.0, 20.0)])
+@pytest.mark.parametrize("first", [(25.0, 90.0), (60.0, 20.0), (30.0, 95.0)])
 def test_with_the_true_map_a_gaze_centres_the_target_in_the_order_of_the_paper(first) -> None:
     fields = ["perceptual", "visual intention", "motor intention"]
     record = [*(f"{name}.output" for name in fields), "pan arrived.activation", "satisfied.activation"]
@@ -58,6 +58,7 @@ def test_the_visual_intention_remembers_where_the_target_was() -> None:
     data = gaze(looking("paper", weights=true_map(), learns=False), (30.0, 95.0), record)
     column, row = (axis.points for axis in retina())
     moving = data["motor intention.output"].values.max(axis=(1, 2)) > 0.5
+    moving[int(np.flatnonzero(data["arrived.output"].values > 0.5)[0]) :] = False
     seen = data["visual intention.output"].values[moving]
     mass = seen.sum(axis=(1, 2))
     places = np.stack(
@@ -70,7 +71,7 @@ def test_the_visual_intention_remembers_where_the_target_was() -> None:
 
 @pytest.mark.parametrize("mechanism", ["paper", "correcting"])
 def test_a_gaze_that_centres_the_target_is_learned_where_the_target_was(mechanism: str) -> None:
-    """A map that sends only one place to the right shift is strengthened there, and nowhere else."""
+    """The map is right, but weak. It grows where the target was, and where it then is: in the centre."""
     start = 0.4 * true_map()
     first = (35.0, 90.0)
     model = looking(mechanism, weights=start)
@@ -78,10 +79,9 @@ def test_a_gaze_that_centres_the_target_is_learned_where_the_target_was(mechanis
     grown = data["map.weights"].values[-1] - start
     column, row = (axis.points for axis in retina())
     changed = np.abs(grown).max(axis=(0, 1))
-    at = np.unravel_index(np.argmax(changed), changed.shape)
-    assert np.hypot(column[at[0]] - first[0], row[at[1]] - first[1]) < 10
-    far = np.hypot(column[:, None] - first[0], row[None, :] - first[1]) > 25
-    assert changed[far].max() == 0.0 and changed.max() > 0.02
+    there = np.hypot(column[:, None] - first[0], row[None, :] - first[1]) < 25
+    centre = np.hypot(column[:, None] - CENTRE, row[None, :] - CENTRE) < 25
+    assert changed[~there & ~centre].max() == 0.0 and changed[there].max() > 0.02
 
 
 def test_a_gaze_that_misses_is_not_learned_by_the_paper_and_is_corrected_by_the_other() -> None:
@@ -101,7 +101,7 @@ def test_a_gaze_that_misses_is_not_learned_by_the_paper_and_is_corrected_by_the_
     for mechanism in ("paper", "correcting"):
         data = gaze(looking(mechanism, weights=start), first, ["map.weights"], 1200.0)
         after[mechanism] = data["map.weights"].values[-1]
-    assert np.abs(after["paper"] - start).max() < 0.03
+    assert np.abs(after["paper"] - start)[..., wrong].max() < 0.03
     before, right = aim(start), aim(true)
     assert abs(before - right) > 60
     assert abs(aim(after["correcting"]) - right) < 0.75 * abs(before - right)
@@ -133,9 +133,9 @@ def test_a_finer_sampling_looks_at_the_same_place() -> None:
     away = [(axis.points[:, None, None] - goals[None, ..., k]) for k, axis in enumerate((pan, tilt))]
     fine = (np.hypot(away[0][:, None], away[1][None]) < 70).astype(np.float32)
     model = looking("paper", samples=(48, 37), weights=fine, learns=False)
-    data = gaze(model, (25.0, 90.0), ["satisfied.activation"])
-    done = onset(data["satisfied.activation"].values, 0.0)
-    assert np.linalg.norm(data["target.output"].values[done] - CENTRE) < 6
+    data = gaze(model, (25.0, 90.0), ["arrived"])
+    done = onset(data["arrived.output"].values, 0.5)
+    assert np.linalg.norm(data["target.output"].values[done] - CENTRE) < 8
 
 
 def test_wrong_arguments_are_refused() -> None:

@@ -54,7 +54,7 @@ def test_the_design_has_other_seeds_than_tuning() -> None:
     seeds = {job.arguments["seed"] for job in looking.jobs(False)}
     assert seeds == set(range(11, 21))
     of = [job for job in looking.jobs(False) if job.arguments["condition"] == "correcting"]
-    assert len(of) == 10 and len(of[0].keys) == 6 + 3 * 4
+    assert len(of) == 10 and len(of[0].keys) == 4 + 3 * 2
 
 
 def rows(near: dict[str, int]) -> dict[str, dict]:

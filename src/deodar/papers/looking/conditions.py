@@ -21,8 +21,8 @@ TESTS = 150
 CHANGED = (0.8, 1.0, 1.2)
 """Factors of the gain of the camera, after a map was learned; 1 is the control."""
 
-AFTER = (100, 250, 500)
-"""Gazes after the change."""
+AFTER = (500,)
+"""Gazes after the change, after which the map is tested; it is tested at once too."""
 
 
 @dataclass(frozen=True)
@@ -79,8 +79,8 @@ def conditions(quick: bool) -> dict[str, Condition]:
             "no reward": Condition("paper", (1000,), FEW, {"reward": False}),
         }
     return {
-        "correcting": Condition("correcting", (250, 500, 750, 1000, 1250, 1500), changes=True),
-        "paper": Condition("paper", (250, 500, 1000, 1500, 2000, 2500, 3000)),
-        "no reward": Condition("paper", (1000, 2000, 3000), HALF, {"reward": False}),
-        "no memory": Condition("paper", (1000, 2000, 3000), HALF, {"memory": False}),
+        "correcting": Condition("correcting", (250, 500, 1000, 1500), changes=True),
+        "paper": Condition("paper", (500, 1000, 2000, 3000)),
+        "no reward": Condition("paper", (1000, 3000), HALF, {"reward": False}),
+        "no memory": Condition("paper", (1000, 3000), HALF, {"memory": False}),
     }

@@ -35,7 +35,7 @@ NEAR, CLOSE = 12.0, 6.0
 MARGIN, POSES = 6.0, (500.0, 1500.0)
 """Where targets of tests are: so far inside the retina, pixels; and the poses from which gazes start."""
 
-WAIT, PATIENCE = 300.0, 4000.0
+WAIT, PATIENCE = 300.0, 2200.0
 """Time before the target of a test, and the time after which a test counts as without a gaze, ms."""
 
 SIGNALS = ("satisfied.activation", "target", "shift", "pose", "correction peak", "rewarded")
