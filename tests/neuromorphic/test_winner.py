@@ -19,8 +19,8 @@ def rates(inputs: np.ndarray, inhibition: float = 1.0) -> np.ndarray:
     simulator = SpikingSimulator(graph, copies=len(inputs))
     drive = np.broadcast_to(inputs, (STEPS, *inputs.shape)).copy()
     spikes, _ = simulator.run(simulator.start(), drive, every=STEPS // 2)
-    [part] = graph.outputs
-    cells = spikes[1].reshape(len(inputs), CELLS, part.neurons).sum(-1)
+    part = graph.outputs[0]
+    cells = spikes[1][:, part.start : part.stop].reshape(len(inputs), CELLS, part.neurons).sum(-1)
     return cells * part.unit / part.neurons / (STEPS // 2)
 
 

@@ -1,9 +1,12 @@
-"""The graph of NIR of a network: a CubaLIF for each population, an Affine for each projection and input."""
+"""The graph of NIR of a network: Input, Affine, CubaLIF, Output, and an Affine among the neurons.
+
+All populations are in one CubaLIF, whose parameters differ between neurons. So each spike arrives one step
+later, whatever the order in which a reader computes nodes.
+"""
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -20,57 +23,39 @@ from deodar.neuromorphic.graph import (
     Numbers,
     OutputRange,
 )
-from deodar.neuromorphic.linear_maps import require_size
+from deodar.neuromorphic.linear_maps import Weights, require_size
 from deodar.neuromorphic.network import Population, SpikingNetwork
 
 POISSON = 1000.0
 """Rate of each train of Poisson spikes, in 1/s."""
 
+DRIVE, NEURONS, SYNAPSES = "drive", "neurons", "synapses"
+"""Names of the other nodes."""
+
 
 def build(network: SpikingNetwork) -> NirGraph:
     """Return the graph of a network.
 
-    Analog inputs are the activation that reaches a cell from outside, for each cell of each population. A
-    population with noise also has two trains of Poisson spikes for each deviate, one excitatory and one
-    inhibitory. All biases are in the Affine of the input. v_leak and v_reset are 0, because not all readers
-    use them.
+    Analog inputs are the activation that reaches a cell from outside, for each cell of each population with
+    an input. A population with noise also has two trains of Poisson spikes for each deviate, one excitatory
+    and one inhibitory. Constant currents are biases of the Affine of the input; v_leak and v_reset are 0,
+    because not all readers use them. The Output has the spikes of all neurons.
+
+    Raises:
+        TooLarge: the network has too many weights between neurons.
     """
-    names = _names(network.populations)
-    inputs = _inputs(network.populations)
-    width = inputs[-1].stop
-    nodes: dict[str, GraphNode] = {INPUT: EndNode(width)}
-    edges: list[tuple[str, str]] = []
-    for p, name in zip(network.populations, names, strict=True):
-        drive, neurons = f"input_to_{name}", f"neurons_{name}"
-        nodes[drive] = _drive(p, [r for r in inputs if r.label == p.label], width, network.step)
-        nodes[neurons] = _neurons(p, network.membrane)
-        edges += [(INPUT, drive), (drive, neurons)]
-    for projection in network.projections:
-        source, target = (network.populations[i] for i in (projection.source, projection.target))
-        require_size(source.neurons * target.neurons, f"the projection from {source.label} to {target.label}")
-        n, m = len(source.code.offsets), len(target.code.offsets)
-        weight = np.kron(projection.weights, np.ones((m, n))) * (target.code.gain * source.code.unit / n)
-        name = f"synapses_{names[projection.source]}_{names[projection.target]}"
-        nodes[name] = AffineNode(_single(weight), np.zeros(len(weight), np.float32))
-        edges += [
-            (f"neurons_{names[projection.source]}", name),
-            (name, f"neurons_{names[projection.target]}"),
-        ]
-    outputs = _outputs(network.populations)
-    probed = [k for k, p in enumerate(network.populations) if p.probed]
-    nodes[OUTPUT] = EndNode(outputs[-1].stop)
-    if len(probed) == 1:
-        edges.append((f"neurons_{names[probed[0]]}", OUTPUT))
-    else:
-        for k, part in zip(probed, outputs, strict=True):
-            size = part.stop - part.start
-            require_size(outputs[-1].stop * size, "the output")
-            weight = np.zeros((outputs[-1].stop, size), np.float32)
-            weight[part.start : part.stop] = np.eye(size)
-            nodes[f"output_from_{names[k]}"] = AffineNode(weight, np.zeros(len(weight), np.float32))
-            edges += [(f"neurons_{names[k]}", f"output_from_{names[k]}"), (f"output_from_{names[k]}", OUTPUT)]
-    ordered = {name: nodes[name] for name in sorted(nodes)}
-    return NirGraph(ordered, edges, network.step, inputs, outputs, network.settling)
+    inputs, outputs = _inputs(network.populations), _outputs(network.populations)
+    width, size = inputs[-1].stop, network.neurons
+    require_size(size * max(size, width), f"a network of {size:,} neurons and {width:,} inputs")
+    nodes: dict[str, GraphNode] = {  # in the order of a file, by name
+        DRIVE: _drive(network, inputs, width),
+        INPUT: EndNode(width),
+        NEURONS: _neurons(network),
+        OUTPUT: EndNode(size),
+        SYNAPSES: _synapses(network, outputs),
+    }
+    edges = [(INPUT, DRIVE), (DRIVE, NEURONS), (NEURONS, SYNAPSES), (SYNAPSES, NEURONS), (NEURONS, OUTPUT)]
+    return NirGraph(nodes, edges, network.step, inputs, outputs, network.settling)
 
 
 def _inputs(populations: Sequence[Population]) -> list[InputRange]:
@@ -78,7 +63,7 @@ def _inputs(populations: Sequence[Population]) -> list[InputRange]:
     out: list[InputRange] = []
     at = 0
     for p in populations:
-        if p.probed or p.port == "output":
+        if p.port == "output":
             out.append(InputRange(p.label, "analog", at, at + p.cells))
             at += p.cells
     for p in populations:
@@ -94,44 +79,48 @@ def _outputs(populations: Sequence[Population]) -> list[OutputRange]:
     out: list[OutputRange] = []
     at = 0
     for p in populations:
-        if p.probed:
-            shape = tuple(a.samples for a in p.axes)
-            out.append(OutputRange(p.label, at, at + p.neurons, len(p.code.offsets), p.code.unit, shape))
-            at += p.neurons
+        shape = tuple(a.samples for a in p.axes)
+        out.append(
+            OutputRange(p.label, at, at + p.neurons, len(p.code.offsets), p.code.unit, shape, p.probed)
+        )
+        at += p.neurons
     return out
 
 
-def _drive(p: Population, ranges: Sequence[InputRange], width: int, step: float) -> AffineNode:
-    """Return the weights of the input of a population, and the constant currents of its neurons."""
-    n = len(p.code.offsets)
-    require_size(p.neurons * width, f"the input of {p.label}")
-    cells = np.zeros((p.cells, width))
-    for r in ranges:
-        if r.kind == "analog":
-            cells[:, r.start : r.stop] = np.eye(p.cells)
-        else:
-            assert p.noise is not None
-            spike = p.noise / (step * math.sqrt(2 * r.rate))
-            cells[:, r.start : r.stop] = np.concatenate([spike, -spike], axis=1)
-    bias = np.tile(p.code.gain * p.resting + p.code.offsets, p.cells)
-    return AffineNode(_single(p.code.gain * np.repeat(cells, n, axis=0)), _single(bias))
+def _drive(network: SpikingNetwork, inputs: Sequence[InputRange], width: int) -> AffineNode:
+    """Return the weights of the input, and the constant currents of all neurons."""
+    weights: list[Weights] = []
+    biases: list[Weights] = []
+    for p in network.populations:
+        cells = np.zeros((p.cells, width))
+        for r in inputs:
+            if r.label == p.label and r.kind == "analog":
+                cells[:, r.start : r.stop] = np.eye(p.cells)
+            elif r.label == p.label and p.noise is not None:
+                spike = p.noise / (network.step * math.sqrt(2 * r.rate))
+                cells[:, r.start : r.stop] = np.concatenate([spike, -spike], axis=1)
+        weights.append(p.code.gain * np.repeat(cells, len(p.code.offsets), axis=0))
+        biases.append(np.tile(p.code.gain * p.resting + p.code.offsets, p.cells))
+    return AffineNode(np.concatenate(weights).astype(np.float32), np.concatenate(biases).astype(np.float32))
 
 
-def _neurons(p: Population, membrane: float) -> NeuronNode:
+def _neurons(network: SpikingNetwork) -> NeuronNode:
+    """Return the parameters of all neurons."""
+
     def full(value: float) -> Numbers:
-        return np.full(p.neurons, value, np.float32)
+        return np.full(network.neurons, value, np.float32)
 
-    return NeuronNode(full(p.synapse), full(membrane), full(1), full(0), full(1), full(0), full(1))
-
-
-def _single(values: np.ndarray) -> Numbers:
-    return np.asarray(values, np.float32)
+    synapse = np.concatenate([np.full(p.neurons, p.synapse, np.float32) for p in network.populations])
+    return NeuronNode(synapse, full(network.membrane), full(1), full(0), full(1), full(0), full(1))
 
 
-def _names(populations: Sequence[Population]) -> list[str]:
-    """Return names of letters, digits and underscores, which all readers accept."""
-    out: list[str] = []
-    for k, p in enumerate(populations):
-        name = re.sub(r"\W+", "_", p.label, flags=re.ASCII).strip("_").lower() or "population"
-        out.append(name if name not in out else f"{name}_{k}")
-    return out
+def _synapses(network: SpikingNetwork, outputs: Sequence[OutputRange]) -> AffineNode:
+    """Return the weights between all neurons."""
+    weight = np.zeros((network.neurons, network.neurons), np.float32)
+    for projection in network.projections:
+        source, target = (network.populations[i] for i in (projection.source, projection.target))
+        columns, rows = outputs[projection.source], outputs[projection.target]
+        scale = target.code.gain * source.code.unit / columns.neurons
+        block = np.kron(projection.weights * scale, np.ones((rows.neurons, columns.neurons)))
+        weight[rows.start : rows.stop, columns.start : columns.stop] += block
+    return AffineNode(weight, np.zeros(len(weight), np.float32))

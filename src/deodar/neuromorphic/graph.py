@@ -65,6 +65,9 @@ class NeuronNode:
         return int(self.v_threshold.size)
 
 
+NEURON_FIELDS = tuple(f.name for f in dc.fields(NeuronNode))
+"""Parameters of a CubaLIF."""
+
 GraphNode: TypeAlias = EndNode | AffineNode | NeuronNode
 
 
@@ -96,6 +99,7 @@ class OutputRange:
         neurons: neurons of a cell, which are neighbours.
         unit: output of the element that corresponds to a spike of each neuron in each step.
         shape: samples of the axes.
+        probed: whether its rates are those of the element's output.
     """
 
     label: str
@@ -104,6 +108,7 @@ class OutputRange:
     neurons: int
     unit: float
     shape: tuple[int, ...]
+    probed: bool = True
 
 
 @dc.dataclass(frozen=True)

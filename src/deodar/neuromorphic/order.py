@@ -1,22 +1,17 @@
 """The order in which the nodes of a graph are computed in a step.
 
-NIR does not define when, within a step, the output of one node reaches another one. deodar does what nirtorch
-2.6 does, on which norse is built: nodes are computed in the order of the file, beginning with the Input. A
-node with several inputs that is part of a loop reads what is not computed yet with its value of the step
-before, 0 in the first step. Any other node waits until its inputs are computed.
+NIR does not define when, within a step, the output of one node reaches another one. deodar does what norse
+1.1.0 does: nodes are computed depth first from the Input, along the edges in the order of the file. A node
+reads the outputs of nodes before it in the same step, and those of nodes after it, in loops, with the values
+of the step before.
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
-from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-
-from deodar.errors import GraphError
+from deodar.errors import GraphError, show
 from deodar.neuromorphic.graph import INPUT, OUTPUT, NirGraph
 
 
@@ -33,43 +28,34 @@ def order(graph: NirGraph) -> list[Evaluation]:
     """Return all nodes except the Input in the order of their computation.
 
     Raises:
-        GraphError: a loop has no node with a second input, so that no order exists.
+        GraphError: the Input does not reach a node.
     """
-    names = list(graph.nodes)
-    sources: dict[str, list[str]] = {name: [] for name in names}
+    sources: dict[str, list[str]] = {name: [] for name in graph.nodes}
+    targets: dict[str, list[str]] = {name: [] for name in graph.nodes}
     for a, b in graph.edges:
         sources[b].append(a)
-    loops = _loops(names, graph.edges)
-    start = names.index(INPUT)
-    waiting = deque(n for n in [*names[start + 1 :], *names[:start]] if n != OUTPUT)
-    waiting.append(OUTPUT)
-    done: set[str] = {INPUT}
-    out: list[Evaluation] = []
-    idle = 0
+        targets[a].append(b)
+    place: dict[str, int] = {}
+    waiting = [INPUT]
     while waiting:
-        name = waiting.popleft()
-        late = [s for s in sources[name] if s not in done]
-        looped = len(sources[name]) > 1 and all(loops[s] == loops[name] for s in late)
-        if (late and not looped) or (name == OUTPUT and waiting):
-            waiting.append(name)
-            idle += 1
-            if idle > len(waiting):
-                raise GraphError(
-                    f"the nodes {', '.join(sorted(waiting)[:6])} wait for each other: a loop that no other"
-                    " input reaches has no order",
-                    fix="Connect the input to a node of each loop",
-                )
-            continue
-        idle = 0
-        out.append(Evaluation(name, [s for s in sources[name] if s in done], late))
-        done.add(name)
-    return out
-
-
-def _loops(names: Sequence[str], edges: Sequence[tuple[str, str]]) -> Mapping[str, int]:
-    """Return a number for each node, equal for nodes that are part of one loop."""
-    place = {name: k for k, name in enumerate(names)}
-    rows, columns = [place[a] for a, _ in edges], [place[b] for _, b in edges]
-    matrix = coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(names),) * 2)
-    labels = connected_components(matrix, connection="strong")[1]
-    return {name: int(labels[k]) for name, k in place.items()}
+        name = waiting.pop()
+        if name not in place:
+            place[name] = len(place)
+            waiting += reversed(targets[name])
+    lost = sorted(set(graph.nodes) - set(place))
+    if lost:
+        raise GraphError(
+            f"no input reaches {', '.join(show(n) for n in lost[:6])}{', ...' if len(lost) > 6 else ''}",
+            fix="Connect the Input to each part of the graph, and a node to the Output",
+        )
+    names = sorted(place, key=lambda n: (n == OUTPUT, place[n]))
+    at = {name: k for k, name in enumerate(names)}
+    return [
+        Evaluation(
+            n,
+            [s for s in sources[n] if at[s] < at[n]],
+            [s for s in sources[n] if at[s] >= at[n]],
+        )
+        for n in names
+        if n != INPUT
+    ]
