@@ -10,6 +10,7 @@ from deodar.neuromorphic.graph import EndNode, NeuronNode, NirGraph
 from deodar.neuromorphic.simulator import SpikingSimulator
 from deodar.neuromorphic.spike_code import NoSpikeCode, spike_code, steady_rate
 
+STEP = 5e-4
 CURRENTS = np.array([0.5, 1.0, 1.05, 1.3, 2.0, 3.7, 6.0, 12.0])
 
 
@@ -51,9 +52,9 @@ def test_the_rate_of_a_neuron_is_the_analytic_one_within_1_percent() -> None:
     ],
 )
 def test_the_mean_rate_follows_the_output_function(sigmoid, neurons: int) -> None:
-    code = spike_code(sigmoid, neurons, 0.025)
+    code = spike_code(sigmoid, neurons, STEP, 20e-3)
     u = np.linspace(code.low, code.high, 1001)
-    difference = (code.output(u, 0.025) - np.asarray(sigmoid(u))) / code.peak
+    difference = (code.output(u, STEP) - np.asarray(sigmoid(u))) / code.peak
     if not isinstance(sigmoid, dd.Step):
         assert np.sqrt(np.mean(difference**2)) == pytest.approx(code.rms, rel=0.1)
         assert code.rms < 0.35 / neurons + 0.01 and code.worst < 0.6 / neurons + 0.02
@@ -62,15 +63,15 @@ def test_the_mean_rate_follows_the_output_function(sigmoid, neurons: int) -> Non
 
 
 def test_the_error_falls_with_the_number_of_neurons() -> None:
-    errors = [spike_code(dd.Logistic(4), n, 0.025).rms for n in (5, 10, 20, 40)]
+    errors = [spike_code(dd.Logistic(4), n, STEP, 20e-3).rms for n in (5, 10, 20, 40)]
     assert errors == sorted(errors, reverse=True) and errors[-1] < 0.3 * errors[0]
 
 
 def test_a_semi_linear_output_needs_a_lift_of_a_half_on_average() -> None:
-    assert spike_code(dd.SemiLinear(), 20, 0.025).offsets.mean() == pytest.approx(0.5)
+    assert spike_code(dd.SemiLinear(), 20, STEP, 20e-3).offsets.mean() == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("sigmoid", [dd.SemiLinear(0.0), dd.Linear(-1.0)])
 def test_a_function_without_a_rising_rate_is_refused(sigmoid) -> None:
     with pytest.raises(NoSpikeCode):
-        spike_code(sigmoid, 20, 0.025)
+        spike_code(sigmoid, 20, STEP, 20e-3)

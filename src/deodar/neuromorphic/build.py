@@ -110,8 +110,13 @@ def _neurons(network: SpikingNetwork) -> NeuronNode:
     def full(value: float) -> Numbers:
         return np.full(network.neurons, value, np.float32)
 
-    synapse = np.concatenate([np.full(p.neurons, p.synapse, np.float32) for p in network.populations])
-    return NeuronNode(synapse, full(network.membrane), full(1), full(0), full(1), full(0), full(1))
+    def each(values: Sequence[float]) -> Numbers:
+        sizes = [p.neurons for p in network.populations]
+        return np.repeat(np.asarray(values, np.float32), sizes)
+
+    synapse = each([p.synapse for p in network.populations])
+    membrane = each([p.code.membrane for p in network.populations])
+    return NeuronNode(synapse, membrane, full(1), full(0), full(1), full(0), full(1))
 
 
 def _synapses(network: SpikingNetwork, outputs: Sequence[OutputRange]) -> AffineNode:

@@ -6,6 +6,7 @@ import dataclasses as dc
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+import jax.numpy as jnp
 import numpy as np
 
 from deodar.element import Element
@@ -44,7 +45,7 @@ class Setup:
 
     def code(self, sigmoid: SigmoidFunction, neurons: int = 0) -> SpikeCode:
         """Return the neurons of an output function."""
-        return spike_code(sigmoid, neurons or self.neurons, self.step / self.membrane)
+        return spike_code(sigmoid, neurons or self.neurons, self.step, self.membrane)
 
     def synapse(self, entry: Entry, name: str) -> float:
         """Return a time constant in s, which must be longer than the step."""
@@ -53,7 +54,7 @@ class Setup:
             raise TimeError(
                 f"the step {self.step * 1e3:g} ms is not below {name} = {tau * 1e3:g} ms",
                 where=entry.path,
-                fix=f"Give a step below it, for example --step {tau * 1e3 / 10:g}",
+                fix=f"Give a step below it, for example --step {tau / self.unit / 10:g}",
             )
         return tau
 
@@ -172,5 +173,5 @@ def _noise(element: Field, axes: Axes) -> Weights:
     many = np.eye(math.prod(shape(axes)))
     if filters is None:
         return many / math.sqrt(cell(axes))
-    made = [np.asarray(noises.over(axes, row.reshape(shape(axes)), filters)) for row in many]
+    made = [np.asarray(noises.over(axes, jnp.asarray(row.reshape(shape(axes))), filters)) for row in many]
     return np.stack([m.reshape(-1) for m in made], axis=1)

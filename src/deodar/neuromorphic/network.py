@@ -81,14 +81,12 @@ class SpikingNetwork:
     Attributes:
         populations, projections: its parts.
         step: dt, in s.
-        membrane: tau_mem of all neurons, in s.
         unit: the document's unit of time, in s.
     """
 
     populations: Sequence[Population]
     projections: Sequence[Projection]
     step: float
-    membrane: float
     unit: float = 1e-3
 
     @property

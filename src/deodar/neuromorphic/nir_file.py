@@ -28,7 +28,7 @@ from deodar.neuromorphic.graph import (
     NirGraph,
     OutputRange,
 )
-from deodar.neuromorphic.nir_reader import MOST_BYTES
+from deodar.neuromorphic.nir_reader import MOST_BYTES, output_range
 
 SECONDS, SECONDS_PER_BYTE = 20.0, 1e-7
 """Limit of the time that reading takes."""
@@ -66,7 +66,7 @@ def write_nir(graph: NirGraph) -> bytes:
 
 
 def _plain(part: InputRange | OutputRange) -> dict[str, Any]:
-    return {k: list(v) if isinstance(v, tuple) else v for k, v in vars(part).items()}
+    return {k: [*v] if isinstance(v, tuple) else v for k, v in vars(part).items()}
 
 
 def _nir() -> Any:
@@ -167,6 +167,6 @@ def unpack(content: bytes) -> NirGraph:
         [(a, b) for a, b in about["edges"]],
         about["step"],
         [InputRange(**r) for r in about["inputs"]],
-        [OutputRange(**{**r, "shape": tuple(r["shape"])}) for r in about["outputs"]],
+        [output_range(r) for r in about["outputs"]],
         about["settling"],
     )

@@ -201,10 +201,7 @@ class _Reader:
         """Return the ranges of Input and Output that the metadata state."""
         try:
             ins = [InputRange(**part) for part in about.get("inputs", ())]
-            outs = [
-                OutputRange(**{**part, "shape": tuple(int(n) for n in part["shape"])})
-                for part in about.get("outputs", ())
-            ]
+            outs = [output_range(part) for part in about.get("outputs", ())]
             settling = float(about.get("settling", 0.0))
             good = all(_inside(r.start, r.stop, inputs) for r in ins) and all(
                 _inside(r.start, r.stop, outputs)
@@ -283,6 +280,12 @@ class _Reader:
         if not np.isfinite(single).all():
             raise self.wrong(f"{key} has values above the largest one of 32 bits", where)
         return single
+
+
+def output_range(plain: Mapping[str, Any]) -> OutputRange:
+    """Return the range of plain data."""
+    rest = {k: v for k, v in plain.items() if k != "shape"}
+    return OutputRange(**rest, shape=tuple(int(n) for n in plain["shape"]))
 
 
 def _inside(start: Any, stop: Any, size: int) -> bool:

@@ -37,6 +37,9 @@ SHIFTS = np.linspace(0.0, 1.0, 21)
 half of the thresholds, and places of the threshold in that range, among which the best ones are taken.
 """
 
+QUICK = 4
+"""tau_mem of the neurons of a bounded output, in steps."""
+
 WIDEST = 1e6
 """Largest activation, in absolute value, that is searched for a threshold."""
 
@@ -55,6 +58,7 @@ class SpikeCode:
         gain: current for a unit of activation.
         offsets: constant current of each neuron.
         unit: output that corresponds to a spike of every neuron in every step.
+        membrane: tau_mem, in s.
         low, high: activation between which the error is measured.
         peak: largest output in this range.
         rms, worst: root of the mean square and largest absolute value of the difference between the output of
@@ -64,15 +68,16 @@ class SpikeCode:
     gain: float
     offsets: Values
     unit: float
+    membrane: float
     low: float
     high: float
     peak: float
     rms: float
     worst: float
 
-    def output(self, u: Values, share: float) -> Values:
-        """Return the mean output for constant activation; `share` is dt / tau_mem."""
-        return self.unit * _mean_rate(self.gain * u, self.offsets, share)
+    def output(self, u: Values, step: float) -> Values:
+        """Return the mean output for constant activation, with steps of length `step`, in s."""
+        return self.unit * _mean_rate(self.gain * u, self.offsets, step / self.membrane)
 
     def __str__(self) -> str:
         return f"error {self.rms:.1%} rms, {self.worst:.1%} at most, of the peak"
@@ -90,16 +95,19 @@ def steady_rate(current: Values, share: float) -> Values:
     return np.where(current > 1 + 1e-12, 1 / np.maximum(steps, 1), 0.0)
 
 
-def spike_code(sigmoid: SigmoidFunction, neurons: int, share: float) -> SpikeCode:
+def spike_code(sigmoid: SigmoidFunction, neurons: int, step: float, membrane: float) -> SpikeCode:
     """Return the neurons whose rate follows an output function.
 
     A semi-linear output is counted in spikes per membrane time constant. A bounded output is the share of
-    neurons that are on, each spiking in every step: their thresholds are spread over the sigmoid.
+    neurons that are on, each spiking in every step: their thresholds are spread over the sigmoid. Their
+    membrane is faster, `QUICK` steps: potentials of neurons that are off are far below 0, and would reach the
+    threshold late.
 
     Args:
         sigmoid: the output function.
         neurons: number of neurons of a cell.
-        share: dt / tau_mem.
+        step: dt, in s.
+        membrane: tau_mem of a semi-linear output, in s; above the step.
 
     Raises:
         NoSpikeCode: it is neither linear above a threshold nor rises from 0 to a largest value.
@@ -107,12 +115,13 @@ def spike_code(sigmoid: SigmoidFunction, neurons: int, share: float) -> SpikeCod
     if isinstance(sigmoid, (SemiLinear, Linear)):
         if sigmoid.slope <= 0:
             raise NoSpikeCode("its slope is not above 0")
-        return _linear(sigmoid.slope, sigmoid.threshold, neurons, share)
-    return _bounded(sigmoid, neurons, share)
+        return _linear(sigmoid.slope, sigmoid.threshold, neurons, step, membrane)
+    return _bounded(sigmoid, neurons, step)
 
 
-def _linear(slope: float, threshold: float, neurons: int, share: float) -> SpikeCode:
+def _linear(slope: float, threshold: float, neurons: int, step: float, membrane: float) -> SpikeCode:
     """Return neurons whose mean rate is linear above a threshold."""
+    share = step / membrane
     x = (np.arange(neurons) + 0.5) / neurons
     lifts = 1 - x**FOOT * (0.5 / np.mean(x**FOOT))
     high = threshold + REACH / slope
@@ -120,11 +129,12 @@ def _linear(slope: float, threshold: float, neurons: int, share: float) -> Spike
     wanted = np.maximum(0.0, slope * (u - threshold))
     rate = _mean_rate(slope * (u - threshold), lifts, share)
     unit = float(rate @ wanted / (rate @ rate))
-    code = SpikeCode(slope, lifts - slope * threshold, unit, float(u[0]), high, REACH, 0.0, 0.0)
-    return _measured(code, u, wanted, share)
+    offsets = lifts - slope * threshold
+    code = SpikeCode(slope, offsets, unit, membrane, float(u[0]), high, REACH, 0.0, 0.0)
+    return _measured(code, u, wanted, step)
 
 
-def _bounded(sigmoid: SigmoidFunction, neurons: int, share: float) -> SpikeCode:
+def _bounded(sigmoid: SigmoidFunction, neurons: int, step: float) -> SpikeCode:
     """Return neurons that are on above thresholds, which are spread over a bounded sigmoid."""
     least, most = (float(v) for v in _values(sigmoid, np.array([-WIDEST, WIDEST])))
     if not (np.isfinite(most) and most > 0 and abs(least) <= 1e-3 * most):
@@ -139,17 +149,17 @@ def _bounded(sigmoid: SigmoidFunction, neurons: int, share: float) -> SpikeCode:
     wanted = _values(sigmoid, u)
     found: list[SpikeCode] = []
     for width in (w * middle for w in RAMPS):
-        gain = (1 / share - 1) / width
+        gain = (QUICK - 1) / width
         for shift in SHIFTS:
             offsets = 1 - gain * (thresholds - shift * width)
-            code = SpikeCode(gain, offsets, most, float(u[0]), float(u[-1]), most, 0.0, 0.0)
-            found.append(_measured(code, u, wanted, share))
+            code = SpikeCode(gain, offsets, most, QUICK * step, float(u[0]), float(u[-1]), most, 0.0, 0.0)
+            found.append(_measured(code, u, wanted, step))
     return min(found, key=lambda c: (c.rms, c.worst))
 
 
-def _measured(code: SpikeCode, u: Values, wanted: Values, share: float) -> SpikeCode:
+def _measured(code: SpikeCode, u: Values, wanted: Values, step: float) -> SpikeCode:
     """Return a code with its errors."""
-    difference = np.abs(code.output(u, share) - wanted) / code.peak
+    difference = np.abs(code.output(u, step) - wanted) / code.peak
     return dc.replace(code, rms=float(np.sqrt(np.mean(difference**2))), worst=float(difference.max()))
 
 

@@ -64,7 +64,7 @@ def translate(
         model: the model; it must be free of problems.
         name: name of the file, for the report.
         neurons: neurons of a cell.
-        step: dt in s; none: the document's.
+        step: dt in the document's time unit; none: the document's.
         membrane: tau_mem in s.
 
     Raises:
@@ -79,11 +79,11 @@ def translate(
     if neurons < 1:
         raise ParameterError(f"{neurons} neurons of a cell", fix="Give 1 or more: --neurons 20")
     unit = unit_seconds(doc.time_unit)
-    dt = doc.step * unit if step is None else step
+    dt = (doc.step if step is None else step) * unit
     if not 0 < dt < membrane:
         raise TimeError(
             f"the step {dt * 1e3:g} ms is not below the membrane's time constant {membrane * 1e3:g} ms",
-            fix="Give a shorter step, for example --step 0.5",
+            fix=f"Give a shorter step, for example --step {membrane / 40 / unit:g}",
         )
     return _Translation(doc, nodes, Setup(neurons, dt, membrane, unit)).run(name)
 
@@ -124,7 +124,7 @@ class _Translation:
         for c in self.doc.connections:
             self.lines.append(self._connection(c))
         setup = self.setup
-        network = SpikingNetwork(self.populations, projections, setup.step, setup.membrane, setup.unit)
+        network = SpikingNetwork(self.populations, projections, setup.step, setup.unit)
         return Translated(network, ImportReport("neuromorphic", name, self.lines), self._drive())
 
     # ---------------------------------------------------------------------------------------------- elements
