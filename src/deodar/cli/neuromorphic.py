@@ -78,7 +78,9 @@ def run(args: argparse.Namespace) -> int:
     doc = model.document
     duration = args.duration or 1.0 / _seconds(doc.time_unit)
     norse = False if args.no_norse else args.norse or True
-    found = compare_spikes(model, duration, args.trials, _options.spiking(args), _options.world(args.world), norse)
+    found = compare_spikes(
+        model, duration, args.trials, _options.spiking(args), _options.world(args.world), norse
+    )
     if args.out is not None:
         first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in found.runs.items()}
         figure = spikes_figure(first, found.times, doc.time_unit)
