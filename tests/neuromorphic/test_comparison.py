@@ -13,7 +13,7 @@ from deodar.neuromorphic.drive import network_input
 from deodar.neuromorphic.norse import norse_version, run_norse
 from deodar.neuromorphic.outcomes import outcomes
 from deodar.neuromorphic.prepare import SpikingOptions
-from deodar.neuromorphic.running import simulated
+from deodar.neuromorphic.running import SpikingTrials, simulated
 from deodar.neuromorphic.translate import translate
 from tests.neuromorphic.scenes import pairs, winner_take_all
 
@@ -59,8 +59,8 @@ def test_trials_differ_by_noise_alone_and_repeat() -> None:
     translated = translate(memory(noise=1.0), neurons=5)
     graph = build(translated.network)
     given = network_input(translated, graph, 200)
-    three = simulated(graph, given, 3, 10, {})["u"]
-    two = simulated(graph, given, 2, 10, {})["u"]
+    three = simulated(graph, given, SpikingTrials(3, 10))["u"]
+    two = simulated(graph, given, SpikingTrials(2, 10))["u"]
     assert not np.array_equal(three[:, 0], three[:, 1]) and np.array_equal(three[:, :2], two)
 
 
@@ -79,7 +79,7 @@ def test_fields_that_are_coupled_become_one_network() -> None:
     assert report["both", "Product"].verdict == "dropped" and "not linear" in report["both", "Product"].why
     assert report["both", "u"].verdict == "dropped" and report["cue", "GaussianStimulus"].verdict == "carried"
     graph = build(translated.network)
-    run = simulated(graph, network_input(translated, graph, 300), 1, 10, {})
+    run = simulated(graph, network_input(translated, graph, 300), SpikingTrials(1, 10))
     wanted = dd.simulate(model, 300, record=["v.output"], every=300)["v.output"].values[-1]
     assert run["v"].shape == (60, 1, 16)
     assert np.sqrt(np.mean((run["v"][-10:].mean((0, 1)) - wanted) ** 2)) < 0.05 * wanted.max()

@@ -20,10 +20,10 @@ from deodar.neuromorphic.graph import (
     InputRange,
     NeuronNode,
     NirGraph,
-    Numbers,
     OutputRange,
+    Singles,
 )
-from deodar.neuromorphic.linear_maps import Weights, require_size
+from deodar.neuromorphic.linear_maps import WeightMatrix, require_size
 from deodar.neuromorphic.network import Population, SpikingNetwork
 
 POISSON = 1000.0
@@ -89,8 +89,8 @@ def _outputs(populations: Sequence[Population]) -> list[OutputRange]:
 
 def _drive(network: SpikingNetwork, inputs: Sequence[InputRange], width: int) -> AffineNode:
     """Return the weights of the input, and the constant currents of all neurons."""
-    weights: list[Weights] = []
-    biases: list[Weights] = []
+    weights: list[WeightMatrix] = []
+    biases: list[WeightMatrix] = []
     for p in network.populations:
         cells = np.zeros((p.cells, width))
         for r in inputs:
@@ -107,10 +107,10 @@ def _drive(network: SpikingNetwork, inputs: Sequence[InputRange], width: int) ->
 def _neurons(network: SpikingNetwork) -> NeuronNode:
     """Return the parameters of all neurons."""
 
-    def full(value: float) -> Numbers:
+    def full(value: float) -> Singles:
         return np.full(network.neurons, value, np.float32)
 
-    def each(values: Sequence[float]) -> Numbers:
+    def each(values: Sequence[float]) -> Singles:
         sizes = [p.neurons for p in network.populations]
         return np.repeat(np.asarray(values, np.float32), sizes)
 

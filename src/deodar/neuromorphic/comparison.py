@@ -18,7 +18,7 @@ from deodar.neuromorphic.drive import NetworkInput, network_input
 from deodar.neuromorphic.norse import norse_version
 from deodar.neuromorphic.outcomes import FieldOutcomes, outcomes
 from deodar.neuromorphic.prepare import Prepared, SpikingOptions, prepare
-from deodar.neuromorphic.running import Rates, in_norse, simulated
+from deodar.neuromorphic.running import Rates, SpikingTrials, in_norse, simulated
 from deodar.numerics.axes import Axes
 from deodar.worlds._base import World
 
@@ -121,16 +121,17 @@ def compare_spikes(
     every = max(1, round(WINDOW / network.step))
     inputs = network_input(made.translated, graph, duration, world)
     chips = min(trials, CHIPS) if any(made.spread.values()) else 1
+    sampling = SpikingTrials(trials, every, made.spread, chips, given.seed)
     step = network.step / network.unit
     windows = (len(inputs.analog) - inputs.settling) // every
     runs = {
         "rates": _rate_model(model, made, windows, every * step, trials, given.seed, world),
-        "spikes": simulated(graph, inputs, trials, every, made.spread, chips, given.seed),
+        "spikes": simulated(graph, inputs, sampling),
     }
     python = None if isinstance(norse, bool) else norse
     version = norse_version(python) if norse else ""
     if version:
-        runs["norse"] = in_norse(graph, inputs, trials, every, made.spread, chips, given.seed, python)
+        runs["norse"] = in_norse(graph, inputs, sampling, python)
     axes = {p.label: p.axes for p in network.populations if p.probed}
     on = np.asarray(inputs.on[: windows * every].reshape(windows, every).any(1))
     estimates = {

@@ -17,7 +17,7 @@ from deodar.importers.report import Verdict
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
 from deodar.neuromorphic.linear_maps import kernel_matrix
-from deodar.neuromorphic.network import Population, Projection, Weights
+from deodar.neuromorphic.network import Population, Projection, WeightMatrix
 from deodar.neuromorphic.spike_code import SpikeCode, spike_code
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, cell, shape
@@ -29,7 +29,7 @@ INHIBITORY = 2
 
 
 @dc.dataclass(frozen=True)
-class Setup:
+class TranslationSetup:
     """What a translation is made for.
 
     Attributes:
@@ -74,7 +74,7 @@ class Counterpart:
     parameters: Mapping[str, tuple[Verdict, str]]
 
 
-def field(entry: Entry, setup: Setup) -> Counterpart:
+def field(entry: Entry, setup: TranslationSetup) -> Counterpart:
     """Return the neurons of a field; its global inhibition acts through negative weights."""
     element = entry.element
     assert isinstance(element, Field)
@@ -105,7 +105,7 @@ def field(entry: Entry, setup: Setup) -> Counterpart:
     return Counterpart([u], _own(weights), said)
 
 
-def soft_winner_take_all(entry: Entry, setup: Setup) -> Counterpart:
+def soft_winner_take_all(entry: Entry, setup: TranslationSetup) -> Counterpart:
     """Return excitatory neurons for each unit, and a pool of inhibitory ones."""
     element = entry.element
     assert isinstance(element, SoftWinnerTakeAll)
@@ -150,14 +150,14 @@ def soft_winner_take_all(entry: Entry, setup: Setup) -> Counterpart:
     return Counterpart([r, v], [*_own(own), *among], said)
 
 
-COUNTERPARTS: Mapping[type[Element], Callable[[Entry, Setup], Counterpart]] = {
+COUNTERPARTS: Mapping[type[Element], Callable[[Entry, TranslationSetup], Counterpart]] = {
     Field: field,
     SoftWinnerTakeAll: soft_winner_take_all,
 }
 """The kinds of elements that become neurons."""
 
 
-def _own(weights: Weights) -> list[Projection]:
+def _own(weights: WeightMatrix) -> list[Projection]:
     return [Projection(0, 0, weights)] if np.any(weights) else []
 
 
@@ -167,7 +167,7 @@ def _sigmoid(sigmoid: SigmoidFunction, code: SpikeCode) -> tuple[Verdict, str]:
     return "approximated", f"{kind} by the rates of {len(code.offsets)} neurons: {code}{below}"
 
 
-def _noise(element: Field, axes: Axes) -> Weights:
+def _noise(element: Field, axes: Axes) -> WeightMatrix:
     """Return the matrix from independent deviates to the noise of a field with the strength 1."""
     filters = noises.prepare(axes, element.noise_length, np.dtype("float64")).get("noise")
     many = np.eye(math.prod(shape(axes)))

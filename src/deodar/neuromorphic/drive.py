@@ -15,7 +15,7 @@ from deodar.neuromorphic.graph import INPUT, NirGraph
 from deodar.neuromorphic.translate import Translated
 from deodar.worlds._base import World
 
-Values = NDArray[np.float32]
+InputValues = NDArray[np.float32]
 
 MOST_STEPS = 1_000_000
 
@@ -31,10 +31,10 @@ class NetworkInput:
         expected: spikes per step of each value of the Input that is a spike train; 0 for analog values.
     """
 
-    analog: Values
+    analog: InputValues
     settling: int
     step: float
-    expected: Values
+    expected: InputValues
 
     @property
     def on(self) -> NDArray[np.bool_]:
@@ -42,7 +42,7 @@ class NetworkInput:
         given = self.analog[self.settling :].max(1, initial=0.0)
         return np.asarray(given > 1e-3 * max(1e-30, float(given.max(initial=0.0))))
 
-    def pieces(self, trials: int, seed: int, size: int) -> Iterator[Values]:
+    def pieces(self, trials: int, seed: int, size: int) -> Iterator[InputValues]:
         """Yield pieces of `size` steps: steps x values if all trials are equal, else steps x trials x values.
 
         The spike trains of trial k are the same for any number of trials and any size of pieces.

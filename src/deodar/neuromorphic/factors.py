@@ -1,4 +1,4 @@
-"""Weights as a small matrix between blocks of neurons.
+"""WeightMatrix as a small matrix between blocks of neurons.
 
 The neurons of a cell have equal synapses, so that a matrix of 600 x 600 weights is one of 30 x 30 between the
 sums over blocks of inputs and copies of the results.

@@ -9,7 +9,7 @@ import numpy as np
 
 from deodar.importers.report import Line
 from deodar.neuromorphic.chip_limits import ChipLimits
-from deodar.neuromorphic.graph import INPUT, OUTPUT, AffineNode, GraphNode, NeuronNode, NirGraph, Numbers
+from deodar.neuromorphic.graph import INPUT, OUTPUT, AffineNode, GraphNode, NeuronNode, NirGraph, Singles
 
 
 @dc.dataclass(frozen=True)
@@ -83,7 +83,7 @@ def _rounded(graph: NirGraph, name: str, limits: ChipLimits, lines: list[Line]) 
     return AffineNode(weight, bias)
 
 
-def _round(values: Numbers, place: tuple[slice, ...], bits: int | None) -> str:
+def _round(values: Singles, place: tuple[slice, ...], bits: int | None) -> str:
     """Round a part of an array in its place; return what that changed, "" if nothing."""
     part = values[place]
     if bits is None or not np.any(part):

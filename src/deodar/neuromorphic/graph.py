@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-Numbers: TypeAlias = NDArray[np.float32]
+Singles: TypeAlias = NDArray[np.float32]
 
 INPUT, OUTPUT = "input", "output"
 """Names of the nodes at both ends."""
@@ -33,8 +33,8 @@ class EndNode:
 class AffineNode:
     """An Affine: weights, rows x columns, and a bias for each row."""
 
-    weight: Numbers
-    bias: Numbers
+    weight: Singles
+    bias: Singles
 
     @property
     def size(self) -> int:
@@ -51,13 +51,13 @@ class AffineNode:
 class NeuronNode:
     """A CubaLIF: parameters of each neuron."""
 
-    tau_syn: Numbers
-    tau_mem: Numbers
-    r: Numbers
-    v_leak: Numbers
-    v_threshold: Numbers
-    v_reset: Numbers
-    w_in: Numbers
+    tau_syn: Singles
+    tau_mem: Singles
+    r: Singles
+    v_leak: Singles
+    v_threshold: Singles
+    v_reset: Singles
+    w_in: Singles
 
     @property
     def size(self) -> int:

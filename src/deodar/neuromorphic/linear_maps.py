@@ -14,7 +14,7 @@ from deodar.compiler.functions import Functions, StepArguments
 from deodar.element import Setting, Time
 from deodar.errors import TooLarge
 from deodar.model.resolve import Node
-from deodar.neuromorphic.network import Weights
+from deodar.neuromorphic.network import WeightMatrix
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.kernels._base import Kernel
@@ -25,7 +25,7 @@ MOST_ENTRIES = 30_000_000
 """Entries of the largest matrix between cells: 0.24 GB."""
 
 
-def element_matrix(node: Node, port: str) -> Weights:
+def element_matrix(node: Node, port: str) -> WeightMatrix:
     """Return the matrix of a linear element without a state, outputs x inputs.
 
     Args:
@@ -46,7 +46,7 @@ def element_matrix(node: Node, port: str) -> Weights:
         return _matrix(output, ins, outs)
 
 
-def kernel_matrix(kernels: Sequence[Kernel], axes: Axes) -> Weights:
+def kernel_matrix(kernels: Sequence[Kernel], axes: Axes) -> WeightMatrix:
     """Return the matrix of an interaction: kernels times the grid step; on a node the sum of amplitudes."""
     if not kernels:
         return np.zeros((math.prod(shape(axes)),) * 2)
@@ -64,7 +64,7 @@ def require_size(entries: int, what: str) -> None:
         )
 
 
-def _matrix(function: Callable[[Array], Array], ins: Axes, outs: Axes) -> Weights:
+def _matrix(function: Callable[[Array], Array], ins: Axes, outs: Axes) -> WeightMatrix:
     columns, rows = math.prod(shape(ins)), math.prod(shape(outs))
     require_size(columns * rows, f"a coupling of {columns} cells with {rows} cells")
     many = jax.jit(jax.vmap(lambda x: function(x.reshape(shape(ins))).reshape(rows)))

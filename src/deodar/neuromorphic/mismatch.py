@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from deodar.neuromorphic.graph import AffineNode, NeuronNode, NirGraph, Numbers
+from deodar.neuromorphic.graph import AffineNode, NeuronNode, NirGraph, Singles
 from deodar.neuromorphic.simulator import Copies
 
 LEAST = 0.05
@@ -26,7 +26,7 @@ def differing(graph: NirGraph, spread: Mapping[str, float], copies: int, seed: i
         copies: number of chips.
         seed: seed of all deviates; chip k has the same ones for any number of chips.
     """
-    out: dict[str, dict[str, Numbers]] = {}
+    out: dict[str, dict[str, Singles]] = {}
     for number, (name, node) in enumerate(graph.nodes.items()):
         for place, field in enumerate(FIELDS):
             fits = field == "bias" if isinstance(node, AffineNode) else isinstance(node, NeuronNode)

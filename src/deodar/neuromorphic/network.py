@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from deodar.neuromorphic.spike_code import SpikeCode
 from deodar.numerics.axes import Axes
 
-Weights = NDArray[np.float64]
+WeightMatrix = NDArray[np.float64]
 
 
 @dc.dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Population:
     code: SpikeCode
     resting: float
     synapse: float
-    noise: Weights | None = None
+    noise: WeightMatrix | None = None
     probed: bool = True
 
     @property
@@ -71,7 +71,7 @@ class Projection:
 
     source: int
     target: int
-    weights: Weights
+    weights: WeightMatrix
 
 
 @dc.dataclass(frozen=True)

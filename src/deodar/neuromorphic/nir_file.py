@@ -71,6 +71,7 @@ def _plain(part: InputRange | OutputRange) -> dict[str, Any]:
 
 def _nir() -> Any:
     try:
+        # an extra
         import nir
     except ImportError:
         raise MissingExtra("nir", "neuromorphic", "a file of NIR") from None

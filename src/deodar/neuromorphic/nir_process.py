@@ -12,6 +12,7 @@ from deodar.neuromorphic.nir_reader import MOST_BYTES, parse_nir
 def main(name: str) -> None:
     """Read and write."""
     try:
+        # not every system has it
         import resource
 
         most = 6 * MOST_BYTES

@@ -27,8 +27,8 @@ from deodar.neuromorphic.graph import (
     InputRange,
     NeuronNode,
     NirGraph,
-    Numbers,
     OutputRange,
+    Singles,
 )
 
 MOST_BYTES = 2**30
@@ -51,12 +51,13 @@ def parse_nir(content: bytes, name: str = "") -> NirGraph:
         MissingExtra: the package h5py is not installed.
     """
     try:
+        # an extra
         import h5py
     except ImportError:
         raise MissingExtra("h5py", "neuromorphic", "a file of NIR") from None
     try:
         with h5py.File(io.BytesIO(content), "r") as file:
-            return _Reader(h5py, name).graph(file)
+            return _NirReader(h5py, name).graph(file)
     except DeodarError:
         raise
     except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
@@ -65,7 +66,7 @@ def parse_nir(content: bytes, name: str = "") -> NirGraph:
         ) from None
 
 
-class _Reader:
+class _NirReader:
     def __init__(self, h5py: Any, name: str) -> None:
         self.h5py = h5py
         self.name = name
@@ -135,7 +136,7 @@ class _Reader:
     def neurons(self, group: Any, key: str) -> NeuronNode:
         """Read a CubaLIF."""
         threshold = self.array(group, "v_threshold", key, None).reshape(-1)
-        values: dict[str, Numbers] = {"v_threshold": threshold}
+        values: dict[str, Singles] = {"v_threshold": threshold}
         for field in NEURON_FIELDS:
             if field == "v_threshold":
                 continue
@@ -264,7 +265,7 @@ class _Reader:
             raise self.wrong(f"{key} is not a number", group.name)
         return float(data[()])
 
-    def array(self, group: Any, key: str, where: str, axes: int | None) -> Numbers:
+    def array(self, group: Any, key: str, where: str, axes: int | None) -> Singles:
         """Read an array of finite numbers."""
         data = self.dataset(group, key, where)
         if data.dtype.kind not in "fiub":

@@ -18,6 +18,7 @@ import numpy as np
 
 def main(file: str, given: str, out: str) -> None:
     """Run the file and write the sums."""
+    # this process alone has them
     import nir
     import norse.torch
     import torch

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -21,35 +22,43 @@ PIECE = 40
 """Windows that are computed at once."""
 
 
-def simulated(
-    graph: NirGraph,
-    given: NetworkInput,
-    trials: int,
-    every: int,
-    spread: Mapping[str, float],
-    chips: int = 1,
-    seed: int = 0,
-) -> Rates:
-    """Run a graph in the simulator of deodar.
+@dc.dataclass(frozen=True)
+class SpikingTrials:
+    """The trials of a graph.
 
-    Args:
-        graph: the graph.
-        given: its input.
-        trials: number of trials; trial k runs on chip k modulo `chips`.
+    Attributes:
+        number: number of trials; trial k runs on chip k modulo `chips`.
         every: steps of a window.
         spread: relative standard deviation between neurons, by parameter.
         chips: number of chips.
         seed: seed of mismatch and spike trains.
     """
-    on = np.arange(trials) % chips
+
+    number: int
+    every: int
+    spread: Mapping[str, float] = dc.field(default_factory=dict[str, float])
+    chips: int = 1
+    seed: int = 0
+
+
+def simulated(graph: NirGraph, given: NetworkInput, trials: SpikingTrials) -> Rates:
+    """Run a graph in the simulator of deodar.
+
+    Args:
+        graph: the graph.
+        given: its input.
+        trials: number of trials, windows and chips.
+    """
+    number, every, chips, seed = trials.number, trials.every, trials.chips, trials.seed
+    on = np.arange(number) % chips
     parameters = {
         node: {field: values[on] for field, values in fields.items()}
-        for node, fields in differing(graph, spread, min(chips, trials), seed).items()
+        for node, fields in differing(graph, trials.spread, min(chips, number), seed).items()
     }
-    simulator = SpikingSimulator(graph, copies=trials, differing=parameters)
+    simulator = SpikingSimulator(graph, copies=number, differing=parameters)
     state, found = simulator.start(), list[NDArray[np.float32]]()
     whole = _whole(given, every)
-    for piece in whole.pieces(trials, seed, PIECE * every):
+    for piece in whole.pieces(number, seed, PIECE * every):
         sums, state = simulator.run(state, piece, every)
         found.append(sums)
     return rates(graph, np.concatenate(found)[whole.settling // every :], every)
@@ -58,25 +67,22 @@ def simulated(
 def in_norse(
     graph: NirGraph,
     given: NetworkInput,
-    trials: int,
-    every: int,
-    spread: Mapping[str, float],
-    chips: int = 1,
-    seed: int = 0,
+    trials: SpikingTrials,
     python: str | Path | None = None,
 ) -> Rates:
     """Run a graph in norse: a file for each chip; see `simulated`."""
+    number, every, chips, seed = trials.number, trials.every, trials.chips, trials.seed
     whole = _whole(given, every)
     steps = len(whole.analog)
-    [inputs] = whole.pieces(trials, seed, steps)
+    [inputs] = whole.pieces(number, seed, steps)
     if inputs.ndim == 2:
-        inputs = np.repeat(inputs[:, None], trials, axis=1)
-    parts = [np.arange(k, trials, chips) for k in range(min(chips, trials))]
+        inputs = np.repeat(inputs[:, None], number, axis=1)
+    parts = [np.arange(k, number, chips) for k in range(min(chips, number))]
     found = [
-        run_norse(chip(graph, spread, seed, k), inputs[:, part], every, python)
+        run_norse(chip(graph, trials.spread, seed, k), inputs[:, part], every, python)
         for k, part in enumerate(parts)
     ]
-    sums = np.empty((steps // every, trials, found[0].shape[-1]), np.float32)
+    sums = np.empty((steps // every, number, found[0].shape[-1]), np.float32)
     for part, values in zip(parts, found, strict=True):
         sums[:, part] = values
     return rates(graph, sums[whole.settling // every :], every)

@@ -9,8 +9,8 @@ A step computes the nodes in the order of `order.py`. A CubaLIF advances by one 
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from collections.abc import Callable, Hashable, Mapping
+from typing import TypeAlias
 
 import jax
 import jax.numpy as jnp
@@ -29,14 +29,17 @@ Copies: TypeAlias = Mapping[str, Mapping[str, NDArray[np.float32]]]
 (`bias` of an Affine, any of a CubaLIF).
 """
 
-Arrays: TypeAlias = dict[str, Any]
+NodeValues: TypeAlias = "dict[str, Array | NDArray[np.float32]]"
+"""Values of one node by name, copies x values."""
+
+SpikingProgram: TypeAlias = Callable[..., tuple[dict[str, NodeValues], Array]]
 
 
 @dc.dataclass(frozen=True)
 class SpikingState:
     """Currents, potentials and outputs of the step before, by node, copies x values."""
 
-    values: Mapping[str, Arrays]
+    values: Mapping[str, NodeValues]
 
 
 class SpikingSimulator:
@@ -69,11 +72,11 @@ class SpikingSimulator:
         self._factors = {
             name: factors(node.weight) for name, node in graph.nodes.items() if isinstance(node, AffineNode)
         }
-        self._programs: dict[Any, Callable[..., Any]] = {}
+        self._programs: dict[Hashable, SpikingProgram] = {}
 
     def start(self) -> SpikingState:
         """Return the state in which all currents and potentials are 0."""
-        values: dict[str, Arrays] = {}
+        values: dict[str, NodeValues] = {}
         for name, node in self.graph.nodes.items():
             zeros = np.zeros((self.copies, node.size), np.float32)
             if isinstance(node, NeuronNode):
@@ -110,36 +113,42 @@ class SpikingSimulator:
             end, sums = self._programs[key](self._parameters, dict(state.values), windows)
         return np.asarray(sums), SpikingState(end)
 
-    def _scan(self, parameters: Any, values: Any, windows: Array) -> Any:
+    def _scan(
+        self, parameters: dict[str, NodeValues], values: dict[str, NodeValues], windows: Array
+    ) -> tuple[dict[str, NodeValues], Array]:
         size = self.graph.nodes[OUTPUT].size
 
-        def one(carry: Any, x: Array) -> Any:
+        def one(
+            carry: tuple[dict[str, NodeValues], Array], x: Array
+        ) -> tuple[tuple[dict[str, NodeValues], Array], None]:
             state, total = carry
             state, out = self._advance(parameters, state, jnp.broadcast_to(x, (self.copies, x.shape[-1])))
             return (state, total + out), None
 
-        def window(state: Any, xs: Array) -> Any:
+        def window(state: dict[str, NodeValues], xs: Array) -> tuple[dict[str, NodeValues], Array]:
             (state, total), _ = lax.scan(one, (state, jnp.zeros((self.copies, size), jnp.float32)), xs)
             return state, total
 
         return lax.scan(window, values, windows)
 
-    def _advance(self, parameters: Any, state: Any, x: Array) -> tuple[Any, Array]:
+    def _advance(
+        self, parameters: dict[str, NodeValues], state: dict[str, NodeValues], x: Array
+    ) -> tuple[dict[str, NodeValues], Array]:
         """Compute one step of all nodes."""
         now: dict[str, Array] = {INPUT: x}
-        new: dict[str, Arrays] = {}
+        new: dict[str, NodeValues] = {}
         for e in self.plan:
             read = [now[s] for s in e.now] + [state[s]["out"] for s in e.before]
-            total = sum(read[1:], read[0]) if read else jnp.zeros((self.copies, 1), jnp.float32)
+            total = jnp.asarray(sum(read[1:], read[0]))
             node = self.graph.nodes[e.name]
             if isinstance(node, AffineNode):
-                now[e.name] = self._factors[e.name](total) + parameters[e.name]["bias"]
+                now[e.name] = jnp.asarray(self._factors[e.name](total) + parameters[e.name]["bias"])
                 new[e.name] = {"out": now[e.name]}
             elif isinstance(node, NeuronNode):
                 p, s = parameters[e.name], state[e.name]
                 current = s["current"] + p["to_syn"] * (-s["current"] + p["w_in"] * total)
                 v = s["potential"] + p["to_mem"] * ((p["v_leak"] - s["potential"]) + p["r"] * current)
-                spike = v > p["v_threshold"]
+                spike = jnp.asarray(v > p["v_threshold"])
                 now[e.name] = spike.astype(jnp.float32)
                 potential = jnp.where(spike, p["v_reset"], v)
                 new[e.name] = {"current": current, "potential": potential, "out": now[e.name]}
@@ -164,9 +173,9 @@ def _require_step(graph: NirGraph, step: float) -> None:
                     )
 
 
-def _parameters(graph: NirGraph, step: float, differing: Copies) -> dict[str, Arrays]:
+def _parameters(graph: NirGraph, step: float, differing: Copies) -> dict[str, NodeValues]:
     """Return the parameters of all nodes, those that differ as copies x values."""
-    out: dict[str, Arrays] = {}
+    out: dict[str, NodeValues] = {}
     for name, node in graph.nodes.items():
         given = differing.get(name, {})
         if isinstance(node, AffineNode):

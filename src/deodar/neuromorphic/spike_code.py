@@ -21,7 +21,7 @@ from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 
-Values = NDArray[np.float64]
+Levels = NDArray[np.float64]
 
 REACH = 4.0
 """Largest rate, in spikes per membrane time constant, for which a linear output is fitted and measured."""
@@ -66,7 +66,7 @@ class SpikeCode:
     """
 
     gain: float
-    offsets: Values
+    offsets: Levels
     unit: float
     membrane: float
     low: float
@@ -75,7 +75,7 @@ class SpikeCode:
     rms: float
     worst: float
 
-    def output(self, u: Values, step: float) -> Values:
+    def output(self, u: Levels, step: float) -> Levels:
         """Return the mean output for constant activation, with steps of length `step`, in s."""
         return self.unit * _mean_rate(self.gain * u, self.offsets, step / self.membrane)
 
@@ -83,7 +83,7 @@ class SpikeCode:
         return f"error {self.rms:.1%} rms, {self.worst:.1%} at most, of the peak"
 
 
-def steady_rate(current: Values, share: float) -> Values:
+def steady_rate(current: Levels, share: float) -> Levels:
     """Return the spikes per step of a neuron with a constant current.
 
     Args:
@@ -157,23 +157,23 @@ def _bounded(sigmoid: SigmoidFunction, neurons: int, step: float) -> SpikeCode:
     return min(found, key=lambda c: (c.rms, c.worst))
 
 
-def _measured(code: SpikeCode, u: Values, wanted: Values, step: float) -> SpikeCode:
+def _measured(code: SpikeCode, u: Levels, wanted: Levels, step: float) -> SpikeCode:
     """Return a code with its errors."""
     difference = np.abs(code.output(u, step) - wanted) / code.peak
     return dc.replace(code, rms=float(np.sqrt(np.mean(difference**2))), worst=float(difference.max()))
 
 
-def _mean_rate(current: Values, offsets: Sequence[float] | Values, share: float) -> Values:
+def _mean_rate(current: Levels, offsets: Sequence[float] | Levels, share: float) -> Levels:
     """Return the mean spikes per step over neurons with offsets."""
     return np.mean([steady_rate(current + o, share) for o in offsets], axis=0)
 
 
-def _values(sigmoid: SigmoidFunction, u: Values) -> Values:
+def _values(sigmoid: SigmoidFunction, u: Levels) -> Levels:
     with jax.enable_x64(True):
         return np.asarray(sigmoid(jax.numpy.asarray(u)), np.float64)
 
 
-def _inverse(sigmoid: SigmoidFunction, outputs: Values) -> Values:
+def _inverse(sigmoid: SigmoidFunction, outputs: Levels) -> Levels:
     """Return the activations at which a rising function has given values, by bisection."""
     low, high = np.full_like(outputs, -WIDEST), np.full_like(outputs, WIDEST)
     for _ in range(80):

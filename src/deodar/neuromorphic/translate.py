@@ -21,9 +21,9 @@ from deodar.model.document import Connection, Document, Entry
 from deodar.model.model import Model
 from deodar.model.resolve import Node, resolve
 from deodar.model.unit import unit_seconds
-from deodar.neuromorphic.counterparts import COUNTERPARTS, Counterpart, Setup
+from deodar.neuromorphic.counterparts import COUNTERPARTS, Counterpart, TranslationSetup
 from deodar.neuromorphic.linear_maps import element_matrix, require_size
-from deodar.neuromorphic.network import Population, Projection, SpikingNetwork, Weights
+from deodar.neuromorphic.network import Population, Projection, SpikingNetwork, WeightMatrix
 from deodar.neuromorphic.spike_code import NoSpikeCode
 from deodar.parameters import parameters
 
@@ -85,11 +85,11 @@ def translate(
             f"the step {dt * 1e3:g} ms is not below the membrane's time constant {membrane * 1e3:g} ms",
             fix=f"Give a shorter step, for example --step {membrane / 40 / unit:g}",
         )
-    return _Translation(doc, nodes, Setup(neurons, dt, membrane, unit)).run(name)
+    return _Translation(doc, nodes, TranslationSetup(neurons, dt, membrane, unit)).run(name)
 
 
 class _Translation:
-    def __init__(self, doc: Document, nodes: Sequence[Node], setup: Setup) -> None:
+    def __init__(self, doc: Document, nodes: Sequence[Node], setup: TranslationSetup) -> None:
         self.doc = doc
         self.entries = doc.by_id()
         self.nodes = {n.id: n for n in nodes}
@@ -206,7 +206,7 @@ class _Translation:
     def _projections(self) -> list[Projection]:
         """Return the projections of all couplings between populations."""
         out: list[Projection] = []
-        known: dict[Key, Mapping[int, Weights]] = {}
+        known: dict[Key, Mapping[int, WeightMatrix]] = {}
         for (ident, port), target in self.index.items():
             if port != "output":
                 continue
@@ -215,22 +215,22 @@ class _Translation:
         return out
 
     def _arriving(
-        self, node: Node, port: str, known: dict[Key, Mapping[int, Weights]], via: tuple[str, ...]
-    ) -> Mapping[int, Weights]:
+        self, node: Node, port: str, known: dict[Key, Mapping[int, WeightMatrix]], via: tuple[str, ...]
+    ) -> Mapping[int, WeightMatrix]:
         """Return, for each population, the matrix from its rates to what arrives at an input port."""
-        total: dict[int, Weights] = {}
+        total: dict[int, WeightMatrix] = {}
         for ident, out, _ in node.reads.get(port, ()):
             for source, w in self._leaving(ident, out, known, via).items():
                 total[source] = total[source] + w if source in total else w
         return total
 
     def _leaving(
-        self, ident: str, port: str, known: dict[Key, Mapping[int, Weights]], via: tuple[str, ...]
-    ) -> Mapping[int, Weights]:
+        self, ident: str, port: str, known: dict[Key, Mapping[int, WeightMatrix]], via: tuple[str, ...]
+    ) -> Mapping[int, WeightMatrix]:
         """Return, for each population, the matrix from its rates to an output port."""
         if (ident, port) in known:
             return known[ident, port]
-        found: Mapping[int, Weights] = {}
+        found: Mapping[int, WeightMatrix] = {}
         node = self.nodes[ident]
         if (ident, port) in self.index:
             k = self.index[ident, port]
