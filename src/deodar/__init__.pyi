@@ -151,6 +151,8 @@ from deodar.model.draw import draw as draw
 from deodar.model.model import Model as Model
 from deodar.model.model import save as save
 from deodar.model.paths import quote as quote
+from deodar.neuromorphic.comparison import compare_spikes as compare_spikes
+from deodar.neuromorphic.prepare import SpikingOptions as SpikingOptions
 from deodar.numerics.axes import Axes as Axes
 from deodar.numerics.axes import Axis as Axis
 from deodar.numerics.integrators import euler as euler

@@ -160,6 +160,10 @@ class RecordError(DeodarError):
     """Raised when a record cannot be read, drawn or repeated."""
 
 
+class GraphError(DeodarError):
+    """Raised when a file of NIR cannot be read, or its graph cannot be simulated."""
+
+
 class FigureError(DeodarError):
     """Raised when the file of a figure cannot be read."""
 

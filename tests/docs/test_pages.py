@@ -30,6 +30,7 @@ DRAWN_ELSEWHERE = {
     },
     "looking.md": {"looking.png"},  # by `python docs/evidence.py FOLDER`
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
+    "neuromorphic.md": {"neuromorphic-error.png"},  # by `python benchmarks/spikes.py pages`
     "building.md": {"studio-palette.png", "studio-built.png", "studio-wire.png"},
     "experiments.md": {"studio-experiment.png"},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},

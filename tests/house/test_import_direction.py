@@ -35,6 +35,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "analysis",
         "experiments",
         "importers architectures",
+        "neuromorphic",
         "exporters",
         "compat",
         "figures",

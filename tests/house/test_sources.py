@@ -176,7 +176,9 @@ def test_lines_of_the_page_have_at_most_110_columns(path: Path) -> None:
 def test_lines_of_the_manual_have_at_most_110_columns(path: Path) -> None:
     whole = re.compile(r"^```.*?^```$|^<!-- arguments of .*?^<!-- end of ", re.MULTILINE | re.DOTALL)
     text = whole.sub(lambda code: "\n" * code[0].count("\n"), path.read_text(encoding="utf-8"))
-    lines = re.sub(r"<!-- evidence .*?<!-- end -->|`[^`\n]{60,}`", "", text, flags=re.DOTALL).splitlines()
+    lines = re.sub(
+        r"<!-- (?:evidence|spikes) .*?<!-- end -->|`[^`\n]{60,}`", "", text, flags=re.DOTALL
+    ).splitlines()
     long = [line for line in lines if len(line) > 110 and not line.startswith(("|", "!["))]
     assert not long, "wrap the prose; code, tables and pictures may be wider"
 

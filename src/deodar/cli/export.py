@@ -14,19 +14,19 @@ from deodar.cli._bar import Bar
 
 HELP = (
     "write a record in another format, what deodar plot draws of it as a video, or a model as a file of"
-    " another tool (cosivina)"
+    " another tool (cosivina, nir)"
 )
 EPILOG = """\
 netcdf, csv and zarr hold the values; cedar is a folder with one CSV file for each variable, as cedar's
 recorder writes it, and mat a file of MATLAB. gif, mp4 (extra video) and png (a folder of numbered files) show
 what deodar plot draws, frame by frame: a line moves over panels of time, and snapshots, projections and paths
 show each time.
-cosivina writes a model instead of a record, with a report of what was carried, approximated or dropped;
-`deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. Status 1 with --strict if anything
-was not carried."""
+cosivina and nir write a model instead of a record, with a report of what was carried, approximated or
+dropped; `deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. nir is a network of spiking
+neurons (extra neuromorphic). Status 1 with --strict if anything was not carried."""
 
 DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr", "cedar": "", "mat": ".mat"}
-TOOLS = {"cosivina": ".json"}
+TOOLS = {"cosivina": ".json", "nir": ".nir"}
 VIDEOS = {"gif": ".gif", "mp4": ".mp4", "png": ""}
 """Formats, and the endings of their names; the others are folders."""
 
@@ -38,13 +38,14 @@ SELECTED = ("trial", "where", "time_range", "every")
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    _figure.add_record(parser, "; with --to cosivina a model")
+    _figure.add_record(parser, "; with --to cosivina or nir a model")
     parser.add_argument(
         "--to",
         choices=(*DATA, *VIDEOS, *TOOLS),
         metavar="FORMAT",
         help=(
-            "netcdf, csv, zarr, cedar, mat, gif, mp4, png or cosivina (default: given by the ending of --out)"
+            "netcdf, csv, zarr, cedar, mat, gif, mp4, png, cosivina or nir (default: given by the ending of"
+            " --out)"
         ),
     )
     parser.add_argument(
@@ -69,6 +70,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of a model: fail, and write nothing, if anything is approximated or dropped",
     )
+    _options.add_spiking(parser, "of nir: ")
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.add_force(parser)
     _options.add_json(parser)
@@ -83,6 +85,7 @@ def run(args: argparse.Namespace) -> int:
         return _write_model(args, format, out)
     if args.strict:
         args.wrong(f"--strict is about a model, and --to {format} writes a record")
+    _no_neurons(args, format)
     if format in VIDEOS:
         every, args.every = args.every, None  # of the frames, not of the samples in a panel
         drawn = _figure.drawn(args)
@@ -143,7 +146,9 @@ def _write_model(args: argparse.Namespace, format: str, out: Path) -> int:
     if given:
         args.wrong(f"--{given[0].replace('_', '-')} is about a record, and --to {format} writes a model")
     output.claim(out, args.force)
-    done = exported(load(args.record), out.name, format)
+    if format != "nir":
+        _no_neurons(args, format)
+    done = exported(load(args.record), out.name, format, _options.spiking(args))
     failed = args.strict and not done.report.faithful
     if not failed:
         output.write(out, done.content)
@@ -153,6 +158,13 @@ def _write_model(args: argparse.Namespace, format: str, out: Path) -> int:
     _report.show(done.report)
     print("Nothing was written: --strict." if failed else f"Written: {_options.shown(out)}")
     return int(failed)
+
+
+def _no_neurons(args: argparse.Namespace, format: str) -> None:
+    """Refuse options of spiking neurons."""
+    for name in _options.SPIKING:
+        if getattr(args, name, None) is not None:
+            args.wrong(f"--{name} is about spiking neurons, and --to {format} writes none")
 
 
 def _shown(bar: Bar) -> Callable[[int, int], None]:

@@ -5,27 +5,36 @@ from __future__ import annotations
 from pathlib import Path
 
 from deodar.errors import UnknownName, did_you_mean
-from deodar.exporters import cosivina
+from deodar.exporters import cosivina, nir
 from deodar.exporters.exported import Exported
 from deodar.importers.report import ImportReport
 from deodar.model import output
 from deodar.model.model import Model
+from deodar.neuromorphic.prepare import SpikingOptions
 
-TOOLS = {cosivina.NAME: cosivina}
+TOOLS = {cosivina.NAME: cosivina, nir.NAME: nir}
 """The exporters by name: each has `NAME`, `ENDING` and `write(model, name) -> Exported`."""
 
 
-def export(model: Model, path: str | Path, to: str = "cosivina", force: bool = False) -> ImportReport:
-    """Write a model as a file of another tool (cosivina); the report lists what was not carried.
+def export(
+    model: Model,
+    path: str | Path,
+    to: str = "cosivina",
+    force: bool = False,
+    spiking: SpikingOptions | None = None,
+) -> ImportReport:
+    """Write a model as a file of another tool (cosivina, nir); the report lists what was not carried.
 
     The file computes what the model computes, where the report says `carried`. A model that `load` made of a
-    file of cosivina is the same model after it was exported and loaded again.
+    file of cosivina is the same model after it was exported and loaded again. A file of NIR is a network of
+    spiking neurons, for one step.
 
     Args:
         model: the model; it must be free of problems.
-        path: the file to write, `.json` for cosivina.
+        path: the file to write, `.json` for cosivina, `.nir` for NIR.
         to: name of the tool.
         force: whether to replace an existing file.
+        spiking: neurons, step and chip of a file of NIR.
 
     Returns:
         The report: a verdict for each element, parameter and connection of the model.
@@ -37,12 +46,14 @@ def export(model: Model, path: str | Path, to: str = "cosivina", force: bool = F
         OutputError: it cannot be written.
     """
     place = output.claim(path, force)
-    made = exported(model, place.name, to)
+    made = exported(model, place.name, to, spiking)
     output.write(place, made.content)
     return made.report
 
 
-def exported(model: Model, name: str, to: str = "cosivina") -> Exported:
+def exported(
+    model: Model, name: str, to: str = "cosivina", spiking: SpikingOptions | None = None
+) -> Exported:
     """Return the content of the file of another tool, and the report, without writing it.
 
     Raises:
@@ -51,4 +62,4 @@ def exported(model: Model, name: str, to: str = "cosivina") -> Exported:
     """
     if to not in TOOLS:
         raise UnknownName(f"there is no exporter {to!r}", fix=did_you_mean(to, TOOLS))
-    return TOOLS[to].write(model, name)
+    return nir.write(model, name, spiking) if to == nir.NAME else TOOLS[to].write(model, name)

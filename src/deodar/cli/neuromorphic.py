@@ -1,0 +1,155 @@
+"""The command `deodar neuromorphic compare FILE` and `deodar neuromorphic chips`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar import codec
+from deodar.cli import _options
+from deodar.model import output
+
+if TYPE_CHECKING:
+    from deodar.neuromorphic.comparison import Estimate, SpikingComparison
+
+HELP = "run a model as a network of spiking neurons, and compare it with its rates"
+EPILOG = """\
+compare runs the model as rates, as spikes in deodar's simulator, and in norse where that is installed, in the
+same measures. chips lists the limits of chips. The file of a network: deodar export nir MODEL."""
+
+ROWS = {
+    "winner": ("same winner as most rate trials", "share"),
+    "peaks": ("peaks", ""),
+    "detection": ("detection after", "time"),
+    "forgetting": ("forgetting after", "time"),
+    "memory": ("peak without input at the end", "share"),
+    "drift": ("drift of the peak", "axis"),
+    "difference": ("rms difference from the mean rate", "share"),
+}
+"""Measures: their names in the table, and what they are."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("what", choices=("compare", "chips"), help="what to do")
+    _options.add_document(
+        parser, "of compare: a document (.json, .deodar), or example:NAME", nargs="?", default=None
+    )
+    parser.add_argument("--trials", type=_options.whole, default=100, metavar="N", help="default 100")
+    parser.add_argument(
+        "--duration", type=_options.positive, metavar="T", help="document time (default: 1000 ms)"
+    )
+    _options.add_spiking(parser)
+    parser.add_argument(
+        "--seed", type=_options.whole, metavar="N", help="seed of noise and mismatch (default 0)"
+    )
+    parser.add_argument(
+        "--norse", metavar="PYTHON", help="Python of an environment with norse (default: this one)"
+    )
+    parser.add_argument("--no-norse", action="store_true", help="run without norse")
+    _options.add_world(parser)
+    parser.add_argument(
+        "-o", "--out", type=Path, metavar="FIGURE", help="draw rates beside spikes, of the first trial"
+    )
+    _options.add_force(parser)
+    _options.add_json(parser)
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Compare, or list chips."""
+    if args.what == "chips":
+        return _chips(args)
+    # start-up time: these bring JAX
+    from deodar.figures import _files
+    from deodar.figures.spikes import spikes_figure
+    from deodar.importers.opening import load
+    from deodar.neuromorphic.comparison import compare_spikes
+
+    file: Path | None = args.file
+    if file is None:
+        return args.wrong("the model is missing: deodar neuromorphic compare FILE")
+    if args.out is not None:
+        output.claim(args.out, args.force)
+    model = load(file, trust=args.trust)
+    doc = model.document
+    duration = args.duration or 1.0 / _seconds(doc.time_unit)
+    norse = False if args.no_norse else args.norse or True
+    found = compare_spikes(
+        model, duration, args.trials, _options.spiking(args), _options.world(args.world), norse
+    )
+    if args.out is not None:
+        first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in found.runs.items()}
+        figure = spikes_figure(first, found.times, doc.time_unit)
+        _files.save_figure(figure, args.out, force=args.force)
+    if args.json:
+        print(codec.text({**found.data(), "out": None if args.out is None else str(args.out)}))
+        return 0
+    _show(found, doc.time_unit, args)
+    return 0
+
+
+def _seconds(unit: str) -> float:
+    # start-up time: this brings the model
+    from deodar.model.unit import unit_seconds
+
+    return unit_seconds(unit)
+
+
+def _show(found: SpikingComparison, unit: str, args: argparse.Namespace) -> None:
+    """Print a table for each element."""
+    network = found.prepared.translated.network
+    lines = [
+        f"{network.neurons:,} neurons, {network.synapses:,} synapses, steps of {network.step * 1e3:g} ms,"
+        f" {found.prepared.limits.name}; {args.trials} trials"
+    ]
+    lines += [f"  {line}" for line in found.prepared.report.losses if line.verdict == "dropped"]
+    for label, runs in found.estimates.items():
+        lines += ["", f"{label:36}" + "".join(f"{run:>30}" for run in runs)]
+        for name, (title, kind) in ROWS.items():
+            cells = [_cell(runs[r][name], kind, unit) for r in runs]
+            if any(cells):
+                lines.append(f"  {title:34}" + "".join(f"{c or 'none':>30}" for c in cells))
+    if not found.norse and not args.no_norse:
+        lines += ["", "norse is not installed here: --norse PYTHON names an environment that has it."]
+    if args.out is not None:
+        lines += ["", f"Drawn: {_options.shown(args.out)}"]
+    print("\n".join(lines))
+
+
+def _cell(e: Estimate, kind: str, unit: str) -> str:
+    """Return a value and its interval, "" if no trial has one."""
+    if not e.n:
+        return ""
+    scale, after = (100, " %") if kind == "share" else (1, f" {unit}" if kind == "time" else "")
+    spread = (
+        f" ({scale * e.interval[0]:.3g} to {scale * e.interval[1]:.3g})" if e.interval is not None else ""
+    )
+    return f"{scale * e.value:.3g}{after}{spread}"
+
+
+def _chips(args: argparse.Namespace) -> int:
+    """List the chips and their limits."""
+    # start-up time: this brings NumPy
+    from deodar.neuromorphic.chip_limits import chip_limits, chip_names
+
+    chips = [chip_limits(name) for name in chip_names()]
+    if args.json:
+        print(codec.text({"chips": [{k: _plain(v) for k, v in vars(c).items()} for c in chips]}))
+        return 0
+    lines: list[str] = []
+    for c in chips:
+        lines.append(f"{c.name}: {c.meaning}")
+        for name, source in c.sources.items():
+            value = getattr(c, name)
+            shown = ", ".join(f"{k} {v:g}" for k, v in value.items()) if isinstance(value, Mapping) else value
+            lines.append(f"  {name:24}{shown!s:28}{source}")
+    print("\n".join(lines))
+    return 0
+
+
+def _plain(value: object) -> object:
+    return dict(value) if isinstance(value, Mapping) else value

@@ -1,0 +1,1 @@
+"""From neural fields to spiking neurons: translation, files of NIR, simulation, limits of chips."""

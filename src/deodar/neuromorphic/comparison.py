@@ -1,0 +1,236 @@
+"""The rate model and its network of neurons side by side, in the same measures."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from deodar.analysis.statistics import mean_interval, wilson
+from deodar.batch.simulate import simulate
+from deodar.codec import Json
+from deodar.errors import ParameterError
+from deodar.model.model import Model
+from deodar.neuromorphic.drive import NetworkInput, network_input
+from deodar.neuromorphic.norse import norse_version
+from deodar.neuromorphic.outcomes import FieldOutcomes, outcomes
+from deodar.neuromorphic.prepare import Prepared, SpikingOptions, prepare
+from deodar.neuromorphic.running import Rates, SpikingTrials, in_norse, simulated
+from deodar.numerics.axes import Axes
+from deodar.worlds._base import World
+
+WINDOW = 5e-3
+"""Length of a window in which spikes are counted, in s, about."""
+
+NEAR = 0.05
+"""Distance of a winner from that of the rate model, as a share of the cells, up to which it is the same."""
+
+CHIPS = 10
+
+
+@dc.dataclass(frozen=True)
+class Estimate:
+    """A mean or a share with its 95 % interval, and the number of trials that have a value."""
+
+    value: float
+    interval: tuple[float, float] | None
+    n: int
+
+
+@dc.dataclass(frozen=True)
+class SpikingComparison:
+    """The result of a comparison.
+
+    Attributes:
+        prepared: the network, the chip and the report.
+        given: the input of the network.
+        every: steps of a window.
+        runs: outputs by the name of what computed them: `rates`, `spikes`, `norse`; windows x trials x cells
+            for each element.
+        estimates: by element and by name of what computed it, each measure.
+        norse: version of norse; "" if it is not installed.
+    """
+
+    prepared: Prepared
+    given: NetworkInput
+    every: int
+    runs: Mapping[str, Rates]
+    estimates: Mapping[str, Mapping[str, Mapping[str, Estimate]]]
+    norse: str
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Middle of each window, document time from the start of the run."""
+        network = self.prepared.translated.network
+        window = self.every * network.step / network.unit
+        count = len(next(iter(self.runs["rates"].values())))
+        return np.asarray((np.arange(count) + 0.5) * window, np.float64)
+
+    def data(self) -> dict[str, Json]:
+        """Return plain data, for JSON."""
+        return {
+            "neurons": self.prepared.translated.network.neurons,
+            "synapses": self.prepared.translated.network.synapses,
+            "norse": self.norse,
+            "elements": {
+                label: {
+                    run: {
+                        name: {
+                            "value": None if np.isnan(e.value) else e.value,
+                            "interval": None if e.interval is None else list(e.interval),
+                            "n": e.n,
+                        }
+                        for name, e in measures.items()
+                    }
+                    for run, measures in found.items()
+                }
+                for label, found in self.estimates.items()
+            },
+        }
+
+
+def compare_spikes(
+    model: Model,
+    duration: float,
+    trials: int = 100,
+    options: SpikingOptions | None = None,
+    world: World | None = None,
+    norse: str | Path | bool = True,
+) -> SpikingComparison:
+    """Run a model as rates and as spikes, and measure both.
+
+    Args:
+        model: the model.
+        duration: document time.
+        trials: number of trials; trial k runs on chip k modulo 10, if neurons differ.
+        options: neurons, step, chip, mismatch and seed.
+        world: the world that its sensors read.
+        norse: whether norse runs it too, where it is installed; or the Python of an environment that has it.
+
+    Raises:
+        ParameterError: there are no trials.
+    """
+    if trials < 1:
+        raise ParameterError(f"{trials} trials", fix="Give 1 or more: --trials 100")
+    given = options or SpikingOptions()
+    made = prepare(model, model.document.name, given)
+    network, graph = made.translated.network, made.fitted.graph
+    every = max(1, round(WINDOW / network.step))
+    inputs = network_input(made.translated, graph, duration, world)
+    chips = min(trials, CHIPS) if any(made.spread.values()) else 1
+    sampling = SpikingTrials(trials, every, made.spread, chips, given.seed)
+    step = network.step / network.unit
+    windows = (len(inputs.analog) - inputs.settling) // every
+    runs = {
+        "rates": _rate_model(model, made, windows, every * step, trials, given.seed, world),
+        "spikes": simulated(graph, inputs, sampling),
+    }
+    python = None if isinstance(norse, bool) else norse
+    version = norse_version(python) if norse else ""
+    if version:
+        runs["norse"] = in_norse(graph, inputs, sampling, python)
+    axes = {p.label: p.axes for p in network.populations if p.probed}
+    on = np.asarray(inputs.on[: windows * every].reshape(windows, every).any(1))
+    estimates = {
+        label: _estimates({run: r[label] for run, r in runs.items()}, axes[label], on, every * step)
+        for label in runs["spikes"]
+    }
+    return SpikingComparison(made, inputs, every, runs, estimates, version)
+
+
+def _rate_model(
+    model: Model,
+    made: Prepared,
+    windows: int,
+    window: float,
+    trials: int,
+    seed: int,
+    world: World | None,
+) -> Rates:
+    """Run the model itself; its outputs in the middle of each window."""
+    labels = [p.label for p in made.translated.network.populations if p.probed]
+    noisy = any(e.element.noise_axes() is not None for e in model.document.entries)
+    dt = model.document.step
+    found = simulate(
+        model,
+        -(-windows * window // dt) * dt,
+        seed=seed,
+        record=[f"{label}.output" for label in labels],
+        every=dt,
+        trials=trials if noisy else None,
+        world=world,
+        progress=False,
+    )
+    at = np.round((np.arange(windows) + 0.5) * window / dt).astype(int)
+    out: dict[str, NDArray[np.float32]] = {}
+    for label in labels:
+        values = found[f"{label}.output"].values
+        values = values if noisy else values[None]
+        values = values[:, np.minimum(at, values.shape[1] - 1)]
+        many = np.broadcast_to(values, (trials, *values.shape[1:]))
+        out[label] = np.moveaxis(many.reshape(trials, windows, -1), 0, 1).astype(np.float32)
+    return out
+
+
+def _estimates(
+    runs: Mapping[str, NDArray[np.float32]], axes: Axes, on: NDArray[np.bool_], window: float
+) -> dict[str, dict[str, Estimate]]:
+    """Return each measure of an element, for each of the runs."""
+    level = max(float(runs["rates"].max()), 1e-6)
+    found = {run: outcomes(values, axes, on, window, level) for run, values in runs.items()}
+    wanted = _most(found["rates"].winner)
+    mean = runs["rates"].mean(1, keepdims=True)
+    return {
+        run: {
+            "winner": _winner(f, wanted, axes),
+            "peaks": _mean(f.peaks),
+            "detection": _mean(f.detection),
+            "forgetting": _mean(f.forgetting),
+            "memory": _share(f.memory),
+            "drift": _mean(np.abs(f.drift)),
+            "difference": _mean(np.sqrt(np.mean((runs[run] - mean) ** 2, axis=(0, 2))) / level),
+        }
+        for run, f in found.items()
+    }
+
+
+def _most(winners: NDArray[np.float64]) -> float:
+    """Return the most frequent winner; NaN without one."""
+    known = winners[~np.isnan(winners)]
+    if not len(known):
+        return np.nan
+    values, counts = np.unique(known, return_counts=True)
+    return float(values[counts.argmax()])
+
+
+def _winner(found: FieldOutcomes, wanted: float, axes: Axes) -> Estimate:
+    """Return the share of trials with the most frequent winner of the rate model."""
+    if np.isnan(wanted):
+        return Estimate(np.nan, None, 0)
+    sizes = [a.samples for a in axes] or [1]
+    places = np.stack(np.unravel_index(np.nan_to_num(found.winner).astype(int), sizes))
+    target = np.array(np.unravel_index(int(wanted), sizes))[:, None]
+    apart = np.abs(places - target)
+    for k, axis in enumerate(axes):
+        if axis.periodic:
+            apart[k] = np.minimum(apart[k], axis.samples - apart[k])
+    near = (apart <= np.maximum(1, NEAR * np.array(sizes))[:, None]).all(0) & ~np.isnan(found.winner)
+    return _share(near.astype(float))
+
+
+def _mean(values: NDArray[np.float64] | Sequence[float]) -> Estimate:
+    known = np.asarray(values, float)
+    known = known[~np.isnan(known)]
+    if not len(known):
+        return Estimate(np.nan, None, 0)
+    return Estimate(float(known.mean()), mean_interval(known), len(known))
+
+
+def _share(values: NDArray[np.float64]) -> Estimate:
+    known = values[~np.isnan(values)]
+    if not len(known):
+        return Estimate(np.nan, None, 0)
+    return Estimate(float(known.mean()), wilson(float(known.sum()), len(known)), len(known))
