@@ -85,7 +85,7 @@ def test_a_gaze_that_centres_the_target_is_learned_where_the_target_was(mechanis
 
 
 def test_a_gaze_that_misses_is_not_learned_by_the_paper_and_is_corrected_by_the_other() -> None:
-    """A map that is right near the centre and wrong at one place: its error is what the correction tells."""
+    """A map that is right near the centre and wrong at one place: its error is what is corrected."""
     column, row = (axis.points for axis in retina())
     first = (35.0, 90.0)
     wrong = np.hypot(column[:, None] - first[0], row[None, :] - first[1]) < 14

@@ -110,7 +110,7 @@ def test_the_tables_name_every_condition() -> None:
 
 
 def test_rows_of_a_run_have_the_keys_of_their_job(monkeypatch: pytest.MonkeyPatch) -> None:
-    small = conditions.Condition("paper", (4, 8), (1,), {"reward": False})
+    small = conditions.LearningRun("paper", (4, 8), (1,), {"reward": False})
     monkeypatch.setattr(trials, "conditions", lambda quick: {"small": small})
     monkeypatch.setattr(trials, "TESTS", 6)
     [job] = trials.jobs(True)

@@ -62,7 +62,7 @@ class ActionSequence:
     event: str = ""
 
 
-Changed = tuple[StepPath, str]
+ParameterPath = tuple[StepPath, str]
 """A parameter: the path of a step, and the name."""
 
 MakeAction = Callable[[float | Sequence[float], str], Action]
@@ -297,7 +297,7 @@ class ExperimentReading:
         self.schedule(sequence, lambda at, event: Set(at, found.path, number, event))
         self.say(sequence.name, "SetParameterValue", verdict, why)
 
-    def begun(self, trial: int, values: Mapping[Changed, float]) -> dict[Changed, float]:
+    def begun(self, trial: int, values: Mapping[ParameterPath, float]) -> dict[ParameterPath, float]:
         """Return the parameters that are changed when a trial has begun, in cedar's numbers.
 
         `values` are those when the trial before had begun.
@@ -313,7 +313,7 @@ class ExperimentReading:
         """Give parameters their values at the start of trials: the same in all, or a factor."""
         changed = {found.path: found for _, found, _, _ in self.starting}
         rows: list[dict[str, float]] = []
-        values: dict[Changed, float] = {}
+        values: dict[ParameterPath, float] = {}
         for k in range(self.repetitions if changed else 0):
             values = self.begun(k + 1, values)
             rows.append({path: self.parameters.here(found, values) for path, found in changed.items()})

@@ -27,7 +27,7 @@ from deodar.importers.cosivina.controls import (
     SwitchControl,
     Targets,
 )
-from deodar.importers.cosivina.responses import Follower, Leaf, Responses, Unfollowed, aligned
+from deodar.importers.cosivina.responses import Follower, LeafPath, Responses, Unfollowed, aligned
 from deodar.importers.cosivina.sizes import SIZES
 from deodar.importers.cosivina.translate import Translation
 from deodar.importers.cosivina.values import size
@@ -51,7 +51,7 @@ class _Row:
 
     control: SliderControl | SwitchControl
     followers: list[Follower]
-    other: list[Leaf]
+    other: list[LeafPath]
 
 
 @dc.dataclass
@@ -60,10 +60,10 @@ class _Set:
 
     name: str
     control: Control
-    values: dict[Leaf, Any]
+    values: dict[LeafPath, Any]
 
 
-class Panel:
+class LauncherPanel:
     """The controls of a window, as pins, document parameters and presets.
 
     Args:
@@ -155,8 +155,8 @@ class Panel:
         targets: Targets,
     ) -> None:
         """Add a preset for each choice: the values that differ from those at present in some choice."""
-        raw: list[dict[Leaf, Any]] = []
-        before: dict[Leaf, Any] = {}
+        raw: list[dict[LeafPath, Any]] = []
+        before: dict[LeafPath, Any] = {}
         for own in values:
             given: dict[str, dict[str, Any]] = {}
             for (label, name), value in zip(targets, own, strict=True):
@@ -190,9 +190,9 @@ class Panel:
             raise Unfollowed("none of its files was read")
         self._say(control, "carried", f"{count} presets; the run is not reset when one is applied")
 
-    def _of_file(self, control: FilesControl, choice: str, simulator: file.Simulator) -> dict[Leaf, Any]:
+    def _of_file(self, control: FilesControl, choice: str, simulator: file.Simulator) -> dict[LeafPath, Any]:
         """Return all values that a parameter file gives to elements of the same label and class."""
-        out: dict[Leaf, Any] = {}
+        out: dict[LeafPath, Any] = {}
         ours = self._responses.translation.simulator.by_label
         lost: list[str] = []
         for e in simulator.elements:
@@ -224,8 +224,8 @@ class Panel:
         by = {entry.element.name: entry for entry in doc.entries}
         names = FreeNames([*by, *(k.name for k in doc.parameters)])
         pins: list[Json] = []
-        driven: dict[Leaf, str] = {}
-        pinned: set[Leaf] = set()
+        driven: dict[LeafPath, str] = {}
+        pinned: set[LeafPath] = set()
         for row in self._rows:
             leaves = [f.leaf for f in row.followers]
             if pinned & set(leaves):
@@ -302,7 +302,7 @@ class Panel:
             self._say(row.control, "carried", why)
 
     def _presets(
-        self, doc: Document, by: Mapping[str, Entry], driven: Mapping[Leaf, str]
+        self, doc: Document, by: Mapping[str, Entry], driven: Mapping[LeafPath, str]
     ) -> list[KeptPreset]:
         names = FreeNames(())
         out: list[KeptPreset] = []
@@ -358,5 +358,5 @@ def _plain(value: Any) -> Json:
     return None
 
 
-def _present(doc: Document, by: Mapping[str, Entry], leaf: Leaf) -> Any:
+def _present(doc: Document, by: Mapping[str, Entry], leaf: LeafPath) -> Any:
     return get(doc.by_id()[by[leaf[0]].id].element, leaf[1])

@@ -15,7 +15,7 @@ from deodar.elements.placeholder import Placeholder
 from deodar.importers.cosivina.translate import Translation
 from deodar.parameters import Part, parameters
 
-Leaf = tuple[str, str]
+LeafPath = tuple[str, str]
 """Name of an element, and path of a value inside it."""
 
 STRUCTURE = ("name", "axes")
@@ -32,7 +32,7 @@ class Unfollowed(ValueError):
 class Follower:
     """A number that follows a parameter in proportion: its values at present and at two ends."""
 
-    leaf: Leaf
+    leaf: LeafPath
     now: float
     lower: float
     upper: float
@@ -43,9 +43,9 @@ class Responses:
 
     def __init__(self, translation: Translation) -> None:
         self.translation = translation
-        self._known: dict[str, dict[Leaf, Any]] = {}
+        self._known: dict[str, dict[LeafPath, Any]] = {}
 
-    def present(self, label: str) -> dict[Leaf, Any]:
+    def present(self, label: str) -> dict[LeafPath, Any]:
         """Return all values of the translation of an element.
 
         Raises:
@@ -67,7 +67,7 @@ class Responses:
             kind = self.translation.simulator.by_label[label].kind
             raise Unfollowed(f"{label!r} is a {kind} without a parameter {name!r}")
 
-    def changed(self, label: str, values: Mapping[str, Any]) -> dict[Leaf, Any]:
+    def changed(self, label: str, values: Mapping[str, Any]) -> dict[LeafPath, Any]:
         """Return all values of the translation of an element with other parameters."""
         before = self.present(label)
         element = self.translation.simulator.by_label[label]
@@ -84,7 +84,7 @@ class Responses:
 
     def followers(
         self, label: str, name: str, lower: float, upper: float
-    ) -> tuple[list[Follower], list[Leaf]]:
+    ) -> tuple[list[Follower], list[LeafPath]]:
         """Return the numbers that follow a parameter in proportion, and values that change otherwise.
 
         Raises:
@@ -94,7 +94,7 @@ class Responses:
         now = self.present(label)
         low, *inside, high = (self.changed(label, {name: lower + (upper - lower) * k / 4}) for k in range(5))
         found: list[Follower] = []
-        other: list[Leaf] = []
+        other: list[LeafPath] = []
         rows = ((leaf, now[leaf], low[leaf], *(v[leaf] for v in inside), high[leaf]) for leaf in now)
         for leaf, present, first, a, b, c, last in (inner for row in rows for inner in _entries(*row)):
             if first == a == b == c == last:
@@ -109,7 +109,7 @@ class Responses:
         return found, other
 
 
-def _flat(part: Part, name: str, prefix: str = "") -> Iterator[tuple[Leaf, Any]]:
+def _flat(part: Part, name: str, prefix: str = "") -> Iterator[tuple[LeafPath, Any]]:
     """Yield the values of a part and of its nested parts, by their paths."""
     for p in parameters(type(part)):
         if not prefix and p.name in STRUCTURE:
@@ -117,7 +117,7 @@ def _flat(part: Part, name: str, prefix: str = "") -> Iterator[tuple[Leaf, Any]]
         yield from _inside(getattr(part, p.name), name, prefix + p.name)
 
 
-def _inside(value: Any, name: str, path: str) -> Iterator[tuple[Leaf, Any]]:
+def _inside(value: Any, name: str, path: str) -> Iterator[tuple[LeafPath, Any]]:
     if isinstance(value, Part):
         yield from _flat(value, name, f"{path}.")
     elif isinstance(value, tuple) and value and all(isinstance(v, Part) for v in cast(Any, value)):
@@ -127,7 +127,7 @@ def _inside(value: Any, name: str, path: str) -> Iterator[tuple[Leaf, Any]]:
         yield (name, path), value
 
 
-def _entries(leaf: Leaf, *values: Any) -> Iterator[tuple[Any, ...]]:
+def _entries(leaf: LeafPath, *values: Any) -> Iterator[tuple[Any, ...]]:
     """Yield values that belong together; tuples of one length entry by entry."""
     if all(isinstance(v, tuple) for v in values) and len({len(v) for v in values}) == 1:
         for k, inner in enumerate(zip(*values, strict=True)):
@@ -137,14 +137,14 @@ def _entries(leaf: Leaf, *values: Any) -> Iterator[tuple[Any, ...]]:
 
 
 def aligned(
-    present: Mapping[Leaf, Any], others: Sequence[Mapping[Leaf, Any]]
-) -> tuple[dict[Leaf, Any], list[dict[Leaf, Any]]]:
+    present: Mapping[LeafPath, Any], others: Sequence[Mapping[LeafPath, Any]]
+) -> tuple[dict[LeafPath, Any], list[dict[LeafPath, Any]]]:
     """Return values at present and several others by the same leaves: tuples of one length entry by entry.
 
     A value that one of the others lacks is the present one.
     """
-    now: dict[Leaf, Any] = {}
-    found: list[dict[Leaf, Any]] = [{} for _ in others]
+    now: dict[LeafPath, Any] = {}
+    found: list[dict[LeafPath, Any]] = [{} for _ in others]
     for leaf, value in present.items():
         for inner, first, *rest in _entries(leaf, value, *(o.get(leaf, value) for o in others)):
             now[inner] = first

@@ -26,7 +26,7 @@ AFTER = (500,)
 
 
 @dataclass(frozen=True)
-class Condition:
+class LearningRun:
     """A run of each seed.
 
     Attributes:
@@ -49,9 +49,9 @@ class Condition:
         return self.marks[-1]
 
 
-def tested(quick: bool) -> dict[str, Condition]:
+def tested(quick: bool) -> dict[str, LearningRun]:
     """Return the names of the conditions of all rows, each with the run that it belongs to."""
-    found: dict[str, Condition] = {}
+    found: dict[str, LearningRun] = {}
     for name, condition in conditions(quick).items():
         found |= {after(name, mark): condition for mark in condition.marks}
         if condition.changes:
@@ -70,17 +70,17 @@ def after(name: str, gazes: int, gain: float | None = None) -> str:
     return f"{name}/{gazes} gazes" if gain is None else f"{name}, gain x{gain:g}/{gazes} gazes"
 
 
-def conditions(quick: bool) -> dict[str, Condition]:
+def conditions(quick: bool) -> dict[str, LearningRun]:
     """Return the runs by name."""
     if quick:
         return {
-            "correcting": Condition("correcting", (500, 1000, 1500), FEW),
-            "paper": Condition("paper", (500, 1500), FEW),
-            "no reward": Condition("paper", (1000,), FEW, {"reward": False}),
+            "correcting": LearningRun("correcting", (500, 1000, 1500), FEW),
+            "paper": LearningRun("paper", (500, 1500), FEW),
+            "no reward": LearningRun("paper", (1000,), FEW, {"reward": False}),
         }
     return {
-        "correcting": Condition("correcting", (250, 500, 1000, 1500), changes=True),
-        "paper": Condition("paper", (500, 1000, 2000, 3000)),
-        "no reward": Condition("paper", (1000, 3000), HALF, {"reward": False}),
-        "no memory": Condition("paper", (1000, 3000), HALF, {"memory": False}),
+        "correcting": LearningRun("correcting", (250, 500, 1000, 1500), changes=True),
+        "paper": LearningRun("paper", (500, 1000, 2000, 3000)),
+        "no reward": LearningRun("paper", (1000, 3000), HALF, {"reward": False}),
+        "no memory": LearningRun("paper", (1000, 3000), HALF, {"memory": False}),
     }

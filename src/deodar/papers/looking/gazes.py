@@ -1,7 +1,7 @@
 """Gazes: a run of the architecture in front of the screen, and tests of its map by single gazes.
 
 The loop closes inside the compiled step, and nothing is reset in a run: the screen shows targets, and the
-architecture looks at them. A gaze ends when the node `satisfied` exceeds its threshold.
+architecture turns to them. A gaze ends when the node `satisfied` exceeds its threshold.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ STEP = 10.0
 """Euler step and period of the world, ms."""
 
 SLICE = 6000
-"""Steps between two looks at the number of gazes."""
+"""Steps between two counts of the gazes."""
 
 NEAR, CLOSE = 12.0, 6.0
 """Distances from the centre of the retina that the results count, pixels."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from deodar.architectures.looking import REACH, SAMPLES, shifts
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.papers.looking.conditions import AFTER, CHANGED, TESTS, Condition, after, conditions
+from deodar.papers.looking.conditions import AFTER, CHANGED, TESTS, LearningRun, after, conditions
 from deodar.papers.looking.gazes import STEP, Learned, learn, observed, summary, test
 from deodar.worlds.eye.eye import Eye
 
@@ -42,7 +42,8 @@ def run(condition: str, seed: int, quick: bool) -> Sequence[Row]:
     model = observed(what.mechanism, seed=seed, **what.settings)
     learned = learn(model, Eye(), seed, what.marks)
     out = [
-        _row(condition, seed, mark, None, learned.maps[mark], what.mechanism, learned=learned)
+        _row(after(condition, mark), seed, mark, _errors(what, learned.maps[mark], seed))
+        | _learned(learned, mark)
         for mark in what.marks
     ]
     out[-1] |= course(learned) | projections(learned.maps[what.last])
@@ -52,43 +53,43 @@ def run(condition: str, seed: int, quick: bool) -> Sequence[Row]:
     return out
 
 
-def _changed(condition: str, seed: int, gain: float, weights: np.ndarray, what: Condition) -> list[Row]:
-    """Change the gain of the camera, test the map at once, and go on learning."""
+def _changed(condition: str, seed: int, gain: float, weights: np.ndarray, what: LearningRun) -> list[Row]:
+    """Change the gain of the camera, test the map at once, and learn further."""
     changed = gain * Eye().optics.gain
     model = observed(what.mechanism, seed=seed, weights=weights)
     learned = learn(model, Eye(gain=changed), seed + 1000, AFTER)
     maps = {0: weights, **learned.maps}
     settings = {"gain": changed}
-    return [_row(condition, seed, mark, gain, maps[mark], what.mechanism, settings) for mark in (0, *AFTER)]
+    return [
+        _row(after(condition, mark, gain), seed, mark, _errors(what, maps[mark], seed, settings))
+        for mark in (0, *AFTER)
+    ]
 
 
-def _row(
-    condition: str,
-    seed: int,
-    mark: int,
-    gain: float | None,
-    weights: np.ndarray,
-    mechanism: str,
-    world: dict[str, Any] | None = None,
-    learned: Learned | None = None,
-) -> dict[str, Any]:
-    errors = test(mechanism, weights, seed, TESTS, world or {}, SAMPLES)
-    named = after(condition, mark, gain)
-    more: dict[str, Any] = {}
-    if learned is not None:
-        late = learned.arrivals[max(0, mark - 200) : mark]
-        more = {
-            "seconds": round(float(learned.ends[mark - 1]) * STEP / 1000, 2),
-            "arrivals": round(float(np.median(late)), 2),
-        }
+def _errors(
+    what: LearningRun, weights: np.ndarray, seed: int, world: Mapping[str, Any] | None = None
+) -> np.ndarray:
+    """Test a map, in a world with some settings."""
+    return test(what.mechanism, weights, seed, TESTS, world or {}, SAMPLES)
+
+
+def _row(condition: str, seed: int, mark: int, errors: np.ndarray) -> dict[str, Any]:
     return {
-        "key": f"{named}/{seed}",
-        "condition": named,
+        "key": f"{condition}/{seed}",
+        "condition": condition,
         "seed": seed,
         "gazes": mark,
         **summary(errors),
         "errors": [None if np.isnan(e) else round(float(e), 1) for e in errors],
-        **more,
+    }
+
+
+def _learned(learned: Learned, mark: int) -> dict[str, Any]:
+    """Return the simulated time of a number of gazes, and the median distance after the last 200 of them."""
+    late = learned.arrivals[max(0, mark - 200) : mark]
+    return {
+        "seconds": round(float(learned.ends[mark - 1]) * STEP / 1000, 2),
+        "arrivals": round(float(np.median(late)), 2),
     }
 
 
@@ -124,11 +125,11 @@ def projections(weights: np.ndarray) -> dict[str, Any]:
     }
 
 
-def _keys(name: str, seed: int, condition: Condition) -> tuple[str, ...]:
+def _keys(name: str, seed: int, condition: LearningRun) -> tuple[str, ...]:
     changed = [after(name, mark, gain) for gain in CHANGED for mark in (0, *AFTER)]
     own = [after(name, mark) for mark in condition.marks]
     return tuple(f"{test}/{seed}" for test in (*own, *(changed if condition.changes else [])))
 
 
-def _cost(condition: Condition) -> float:
+def _cost(condition: LearningRun) -> float:
     return COST * (condition.last + (len(CHANGED) * AFTER[-1] if condition.changes else 0))

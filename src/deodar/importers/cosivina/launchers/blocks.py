@@ -6,17 +6,17 @@ import dataclasses as dc
 from collections.abc import Mapping
 
 from deodar.errors import DocumentError
-from deodar.importers.cosivina.launchers.tokens import KEYWORDS, Statement, Token, statements
+from deodar.importers.cosivina.launchers.tokens import KEYWORDS, ScriptStatement, Token, statements
 from deodar.importers.cosivina.launchers.tree import (
     Attempt,
-    Body,
-    Choice,
     Jump,
-    Loop,
     Plain,
-    Repetition,
+    ScriptBody,
+    ScriptChoice,
     ScriptFunction,
-    Step,
+    ScriptLoop,
+    ScriptRepetition,
+    ScriptStep,
     Switch,
     Unread,
 )
@@ -31,7 +31,7 @@ Words = tuple[Token, ...]
 class Script:
     """The statements of a script, and the functions that it defines by name, in their order."""
 
-    body: Body
+    body: ScriptBody
     functions: Mapping[str, ScriptFunction]
 
 
@@ -47,14 +47,14 @@ def script(text: str) -> Script:
 class _Blocks:
     """The state of the reading of blocks."""
 
-    def __init__(self, found: list[Statement]) -> None:
+    def __init__(self, found: list[ScriptStatement]) -> None:
         self.found = found
         self.at = 0
         self.functions: dict[str, ScriptFunction] = {}
 
     def script(self) -> Script:
         """Return all blocks."""
-        body: list[Step] = []
+        body: list[ScriptStep] = []
         while self.at < len(self.found):
             body += self.body((), 0)
             if self.at < len(self.found):
@@ -72,13 +72,13 @@ class _Blocks:
         first = tokens[0] if tokens else None
         return first.value if first is not None and first.form == "name" and first.value in KEYWORDS else ""
 
-    def body(self, ends: tuple[str, ...], depth: int) -> list[Step]:
+    def body(self, ends: tuple[str, ...], depth: int) -> list[ScriptStep]:
         """Return the steps up to a keyword that ends the block, which is not taken."""
         if depth > DEEPEST:
             raise DocumentError(
                 f"has blocks nested deeper than {DEEPEST}, in line {self.found[self.at - 1].line}"
             )
-        steps: list[Step] = []
+        steps: list[ScriptStep] = []
         while self.at < len(self.found):
             here, word = self.found[self.at], self.word()
             if word in ends or word in ("end", "else", "elseif", "case", "otherwise", "catch", "function"):
@@ -92,14 +92,14 @@ class _Blocks:
                 steps.append(Plain(here.line, here.tokens))
         return steps
 
-    def block(self, word: str, here: Statement, depth: int) -> list[Step]:
+    def block(self, word: str, here: ScriptStatement, depth: int) -> list[ScriptStep]:
         """Return a block whose first statement was taken."""
         line, rest = here.line, here.tokens[1:]
         match word:
             case "for" | "parfor":
-                step: Step = Loop(line, rest, tuple(self.closed(depth)))
+                step: ScriptStep = ScriptLoop(line, rest, tuple(self.closed(depth)))
             case "while":
-                step = Repetition(line, rest, tuple(self.closed(depth)))
+                step = ScriptRepetition(line, rest, tuple(self.closed(depth)))
             case "if":
                 step = self.choice(line, rest, depth)
             case "switch":
@@ -121,7 +121,7 @@ class _Blocks:
                 return []  # global, persistent: names of variables
         return [step]
 
-    def closed(self, depth: int) -> list[Step]:
+    def closed(self, depth: int) -> list[ScriptStep]:
         """Return the steps of a block up to its `end`, which is taken."""
         body = self.body((), depth + 1)
         self.close()
@@ -135,21 +135,21 @@ class _Blocks:
         if self.at < len(self.found) and self.word() == "end":
             self.at += 1
 
-    def choice(self, line: int, head: Words, depth: int) -> Choice:
+    def choice(self, line: int, head: Words, depth: int) -> ScriptChoice:
         """Return an `if`, whose condition was taken."""
-        branches: list[tuple[Words, Body]] = [(head, tuple(self.body((), depth + 1)))]
+        branches: list[tuple[Words, ScriptBody]] = [(head, tuple(self.body((), depth + 1)))]
         while self.at < len(self.found) and self.word() in ("elseif", "else"):
             here = self.found[self.at]
             self.at += 1
             condition = here.tokens[1:] if here.tokens[0].value == "elseif" else ()
             branches.append((condition, tuple(self.body((), depth + 1))))
         self.close()
-        return Choice(line, tuple(branches))
+        return ScriptChoice(line, tuple(branches))
 
     def switch(self, line: int, subject: Words, depth: int) -> Switch:
         """Return a `switch`, whose subject was taken."""
         self.body((), depth + 1)
-        cases: list[tuple[Words, Body]] = []
+        cases: list[tuple[Words, ScriptBody]] = []
         while self.at < len(self.found) and self.word() in ("case", "otherwise"):
             here = self.found[self.at]
             self.at += 1

@@ -22,7 +22,7 @@ from deodar.importers.cosivina.launchers.objects import (
 )
 from deodar.importers.report import Line
 
-Arguments = Sequence[Any]
+ElementArguments = Sequence[Any]
 
 QUIET = frozenset(
     (
@@ -33,7 +33,7 @@ QUIET = frozenset(
 """Methods that run a simulator or draw its window, and change nothing of the model."""
 
 
-class Builder(Protocol):
+class ElementBuilder(Protocol):
     """What the methods need of the script."""
 
     line: int
@@ -48,7 +48,7 @@ class Builder(Protocol):
         ...
 
 
-def simulator(script: Builder, arguments: Arguments) -> BuiltSimulator:
+def simulator(script: ElementBuilder, arguments: ElementArguments) -> BuiltSimulator:
     """Return the simulator of a call `Simulator(name, value, ...)`."""
     built = BuiltSimulator()
     for name, value in zip(arguments[::2], arguments[1::2], strict=False):
@@ -64,7 +64,7 @@ def simulator(script: Builder, arguments: Arguments) -> BuiltSimulator:
     return built
 
 
-def window(script: Builder, arguments: Arguments) -> BuiltWindow:
+def window(script: ElementBuilder, arguments: ElementArguments) -> BuiltWindow:
     """Return the window of a call `StandardGUI(simulator, position, ...)`."""
     first = arguments[0] if arguments else None
     return BuiltWindow(first if isinstance(first, BuiltSimulator) else None)
@@ -81,7 +81,7 @@ def known(value: Any) -> Any:
     return value
 
 
-def argument(arguments: Arguments, k: int) -> Any:
+def argument(arguments: ElementArguments, k: int) -> Any:
     """Return an argument, or an empty list if there are fewer."""
     return known(arguments[k]) if k < len(arguments) else np.zeros((0, 0))
 
@@ -89,7 +89,7 @@ def argument(arguments: Arguments, k: int) -> Any:
 # ------------------------------------------------------------------------------------------------- simulators
 
 
-def add_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> None:
+def add_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
     """Add an element, with its inputs and its targets."""
     call = argument(arguments, 0)
     if not isinstance(call, ClassCall):
@@ -112,7 +112,7 @@ def add_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> N
             script.lines.append(Line(label, "connection", target, "dropped", why))
 
 
-def element(script: Builder, call: ClassCall, label: str) -> BuiltElement:
+def element(script: ElementBuilder, call: ClassCall, label: str) -> BuiltElement:
     """Return the element of a call of its class; an argument that is not known gets its default."""
     given: list[Any] = []
     names = list(CONSTRUCTORS.get(call.name, {"size": None}))
@@ -140,7 +140,7 @@ def output(kind: str) -> str:
 
 
 def sources(
-    script: Builder, sim: BuiltSimulator, arguments: Arguments, first: int, target: str
+    script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments, first: int, target: str
 ) -> list[tuple[str, str]]:
     """Return label and component of inputs, from the arguments with labels and with components."""
     labels = _labels(arguments, first)
@@ -162,11 +162,11 @@ def sources(
     return found
 
 
-def _labels(arguments: Arguments, k: int) -> list[str]:
+def _labels(arguments: ElementArguments, k: int) -> list[str]:
     return arrays.names_of(argument(arguments, k))
 
 
-def add_connection(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> None:
+def add_connection(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
     """Connect elements that exist."""
     target = arrays.string(argument(arguments, 2))
     if target not in sim.elements:
@@ -174,7 +174,7 @@ def add_connection(script: Builder, sim: BuiltSimulator, arguments: Arguments) -
     sim.elements[target].inputs += sources(script, sim, arguments, 0, target)
 
 
-def set_parameters(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> None:
+def set_parameters(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
     """Change parameters of elements."""
     labels, names = _labels(arguments, 0), _labels(arguments, 1)
     values = argument(arguments, 2)
@@ -193,7 +193,7 @@ def set_parameters(script: Builder, sim: BuiltSimulator, arguments: Arguments) -
             set_parameter(script, sim.elements[label], name, known(value))
 
 
-def set_parameter(script: Builder, built: BuiltElement, name: str, value: Any) -> None:
+def set_parameter(script: ElementBuilder, built: BuiltElement, name: str, value: Any) -> None:
     """Change one parameter of an element."""
     if built.kind in CONSTRUCTORS and name not in built.values:
         script.say(f"{built.label!r} is a {built.kind} without a parameter {name!r}")
@@ -201,13 +201,13 @@ def set_parameter(script: Builder, built: BuiltElement, name: str, value: Any) -
         built.values[name] = value
 
 
-def load_settings(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> Any:
+def load_settings(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Take over the parameters of a file; return that it was read."""
     load(script, sim, arrays.string(argument(arguments, 0)))
     return arrays.flag(True)
 
 
-def load(script: Builder, sim: BuiltSimulator, name: str) -> None:
+def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
     """Take over a file: all of it if the simulator has no elements, else the parameters of its elements."""
     found = script.file(name)
     sim.step, sim.start = found.step, found.start
@@ -230,7 +230,7 @@ def load(script: Builder, sim: BuiltSimulator, name: str) -> None:
             script.lines.append(Line(label, "preset", name, "dropped", why))
 
 
-def get_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> Any:
+def get_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Return an element."""
     label = arrays.string(argument(arguments, 0))
     if label not in sim.elements:
@@ -238,7 +238,7 @@ def get_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> A
     return sim.elements[label]
 
 
-def get_parameter(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> Any:
+def get_parameter(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Return the value of a parameter."""
     built, name = get_element(script, sim, arguments), arrays.string(argument(arguments, 1))
     return value_of(built, name)
@@ -256,7 +256,7 @@ def value_of(built: BuiltElement, name: str) -> Any:
     return arrays.text(value) if isinstance(value, str) else np.atleast_2d(np.asarray(value, dtype=float))
 
 
-def is_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> Any:
+def is_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Return whether an element has a label."""
     return arrays.flag(arrays.string(argument(arguments, 0)) in sim.elements)
 
@@ -264,31 +264,31 @@ def is_element(script: Builder, sim: BuiltSimulator, arguments: Arguments) -> An
 # ---------------------------------------------------------------------------------------------------- windows
 
 
-def add_control(script: Builder, gui: BuiltWindow, arguments: Arguments) -> None:
+def add_control(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
     """Add a control."""
     gui.controls.append(_call(arguments, "a control"))
 
 
-def add_plot(script: Builder, gui: BuiltWindow, arguments: Arguments) -> None:
+def add_plot(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
     """Add a plot."""
     gui.plots.append(_call(arguments, "a visualization"))
 
 
-def connect(script: Builder, gui: BuiltWindow, arguments: Arguments) -> None:
+def connect(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
     """Connect a window with a simulator."""
     found = argument(arguments, 0)
     if isinstance(found, BuiltSimulator):
         gui.simulator = found
 
 
-def _call(arguments: Arguments, what: str) -> ClassCall:
+def _call(arguments: ElementArguments, what: str) -> ClassCall:
     call = argument(arguments, 0)
     if not isinstance(call, ClassCall):
         raise NotRead(f"{what} is expected, not {arrays.described(call)}")
     return call
 
 
-SIMULATOR_METHODS: Mapping[str, Callable[[Builder, BuiltSimulator, Arguments], Any]] = {
+SIMULATOR_METHODS: Mapping[str, Callable[[ElementBuilder, BuiltSimulator, ElementArguments], Any]] = {
     "addElement": add_element,
     "addConnection": add_connection,
     "setElementParameters": set_parameters,
@@ -298,7 +298,7 @@ SIMULATOR_METHODS: Mapping[str, Callable[[Builder, BuiltSimulator, Arguments], A
     "getElementParameter": get_parameter,
     "isElement": is_element,
 }
-WINDOW_METHODS: Mapping[str, Callable[[Builder, BuiltWindow, Arguments], Any]] = {
+WINDOW_METHODS: Mapping[str, Callable[[ElementBuilder, BuiltWindow, ElementArguments], Any]] = {
     "addControl": add_control,
     "addVisualization": add_plot,
     "connect": connect,

@@ -24,7 +24,7 @@ from deodar.importers.cosivina.launchers.functions import shown
 from deodar.importers.cosivina.launchers.objects import ClassCall, MissingValue
 from deodar.importers.cosivina.plots import PlotRequest
 
-Arguments = Sequence[Any]
+ControlArguments = Sequence[Any]
 
 
 def control_of(call: ClassCall) -> Control:
@@ -53,14 +53,14 @@ def _is_line(value: np.ndarray) -> bool:
     return arrays.is_text(value) and value.shape[0] == 1
 
 
-def _targets(arguments: Arguments) -> Targets:
+def _targets(arguments: ControlArguments) -> Targets:
     labels, names = (arrays.names_of(argument(arguments, k)) for k in (1, 2))
     if not labels or len(labels) != len(names):
         raise NotRead(f"{len(labels)} labels and {len(names)} parameters do not fit together")
     return tuple(zip(labels, names, strict=True))
 
 
-def _slider(label: str, arguments: Arguments) -> Control:
+def _slider(label: str, arguments: ControlArguments) -> Control:
     ends = arrays.numbers(argument(arguments, 3)).reshape(-1)
     if ends.size != 2:
         raise NotRead(f"its range has {ends.size} numbers")
@@ -74,7 +74,7 @@ def _slider(label: str, arguments: Arguments) -> Control:
     )
 
 
-def _switch(label: str, arguments: Arguments) -> Control:
+def _switch(label: str, arguments: ControlArguments) -> Control:
     targets = _targets(arguments)
     off, on = (_values(argument(arguments, k), len(targets)) for k in (3, 4))
     return SwitchControl(label, targets, off, on)
@@ -98,7 +98,7 @@ def _value(cell: Any) -> Any:
     return float(found.reshape(-1)[0]) if found.size == 1 else found.tolist()
 
 
-def _dropdown(label: str, arguments: Arguments) -> Control:
+def _dropdown(label: str, arguments: ControlArguments) -> Control:
     targets = _targets(arguments)
     given = argument(arguments, 3)
     each = list(given.reshape(-1, order="F")) if arrays.is_cells(given) else [given]
@@ -126,7 +126,7 @@ def _shown(value: Any) -> str:
     return shown(value) if isinstance(value, float) else str(value)
 
 
-def _files(label: str, arguments: Arguments) -> Control:
+def _files(label: str, arguments: ControlArguments) -> Control:
     folder, files, labels = (argument(arguments, k) for k in (2, 3, 4))
     names = arrays.names_of(files)
     choices = arrays.names_of(labels) if labels.size else names
@@ -137,11 +137,11 @@ def _files(label: str, arguments: Arguments) -> Control:
     return FilesControl(label, tuple(choices), tuple(paths))
 
 
-def _button(label: str, arguments: Arguments) -> Control:
+def _button(label: str, arguments: ControlArguments) -> Control:
     return ButtonControl(label, arrays.string(argument(arguments, 2)))
 
 
-CONTROLS: Mapping[str, Callable[[str, Arguments], Control]] = {
+CONTROLS: Mapping[str, Callable[[str, ControlArguments], Control]] = {
     "ParameterSlider": _slider,
     "ParameterSwitchButton": _switch,
     "ParameterDropdownSelector": _dropdown,

@@ -18,9 +18,9 @@ from deodar.importers.cosivina.launchers.tree import (
     ListNode,
     MemberNode,
     NameNode,
-    Node,
     NumberNode,
     RangeNode,
+    ScriptNode,
     TextNode,
     UnaryNode,
     WholeNode,
@@ -94,7 +94,7 @@ class Evaluator:
         self.budget = budget
         self.ends: list[tuple[np.ndarray, int, int]] = []
 
-    def value(self, node: Node) -> Any:
+    def value(self, node: ScriptNode) -> Any:
         """Return the value of an expression.
 
         Raises:
@@ -112,14 +112,14 @@ class Evaluator:
             raise NotRead(found.why)
         return self.budget.made(found)
 
-    def tolerant(self, node: Node) -> Any:
+    def tolerant(self, node: ScriptNode) -> Any:
         """Return the value of an expression, or why it has none as a `MissingValue`."""
         try:
             return self.value(node)
         except NotRead as error:
             return MissingValue(str(error))
 
-    def _value(self, node: Node) -> Any:
+    def _value(self, node: ScriptNode) -> Any:
         match node:
             case NumberNode(value):
                 return arrays.number(value)
@@ -172,7 +172,7 @@ class Evaluator:
         numbers = arrays.numbers(value)
         return -numbers if operator == "-" else numbers == 0 if operator == "~" else numbers
 
-    def _binary(self, operator: str, left: Node, right: Node) -> Any:
+    def _binary(self, operator: str, left: ScriptNode, right: ScriptNode) -> Any:
         first = self.value(left)
         if operator in ("&&", "||"):
             if arrays.is_true(first) != (operator == "&&"):
@@ -191,7 +191,7 @@ class Evaluator:
         arrays.require_size(math.prod(np.broadcast_shapes(one.shape, other.shape)))
         return OPERATORS[operator](one, other)
 
-    def _list(self, cells: bool, rows: Sequence[Sequence[Node]]) -> Any:
+    def _list(self, cells: bool, rows: Sequence[Sequence[ScriptNode]]) -> Any:
         if not cells:
             return arrays.joined([[self.value(entry) for entry in row] for row in rows])
         found = [[self.tolerant(entry) for entry in row] for row in rows]
@@ -229,7 +229,7 @@ class Evaluator:
             raise NotRead("braces are the index of one cell")
         return found.reshape(-1)[0]
 
-    def indices(self, value: np.ndarray, nodes: Sequence[Node]) -> list[Any]:
+    def indices(self, value: np.ndarray, nodes: Sequence[ScriptNode]) -> list[Any]:
         """Return indices of an array, in which `end` is its last entry."""
         out: list[Any] = []
         for place, node in enumerate(nodes):
@@ -240,7 +240,7 @@ class Evaluator:
                 self.ends.pop()
         return out
 
-    def arguments(self, nodes: Sequence[Node]) -> list[Any]:
+    def arguments(self, nodes: Sequence[ScriptNode]) -> list[Any]:
         """Return arguments; one that is not read is a `MissingValue`. `c{:}` gives all cells."""
         out: list[Any] = []
         for node in nodes:

@@ -9,9 +9,9 @@ from deodar.importers.cosivina.launchers.tree import (
     ListNode,
     MemberNode,
     NameNode,
-    Node,
     NumberNode,
     RangeNode,
+    ScriptNode,
     TextNode,
     UnaryNode,
     WholeNode,
@@ -39,7 +39,7 @@ class NotRead(ValueError):
     """Raised for an expression or a statement that is not read; the message is the reason."""
 
 
-def expression(tokens: tuple[Token, ...]) -> Node:
+def expression(tokens: tuple[Token, ...]) -> ScriptNode:
     """Return the expression that the words are.
 
     Raises:
@@ -98,7 +98,7 @@ class _ExpressionParser:
 
     # -------------------------------------------------------------------------------------------- expressions
 
-    def binary(self, least: int) -> Node:
+    def binary(self, least: int) -> ScriptNode:
         """Return an expression whose operators bind at least this strongly."""
         left = self.unary()
         while (token := self.peek()) is not None and token.form == "operator":
@@ -117,7 +117,7 @@ class _ExpressionParser:
         """Return whether a sign begins the next entry of a list: `[1 -2]`."""
         return self.listing[-1] and token.value in ("+", "-") and token.apart and token.leans
 
-    def range(self, first: Node) -> Node:
+    def range(self, first: ScriptNode) -> ScriptNode:
         """Return a range, whose first colon is next."""
         self.count()
         self.at += 1
@@ -127,7 +127,7 @@ class _ExpressionParser:
             return RangeNode(first, second, self.binary(RANGE + 1))
         return RangeNode(first, None, second)
 
-    def unary(self) -> Node:
+    def unary(self) -> ScriptNode:
         token = self.peek()
         if token is not None and token.form == "operator" and token.value in ("-", "+", "~", "!"):
             self.count()
@@ -135,7 +135,7 @@ class _ExpressionParser:
             return UnaryNode("~" if token.value == "!" else token.value, self.binary(SIGN))
         return self.postfix()
 
-    def postfix(self) -> Node:
+    def postfix(self) -> ScriptNode:
         """Return an operand with its indices, members and transpositions."""
         node = self.primary()
         while (token := self.peek()) is not None and token.form == "operator":
@@ -160,12 +160,12 @@ class _ExpressionParser:
                 break
         return node
 
-    def arguments(self, opening: str) -> tuple[Node, ...]:
+    def arguments(self, opening: str) -> tuple[ScriptNode, ...]:
         """Return what is in parentheses or braces behind an operand."""
         closing = ")" if opening == "(" else "}"
         self.expect(opening)
         self.enter(False)
-        found: list[Node] = []
+        found: list[ScriptNode] = []
         while not self.sees(closing):
             if found:
                 self.expect(",")
@@ -179,7 +179,7 @@ class _ExpressionParser:
         self.leave()
         return tuple(found)
 
-    def primary(self) -> Node:
+    def primary(self) -> ScriptNode:
         token = self.peek()
         if token is None:
             raise NotRead("it is not complete")
@@ -202,12 +202,12 @@ class _ExpressionParser:
             raise NotRead("functions without a name are not read")
         raise NotRead(f"{token.value!r} is not expected there")
 
-    def list(self, cells: bool) -> Node:
+    def list(self, cells: bool) -> ScriptNode:
         """Return a matrix or a cell array, whose opening bracket was taken."""
         closing = "}" if cells else "]"
         self.enter(True)
-        rows: list[tuple[Node, ...]] = []
-        row: list[Node] = []
+        rows: list[tuple[ScriptNode, ...]] = []
+        row: list[ScriptNode] = []
         while not self.sees(closing):
             token = self.peek()
             if token is None:

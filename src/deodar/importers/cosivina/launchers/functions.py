@@ -29,7 +29,7 @@ from deodar.importers.cosivina.launchers.arrays import (
 )
 from deodar.importers.cosivina.launchers.expressions import NotRead
 
-Arguments = Sequence[Any]
+FunctionArguments = Sequence[Any]
 
 RANDOM = frozenset(("rand", "randn", "randi", "randperm", "now", "clock", "tic", "toc", "datestr", "input"))
 """Functions whose result differs from run to run."""
@@ -37,7 +37,7 @@ RANDOM = frozenset(("rand", "randn", "randi", "randperm", "now", "clock", "tic",
 FORMAT = re.compile(r"%(?:%|([-+ 0#]*)(\d{1,3})?(?:\.(\d{1,2}))?([diufeEgGscxX]))")
 
 
-def _sized(arguments: Arguments, value: float) -> np.ndarray:
+def _sized(arguments: FunctionArguments, value: float) -> np.ndarray:
     """Return an array of one number, of a size in one argument or in several."""
     given = [a for a in arguments if not is_text(a)]
     size = [int(v) for v in numbers(given[0]).reshape(-1)] if len(given) == 1 else [whole(a) for a in given]
@@ -49,10 +49,10 @@ def _sized(arguments: Arguments, value: float) -> np.ndarray:
     return np.full(size, value)
 
 
-def _each(function: Callable[[np.ndarray], Any]) -> Callable[[Arguments], Any]:
+def _each(function: Callable[[np.ndarray], Any]) -> Callable[[FunctionArguments], Any]:
     """Return a function of every number."""
 
-    def apply(arguments: Arguments) -> Any:
+    def apply(arguments: FunctionArguments) -> Any:
         (value,) = arguments
         return np.asarray(function(numbers(value)), dtype=float)
 
@@ -63,15 +63,15 @@ def _rounded(value: np.ndarray) -> np.ndarray:
     return np.sign(value) * np.floor(np.abs(value) + 0.5)
 
 
-def _round(arguments: Arguments) -> Any:
+def _round(arguments: FunctionArguments) -> Any:
     digits = whole(arguments[1], -30, 30) if len(arguments) > 1 else 0
     return _rounded(numbers(arguments[0]) * 10.0**digits) / 10.0**digits
 
 
-def _along(function: Callable[..., Any]) -> Callable[[Arguments], Any]:
+def _along(function: Callable[..., Any]) -> Callable[[FunctionArguments], Any]:
     """Return a function along a dimension: the first one that is longer than one."""
 
-    def apply(arguments: Arguments) -> Any:
+    def apply(arguments: FunctionArguments) -> Any:
         value = numbers(arguments[0])
         d = _dimension(value, arguments[1] if len(arguments) > 1 else None)
         return np.asarray(function(value, axis=d, keepdims=True), dtype=float) if d < value.ndim else value
@@ -85,11 +85,11 @@ def _dimension(value: np.ndarray, given: Any) -> int:
     return next((d for d, n in enumerate(value.shape) if n != 1), 0)
 
 
-def _extreme(function: Callable[..., Any], pair: Callable[..., Any]) -> Callable[[Arguments], Any]:
+def _extreme(function: Callable[..., Any], pair: Callable[..., Any]) -> Callable[[FunctionArguments], Any]:
     """Return the largest or smallest of an array, or of two arrays."""
     single = _along(function)
 
-    def apply(arguments: Arguments) -> Any:
+    def apply(arguments: FunctionArguments) -> Any:
         if len(arguments) == 2:
             return np.asarray(pair(numbers(arguments[0]), numbers(arguments[1])))
         return single([arguments[0], *arguments[2:]])
@@ -97,10 +97,10 @@ def _extreme(function: Callable[..., Any], pair: Callable[..., Any]) -> Callable
     return apply
 
 
-def _two(function: Callable[..., Any]) -> Callable[[Arguments], Any]:
+def _two(function: Callable[..., Any]) -> Callable[[FunctionArguments], Any]:
     """Return a function of two arrays, number by number."""
 
-    def apply(arguments: Arguments) -> Any:
+    def apply(arguments: FunctionArguments) -> Any:
         first, second = arguments
         return np.asarray(function(numbers(first), numbers(second)), dtype=float)
 
@@ -111,7 +111,7 @@ def _mod(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return np.where(second == 0, first, np.mod(first, np.where(second == 0, 1, second)))
 
 
-def _size(arguments: Arguments) -> Any:
+def _size(arguments: FunctionArguments) -> Any:
     shape = arguments[0].shape if isinstance(arguments[0], np.ndarray) else (1, 1)
     if len(arguments) > 1:
         d = whole(arguments[1], 1, 20) - 1
@@ -119,18 +119,18 @@ def _size(arguments: Arguments) -> Any:
     return np.array([shape], dtype=float)
 
 
-def _length(arguments: Arguments) -> Any:
+def _length(arguments: FunctionArguments) -> Any:
     (value,) = arguments
     size = value.shape if isinstance(value, np.ndarray) else (1, 1)
     return number(max(size) if min(size) else 0)
 
 
-def _numel(arguments: Arguments) -> Any:
+def _numel(arguments: FunctionArguments) -> Any:
     (value,) = arguments
     return number(value.size if isinstance(value, np.ndarray) else 1)
 
 
-def _repmat(arguments: Arguments) -> Any:
+def _repmat(arguments: FunctionArguments) -> Any:
     value = arguments[0]
     if not isinstance(value, np.ndarray):
         raise NotRead("objects are not repeated")
@@ -140,29 +140,29 @@ def _repmat(arguments: Arguments) -> Any:
     return np.tile(value, counts if len(counts) >= value.ndim else (*counts, 1))
 
 
-def _linspace(arguments: Arguments) -> Any:
+def _linspace(arguments: FunctionArguments) -> Any:
     count = whole(arguments[2], 0) if len(arguments) > 2 else 100
     require_size(count)
     return np.linspace(real(arguments[0]), real(arguments[1]), count).reshape(1, -1)
 
 
-def _colon(arguments: Arguments) -> Any:
+def _colon(arguments: FunctionArguments) -> Any:
     first, *step, last = (real(a) for a in arguments)
     return counted(first, step[0] if step else 1.0, last)
 
 
-def _reshape(arguments: Arguments) -> Any:
+def _reshape(arguments: FunctionArguments) -> Any:
     value = arguments[0]
     given = [[-1.0] if a.size == 0 else numbers(a).reshape(-1).tolist() for a in arguments[1:]]
     return value.reshape([int(v) for size in given for v in size], order="F")
 
 
-def _eye(arguments: Arguments) -> Any:
+def _eye(arguments: FunctionArguments) -> Any:
     size = _sized(arguments, 0.0)
     return np.eye(*size.shape[:2])
 
 
-def _diag(arguments: Arguments) -> Any:
+def _diag(arguments: FunctionArguments) -> Any:
     value = numbers(arguments[0])
     if min(value.shape) != 1:
         return np.diag(value).reshape(-1, 1)
@@ -170,45 +170,45 @@ def _diag(arguments: Arguments) -> Any:
     return np.diag(value.reshape(-1))
 
 
-def _norm(arguments: Arguments) -> Any:
+def _norm(arguments: FunctionArguments) -> Any:
     return number(float(np.linalg.norm(numbers(arguments[0]))))
 
 
-def _gauss(arguments: Arguments) -> Any:
+def _gauss(arguments: FunctionArguments) -> Any:
     positions, center, sigma = numbers(arguments[0]), real(arguments[1]), real(arguments[2])
     if sigma == 0:
         return (positions == center).astype(float)
     return np.exp(-0.5 * ((positions - center) / sigma) ** 2)
 
 
-def _find(arguments: Arguments) -> Any:
+def _find(arguments: FunctionArguments) -> Any:
     value = numbers(arguments[0])
     found = np.flatnonzero(value.reshape(-1, order="F")) + 1.0
     found = found[: whole(arguments[1], 0)] if len(arguments) > 1 else found
     return found.reshape((1, -1) if value.shape[0] == 1 else (-1, 1))
 
 
-def _sort(arguments: Arguments) -> Any:
+def _sort(arguments: FunctionArguments) -> Any:
     value = numbers(arguments[0])
     ordered = np.sort(value, axis=_dimension(value, None))
     falling = len(arguments) > 1 and is_text(arguments[-1]) and string(arguments[-1]).lower() == "descend"
     return np.flip(ordered, axis=_dimension(value, None)) if falling else ordered
 
 
-def _unique(arguments: Arguments) -> Any:
+def _unique(arguments: FunctionArguments) -> Any:
     found = np.unique(numbers(arguments[0]))
     return found.reshape((1, -1) if arguments[0].shape[0] == 1 else (-1, 1))
 
 
-def _any(arguments: Arguments) -> Any:
+def _any(arguments: FunctionArguments) -> Any:
     return flag(bool((numbers(arguments[0]) != 0).any()))
 
 
-def _all(arguments: Arguments) -> Any:
+def _all(arguments: FunctionArguments) -> Any:
     return flag(bool((numbers(arguments[0]) != 0).all()))
 
 
-def _strcmp(arguments: Arguments, fold: bool = False) -> Any:
+def _strcmp(arguments: FunctionArguments, fold: bool = False) -> Any:
     first, second = arguments
 
     def same(a: Any, b: Any) -> bool:
@@ -224,7 +224,7 @@ def _strcmp(arguments: Arguments, fold: bool = False) -> Any:
     return flag(same(first, second))
 
 
-def _strncmp(arguments: Arguments, fold: bool = False) -> Any:
+def _strncmp(arguments: FunctionArguments, fold: bool = False) -> Any:
     first, second, count = arguments[0], arguments[1], whole(arguments[2], 0)
 
     def cut(value: Any) -> Any:
@@ -238,7 +238,7 @@ def _strncmp(arguments: Arguments, fold: bool = False) -> Any:
     return _strcmp((cut(first), cut(second)), fold)
 
 
-def _strfind(arguments: Arguments) -> Any:
+def _strfind(arguments: FunctionArguments) -> Any:
     inside, wanted = string(arguments[0]), string(arguments[1])
     found = [k + 1.0 for k in range(len(inside)) if wanted and inside.startswith(wanted, k)]
     return np.array([found]) if found else np.zeros((0, 0))
@@ -257,7 +257,7 @@ def shown(value: float) -> str:
     return f"{value:.{min(digits, 16)}g}"
 
 
-def _num2str(arguments: Arguments) -> Any:
+def _num2str(arguments: FunctionArguments) -> Any:
     value = arguments[0]
     if is_text(value):
         return value
@@ -274,7 +274,7 @@ def _num2str(arguments: Arguments) -> Any:
     return np.array([list(line.rjust(width)) for line in lines], dtype="<U1").reshape(len(lines), width)
 
 
-def formatted(pattern: str, values: Arguments) -> str:
+def formatted(pattern: str, values: FunctionArguments) -> str:
     """Return a text with values in the places of a pattern, which is used again until all are used."""
     given: list[float | str] = []
     for value in values:
@@ -319,11 +319,11 @@ def _filled(value: float | str, flags: str, width: str, digits: str | None, kind
     return f"%{flags}{width}{'' if digits is None else '.' + digits}{kind}" % value
 
 
-def _sprintf(arguments: Arguments) -> Any:
+def _sprintf(arguments: FunctionArguments) -> Any:
     return text(formatted(string(arguments[0]), arguments[1:]))
 
 
-def _strcat(arguments: Arguments) -> Any:
+def _strcat(arguments: FunctionArguments) -> Any:
     if any(is_cells(a) for a in arguments):
         count = max(a.size for a in arguments if is_cells(a))
         parts = [strings(a) if is_cells(a) else [string(a)] * count for a in arguments]
@@ -331,12 +331,12 @@ def _strcat(arguments: Arguments) -> Any:
     return text("".join(string(a).rstrip() for a in arguments))
 
 
-def _cellstr(arguments: Arguments) -> Any:
+def _cellstr(arguments: FunctionArguments) -> Any:
     (value,) = arguments
     return value if is_cells(value) else cells([text(row) for row in strings(value)], column=True)
 
 
-def _num2cell(arguments: Arguments) -> Any:
+def _num2cell(arguments: FunctionArguments) -> Any:
     value = arguments[0]
     found = np.empty(value.size, dtype=object)
     for k, entry in enumerate(value.reshape(-1)):
@@ -344,7 +344,7 @@ def _num2cell(arguments: Arguments) -> Any:
     return found.reshape(value.shape)
 
 
-def _cell(arguments: Arguments) -> Any:
+def _cell(arguments: FunctionArguments) -> Any:
     size = _sized(arguments, 0.0).shape
     found = np.empty(size, dtype=object)
     for k in np.ndindex(size):
@@ -352,14 +352,14 @@ def _cell(arguments: Arguments) -> Any:
     return found
 
 
-def _cell2mat(arguments: Arguments) -> Any:
+def _cell2mat(arguments: FunctionArguments) -> Any:
     return joined([list(row) for row in arguments[0]])
 
 
-def _string(function: Callable[[str], str]) -> Callable[[Arguments], Any]:
+def _string(function: Callable[[str], str]) -> Callable[[FunctionArguments], Any]:
     """Return a function of a text, or of each of a cell array."""
 
-    def apply(arguments: Arguments) -> Any:
+    def apply(arguments: FunctionArguments) -> Any:
         (value,) = arguments
         if is_cells(value):
             found = cells([text(function(s)) for s in strings(value)])
@@ -369,7 +369,7 @@ def _string(function: Callable[[str], str]) -> Callable[[Arguments], Any]:
     return apply
 
 
-def _strrep(arguments: Arguments) -> Any:
+def _strrep(arguments: FunctionArguments) -> Any:
     whole_text, old, new = (string(a) for a in arguments)
     if not old:
         return text(whole_text)
@@ -377,34 +377,34 @@ def _strrep(arguments: Arguments) -> Any:
     return text(whole_text.replace(old, new))
 
 
-def _fullfile(arguments: Arguments) -> Any:
+def _fullfile(arguments: FunctionArguments) -> Any:
     return text("/".join(part.rstrip("/") for a in arguments if (part := string(a))))
 
 
-def _str2double(arguments: Arguments) -> Any:
+def _str2double(arguments: FunctionArguments) -> Any:
     try:
         return number(float(string(arguments[0])))
     except ValueError:
         return number(math.nan)
 
 
-def _strjoin(arguments: Arguments) -> Any:
+def _strjoin(arguments: FunctionArguments) -> Any:
     return text((string(arguments[1]) if len(arguments) > 1 else " ").join(strings(arguments[0])))
 
 
-def _transposed(arguments: Arguments) -> Any:
+def _transposed(arguments: FunctionArguments) -> Any:
     return arguments[0].T
 
 
-def _concatenated(arguments: Arguments, column: bool) -> Any:
+def _concatenated(arguments: FunctionArguments, column: bool) -> Any:
     return joined([[a] for a in arguments] if column else [list(arguments)])
 
 
-def _double(arguments: Arguments) -> Any:
+def _double(arguments: FunctionArguments) -> Any:
     return numbers(arguments[0])
 
 
-def _char(arguments: Arguments) -> Any:
+def _char(arguments: FunctionArguments) -> Any:
     (value,) = arguments
     if is_text(value):
         return value
@@ -415,35 +415,35 @@ def _char(arguments: Arguments) -> Any:
     return joined([[text(" ")[:, :0], value]])
 
 
-def _cumulative(arguments: Arguments) -> Any:
+def _cumulative(arguments: FunctionArguments) -> Any:
     value = numbers(arguments[0])
     return np.cumsum(value, axis=_dimension(value, None))
 
 
-def _difference(arguments: Arguments) -> Any:
+def _difference(arguments: FunctionArguments) -> Any:
     value = numbers(arguments[0])
     return np.diff(value, axis=_dimension(value, None))
 
 
-def _flipped(arguments: Arguments, axis: int) -> Any:
+def _flipped(arguments: FunctionArguments, axis: int) -> Any:
     return np.flip(arguments[0], axis=axis)
 
 
-def _member(arguments: Arguments) -> Any:
+def _member(arguments: FunctionArguments) -> Any:
     value, among = arguments
     if is_text(value) and is_cells(among):
         return flag(string(value) in strings(among))
     return np.isin(numbers(value), numbers(among))
 
 
-def _strsplit(arguments: Arguments) -> Any:
+def _strsplit(arguments: FunctionArguments) -> Any:
     by = string(arguments[1]) if len(arguments) > 1 else " "
     if not by:
         raise NotRead("a text is split at nothing")
     return cells([text(part) for part in string(arguments[0]).split(by)])
 
 
-FUNCTIONS: Mapping[str, Callable[[Arguments], Any]] = {
+FUNCTIONS: Mapping[str, Callable[[FunctionArguments], Any]] = {
     **{"round": _round, "floor": _each(np.floor), "ceil": _each(np.ceil), "fix": _each(np.trunc)},
     **{"abs": _each(np.abs), "sqrt": _each(np.sqrt), "exp": _each(np.exp), "sign": _each(np.sign)},
     **{"log": _each(np.log), "log2": _each(np.log2), "log10": _each(np.log10), "sin": _each(np.sin)},

@@ -15,7 +15,7 @@ from deodar.importers.cosivina import file
 from deodar.importers.cosivina.launchers.controls import control_of, plot_of
 from deodar.importers.cosivina.launchers.objects import BuiltSimulator, BuiltWindow
 from deodar.importers.cosivina.launchers.running import ScriptReader, decoded
-from deodar.importers.cosivina.panel import Panel
+from deodar.importers.cosivina.panel import LauncherPanel
 from deodar.importers.cosivina.plots import with_plots
 from deodar.importers.cosivina.translate import Translation, translated
 from deodar.importers.imported import Imported
@@ -77,7 +77,7 @@ def read_launcher(content: bytes, name: str, bugs: bool = False, beside: Beside 
         return reader.file(path)
 
     def finish(translation: Translation, doc: Document) -> tuple[Document, list[Line]]:
-        doc, lines = Panel(translation, controls, files).finish(doc)
+        doc, lines = LauncherPanel(translation, controls, files).finish(doc)
         doc, shown = with_plots(doc, translation, plots)
         return doc, [*reader.lines, *lines, *shown]
 

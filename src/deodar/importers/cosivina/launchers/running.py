@@ -27,18 +27,18 @@ from deodar.importers.cosivina.launchers.objects import (
 from deodar.importers.cosivina.launchers.tokens import Token
 from deodar.importers.cosivina.launchers.tree import (
     Attempt,
-    Body,
-    Choice,
     IndexNode,
     Jump,
-    Loop,
     MemberNode,
     NameNode,
-    Node,
     Plain,
-    Repetition,
+    ScriptBody,
+    ScriptChoice,
     ScriptFunction,
-    Step,
+    ScriptLoop,
+    ScriptNode,
+    ScriptRepetition,
+    ScriptStep,
     Switch,
     Unread,
 )
@@ -127,7 +127,7 @@ class ScriptReader:
 
     # --------------------------------------------------------------------------------------------- statements
 
-    def _body(self, body: Body, scope: dict[str, Any]) -> None:
+    def _body(self, body: ScriptBody, scope: dict[str, Any]) -> None:
         for step in body:
             self._budget.step()
             self.line = step.line
@@ -136,15 +136,15 @@ class ScriptReader:
             except NotRead as error:
                 self.say(str(error))
 
-    def _step(self, step: Step, scope: dict[str, Any]) -> None:
+    def _step(self, step: ScriptStep, scope: dict[str, Any]) -> None:
         match step:
             case Plain():
                 self._plain(step.tokens, scope)
-            case Loop():
+            case ScriptLoop():
                 self._loop(step, scope)
-            case Repetition():
+            case ScriptRepetition():
                 self._repeat(step, scope)
-            case Choice():
+            case ScriptChoice():
                 self._choose(step, scope)
             case Switch():
                 self._switch(step, scope)
@@ -174,7 +174,7 @@ class ScriptReader:
     def _evaluator(self, scope: dict[str, Any]) -> Evaluator:
         return Evaluator(scope, self, self._budget)
 
-    def _is_script(self, node: Node, scope: dict[str, Any]) -> bool:
+    def _is_script(self, node: ScriptNode, scope: dict[str, Any]) -> bool:
         """Read the script of a file beside this one, if the statement is its name."""
         name = _called(node)
         if not name or name in scope or name in FUNCTIONS or isinstance(node, MemberNode):
@@ -263,7 +263,7 @@ class ScriptReader:
                 return self._call_function(function, self._evaluator(scope).arguments(node.arguments))
         raise NotRead("a function with several results is not read")
 
-    def _put(self, target: Node, value: Any, scope: dict[str, Any]) -> None:
+    def _put(self, target: ScriptNode, value: Any, scope: dict[str, Any]) -> None:
         """Give a value to a variable, an entry of an array, a field of a structure or a property."""
         if isinstance(target, NameNode):
             scope[target.name] = value
@@ -297,7 +297,7 @@ class ScriptReader:
             return
         raise NotRead("nothing that can have a value is on the left")
 
-    def _old(self, node: Node, scope: dict[str, Any]) -> Any:
+    def _old(self, node: ScriptNode, scope: dict[str, Any]) -> Any:
         """Return the present value of a variable or a field, or None."""
         if isinstance(node, NameNode):
             return scope.get(node.name)
@@ -307,7 +307,7 @@ class ScriptReader:
                 return cast("dict[str, Any]", holder).get(node.name)
         return self._evaluator(scope).value(node)
 
-    def _holder(self, node: Node, scope: dict[str, Any]) -> Any:
+    def _holder(self, node: ScriptNode, scope: dict[str, Any]) -> Any:
         """Return the structure or the object of a member; a new structure is made for an unknown name."""
         if isinstance(node, NameNode) and node.name not in scope:
             scope[node.name] = dict[str, Any]()
@@ -332,7 +332,7 @@ class ScriptReader:
 
     # ------------------------------------------------------------------------------------------------- blocks
 
-    def _loop(self, loop: Loop, scope: dict[str, Any]) -> None:
+    def _loop(self, loop: ScriptLoop, scope: dict[str, Any]) -> None:
         if _runs(loop.body) and not self._builds(loop.body, scope):
             raise NotRead("the loop runs the simulation")
         head = loop.head
@@ -356,7 +356,7 @@ class ScriptReader:
                 if str(jump) == "return":
                     raise
 
-    def _repeat(self, loop: Repetition, scope: dict[str, Any]) -> None:
+    def _repeat(self, loop: ScriptRepetition, scope: dict[str, Any]) -> None:
         names = {t.value for t in (*loop.condition, *_words(loop.body)) if t.form == "name"}
         if any(isinstance(scope.get(name), (BuiltSimulator, BuiltWindow)) for name in names):
             raise NotRead("the loop runs the simulation")
@@ -375,7 +375,7 @@ class ScriptReader:
             self.line = loop.line
         raise NotRead(f"the loop does not end within {MOST_REPEATED} rounds")
 
-    def _builds(self, body: Body, scope: dict[str, Any]) -> bool:
+    def _builds(self, body: ScriptBody, scope: dict[str, Any]) -> bool:
         """Return whether statements build a model, or are names of scripts that may."""
         for step in _steps(body):
             if isinstance(step, Plain):
@@ -386,7 +386,7 @@ class ScriptReader:
                     return first not in FUNCTIONS
         return False
 
-    def _choose(self, choice: Choice, scope: dict[str, Any]) -> None:
+    def _choose(self, choice: ScriptChoice, scope: dict[str, Any]) -> None:
         for condition, body in choice.branches:
             if condition:
                 try:
@@ -533,28 +533,28 @@ class ScriptReader:
             raise NotRead(f"{plain} {error.problems[0].what}") from None
 
 
-def _steps(body: Body) -> Iterator[Step]:
+def _steps(body: ScriptBody) -> Iterator[ScriptStep]:
     """Yield steps and all that are inside them."""
     for step in body:
         yield step
         match step:
-            case Loop() | Repetition() | Attempt():
+            case ScriptLoop() | ScriptRepetition() | Attempt():
                 yield from _steps(step.body)
-            case Choice(_, branches) | Switch(_, _, branches):
+            case ScriptChoice(_, branches) | Switch(_, _, branches):
                 for _, inner in branches:
                     yield from _steps(inner)
             case _:
                 pass
 
 
-def _words(body: Body) -> Iterator[Token]:
+def _words(body: ScriptBody) -> Iterator[Token]:
     """Yield the words of statements."""
     for step in _steps(body):
         if isinstance(step, Plain):
             yield from step.tokens
 
 
-def _runs(body: Body) -> bool:
+def _runs(body: ScriptBody) -> bool:
     """Return whether statements run a simulation: they call a method such as `step`."""
     return any(
         isinstance(step, Plain)
@@ -594,14 +594,14 @@ def _is_command(tokens: tuple[Token, ...], scope: dict[str, Any]) -> bool:
     )
 
 
-def _called(node: Node) -> str:
+def _called(node: ScriptNode) -> str:
     """Return the name of the function that an expression calls, or ""."""
     if isinstance(node, IndexNode):
         node = node.target
     return node.name if isinstance(node, NameNode) else ""
 
 
-def _root(node: Node) -> str:
+def _root(node: ScriptNode) -> str:
     """Return the name of the variable that a target belongs to, or ""."""
     while isinstance(node, (IndexNode, MemberNode)):
         node = node.target

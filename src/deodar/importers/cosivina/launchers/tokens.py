@@ -68,7 +68,7 @@ class Token:
 
 
 @dc.dataclass(frozen=True)
-class Statement:
+class ScriptStatement:
     """The words of one statement and its line; `unread` is why they are not read, else ""."""
 
     line: int
@@ -76,7 +76,7 @@ class Statement:
     unread: str = ""
 
 
-def statements(text: str) -> list[Statement]:
+def statements(text: str) -> list[ScriptStatement]:
     """Return the statements of a script.
 
     Raises:
@@ -96,7 +96,7 @@ class _Scanner:
     def __init__(self, text: str) -> None:
         self.text = text.replace("\r\n", "\n").replace("\r", "\n")
         self.at, self.line, self.count = 0, 1, 0
-        self.found: list[Statement] = []
+        self.found: list[ScriptStatement] = []
         self.begin()
 
     def begin(self) -> None:
@@ -106,7 +106,7 @@ class _Scanner:
         self.apart = False
         self.first = self.at  # where its first word ends
 
-    def all(self) -> list[Statement]:
+    def all(self) -> list[ScriptStatement]:
         """Return all statements."""
         text = self.text
         while self.at < len(text) or self.open:
@@ -227,13 +227,13 @@ class _Scanner:
     def finish(self) -> None:
         """End a statement."""
         if self.tokens:
-            self.found.append(Statement(self.tokens[0].line, tuple(self.tokens)))
+            self.found.append(ScriptStatement(self.tokens[0].line, tuple(self.tokens)))
         self.begin()
 
     def fail(self, why: str) -> None:
         """Report the statement as not read, and skip the rest of its line."""
         first = self.tokens[0].line if self.tokens else self.line
-        self.found.append(Statement(first, (), why))
+        self.found.append(ScriptStatement(first, (), why))
         end = LINE.match(self.text, self.at)
         self.at = len(self.text) if end is None else end.end()
         self.begin()

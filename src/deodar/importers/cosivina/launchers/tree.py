@@ -39,7 +39,7 @@ class UnaryNode:
     """An operator with one operand: `-`, `+`, `~`, or `'` behind it."""
 
     operator: str
-    operand: Node
+    operand: ScriptNode
 
 
 @dc.dataclass(frozen=True)
@@ -47,17 +47,17 @@ class BinaryNode:
     """An operator between two operands."""
 
     operator: str
-    left: Node
-    right: Node
+    left: ScriptNode
+    right: ScriptNode
 
 
 @dc.dataclass(frozen=True)
 class RangeNode:
     """A range, first : step : last."""
 
-    first: Node
-    step: Node | None
-    last: Node
+    first: ScriptNode
+    step: ScriptNode | None
+    last: ScriptNode
 
 
 @dc.dataclass(frozen=True)
@@ -65,27 +65,27 @@ class ListNode:
     """A matrix in brackets or a cell array in braces, row by row."""
 
     cells: bool
-    rows: tuple[tuple[Node, ...], ...]
+    rows: tuple[tuple[ScriptNode, ...], ...]
 
 
 @dc.dataclass(frozen=True)
 class IndexNode:
     """What is in parentheses or braces behind an expression: an index, or the arguments of a call."""
 
-    target: Node
+    target: ScriptNode
     braces: bool
-    arguments: tuple[Node, ...]
+    arguments: tuple[ScriptNode, ...]
 
 
 @dc.dataclass(frozen=True)
 class MemberNode:
     """A member of a structure or an object."""
 
-    target: Node
+    target: ScriptNode
     name: str
 
 
-Node: TypeAlias = (
+ScriptNode: TypeAlias = (
     NumberNode
     | TextNode
     | NameNode
@@ -108,29 +108,29 @@ class Plain:
 
 
 @dc.dataclass(frozen=True)
-class Loop:
+class ScriptLoop:
     """A `for` loop: its variable and range in words."""
 
     line: int
     head: tuple[Token, ...]
-    body: Body
+    body: ScriptBody
 
 
 @dc.dataclass(frozen=True)
-class Repetition:
+class ScriptRepetition:
     """A `while` loop: its condition in words."""
 
     line: int
     condition: tuple[Token, ...]
-    body: Body
+    body: ScriptBody
 
 
 @dc.dataclass(frozen=True)
-class Choice:
+class ScriptChoice:
     """Conditions in words and what depends on them; the condition of `else` is empty."""
 
     line: int
-    branches: tuple[tuple[tuple[Token, ...], Body], ...]
+    branches: tuple[tuple[tuple[Token, ...], ScriptBody], ...]
 
 
 @dc.dataclass(frozen=True)
@@ -139,7 +139,7 @@ class Switch:
 
     line: int
     subject: tuple[Token, ...]
-    cases: tuple[tuple[tuple[Token, ...], Body], ...]
+    cases: tuple[tuple[tuple[Token, ...], ScriptBody], ...]
 
 
 @dc.dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Attempt:
     """What is between `try` and `catch`."""
 
     line: int
-    body: Body
+    body: ScriptBody
 
 
 @dc.dataclass(frozen=True)
@@ -174,8 +174,10 @@ class ScriptFunction:
     name: str
     arguments: tuple[str, ...]
     results: tuple[str, ...]
-    body: Body
+    body: ScriptBody
 
 
-Step: TypeAlias = Plain | Loop | Repetition | Choice | Switch | Attempt | Jump | Unread
-Body: TypeAlias = tuple[Step, ...]
+ScriptStep: TypeAlias = (
+    Plain | ScriptLoop | ScriptRepetition | ScriptChoice | Switch | Attempt | Jump | Unread
+)
+ScriptBody: TypeAlias = tuple[ScriptStep, ...]
