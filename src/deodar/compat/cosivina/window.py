@@ -11,7 +11,7 @@ from deodar.compat.cosivina.controls import WindowControl
 from deodar.compat.cosivina.simulator import Simulator
 from deodar.errors import DeodarError, ModelError, RunWarning
 from deodar.importers.cosivina import file
-from deodar.importers.cosivina.panel import Panel
+from deodar.importers.cosivina.panel import LauncherPanel
 from deodar.importers.cosivina.plots import PlotRequest, with_plots
 from deodar.importers.cosivina.translate import Translation, translated
 from deodar.importers.imported import Imported
@@ -90,7 +90,7 @@ class StandardGUI:
         simulator = file.parse(self._require().content())
 
         def finish(translation: Translation, doc: Document) -> tuple[Document, list[Line]]:
-            doc, lines = Panel(translation, [c.control for c in self._controls], _file).finish(doc)
+            doc, lines = LauncherPanel(translation, [c.control for c in self._controls], _file).finish(doc)
             doc, shown = with_plots(doc, translation, self._plots)
             return doc, [*lines, *shown]
 
