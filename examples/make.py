@@ -487,6 +487,34 @@ def pointing() -> dd.Model:
     return model
 
 
+def looking() -> dd.Model:
+    """The architecture of `deodar demo looking`, with the panels of the studio for an eye and its map."""
+    model = dd.architectures.looking(seed=1)
+    projections = {"pan map": ["column", "pan"], "tilt map": ["row", "tilt"]}
+    plots: dict[str, tuple[str, str, str, Layout]] = {
+        name: (model[name].id, "heat", "output", {})
+        for name in ("events", "perceptual", "visual intention", "motor intention")
+    }
+    plots |= {
+        name: (model["map"].id, "heat", "weights", {"drawn": drawn, "range": [0, 1]})
+        for name, drawn in projections.items()
+    }
+    left = (440, [(400, "world"), (300, "inspector", "graph")])
+    middle = (420, [(350, "events"), (350, "perceptual")])
+    right = (420, [(240, "visual intention"), (220, "motor intention"), (240, *projections)])
+    model.describe(
+        layout={"panels": _panels([left, middle, right], plots)},
+        notes=(
+            "Looking. An event camera on a pan-tilt unit learns where to turn to have a blinking disc in its"
+            " centre. Sandamirskaya (2014), section 3. Press Play, several times as fast. At first the gaze"
+            " turns anywhere; each gaze that ends near the disc, or at a place that the map knows, changes"
+            " the map. After some hundred gazes most end at the disc. It is run with an eye: --world eye. A"
+            " map that was learned is written by `deodar demo looking`. Run it for 1500 ms."
+        ),
+    )
+    return model
+
+
 def _panels(columns: list[Any], plots: dict[str, tuple[str, str, str, Layout]]) -> Layout:
     """The arrangement of the studio's panels, as Dockview reads it.
 
@@ -575,6 +603,7 @@ EXAMPLES: tuple[Callable[[], dd.Model], ...] = (
     serial_order,
     color_search,
     pointing,
+    looking,
     binding,
     remapping,
     change_detection,

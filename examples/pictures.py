@@ -331,6 +331,26 @@ def pointing() -> Figure:
     return figure
 
 
+def looking() -> Figure:
+    """All events while the gaze turns to the disc, and the way of the disc on the retina."""
+    figure = blank()
+    eye = dd.Eye(endless=False, first=(30, 85))
+    session = dd.Session(dd.load(HERE / "looking.json"), world=eye, seed=6)
+    pixels = [dd.Axis("column", 0, 127, 128), dd.Axis("row", 0, 127, 128)]
+    pair = [dd.Axis("component", 0, 1, 2)]
+    events, way = np.zeros((128, 128)), []
+    while session.time < 900:
+        session.run(10)
+        session.read("pose.output")  # the world is now at the present
+        events += eye.sense("events", pixels, session.time)[0]
+        way.append(eye.sense("target", pair, session.time)[0])
+    axes = part(figure)
+    axes.imshow(events.T, cmap="magma", vmax=np.quantile(events, 0.998), aspect="auto")
+    axes.plot(*np.array(way).T, color="#ffffff", linewidth=1.2, path_effects=EDGE)
+    axes.set(xlim=(0, 127), ylim=(127, 0))
+    return figure
+
+
 def color_search() -> Figure:
     """The way of the robot to blue, yellow and red, which it was shown in this order, from above."""
     figure = blank()

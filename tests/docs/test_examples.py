@@ -293,6 +293,23 @@ def test_pointing_points_at_the_object_that_the_switches_name() -> None:
     assert max(highest(n) for n in ("perceptual", "satisfaction", "green", "left")) < 0
 
 
+def test_looking_turns_somewhere_and_learns_nothing_from_a_miss() -> None:
+    """Its first gaze is random: a motor peak, a movement, and the end of both intentions."""
+    eye = dd.Eye(endless=False, first=(30, 85))
+    model = dd.load(EXAMPLES / "looking.json")
+    fields = ["visual intention", "motor intention"]
+    record = [*(f"{name}.output" for name in fields), "pose", "satisfied.activation", "map.weights"]
+    data = dd.simulate(model, 1500, record=record, every=10, world=eye, seed=6)
+    done = int((data["satisfied.activation"] > 0).argmax("time"))
+    assert done > 0
+    for name in fields:
+        highest = data[f"{name}.output"].values.max(axis=(1, 2))
+        assert highest[:done].max() > 0.9 and highest[done + 8] < 0.1
+    pose = data["pose.output"].values
+    assert np.abs(pose[done] - pose[0]).max() > 20
+    assert np.array_equal(data["map.weights"].values[0], data["map.weights"].values[done])
+
+
 def test_behaviours_obey_their_constraints() -> None:
     names = ("find", "reach", "avoid", "look left", "look right")
     data = run(

@@ -111,8 +111,8 @@ MATCH_INHIBITS = 8.0
 SHARE, LARGEST = 0.1, 0.15
 """Share of the connected weights at the start, and the largest of them."""
 
-QUADRATURE = "point"
-"""Quadrature of all fields; the parameters were found with `point`."""
+QUADRATURE = "cell"
+"""Quadrature of all fields: their sigmoid is steep, so that with `point` peaks would stick to samples."""
 
 
 def retina(samples: int = SAMPLES[0]) -> tuple[Axis, Axis]:
