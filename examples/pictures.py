@@ -334,19 +334,21 @@ def pointing() -> Figure:
 def looking() -> Figure:
     """All events while the gaze turns to the disc, and the way of the disc on the retina."""
     figure = blank()
-    eye = dd.Eye(endless=False, first=(30, 85))
+    eye = dd.Eye(endless=False, first=(93, 86))
     session = dd.Session(dd.load(HERE / "looking.json"), world=eye, seed=6)
     pixels = [dd.Axis("column", 0, 127, 128), dd.Axis("row", 0, 127, 128)]
     pair = [dd.Axis("component", 0, 1, 2)]
     events, way = np.zeros((128, 128)), []
-    while session.time < 900:
+    while session.time < 620:
         session.run(10)
         session.read("pose.output")  # the world is now at the present
         events += eye.sense("events", pixels, session.time)[0]
         way.append(eye.sense("target", pair, session.time)[0])
     axes = part(figure)
+    events[events < 300] = 0  # noise
     axes.imshow(events.T, cmap="magma", vmax=np.quantile(events, 0.998), aspect="auto")
     axes.plot(*np.array(way).T, color="#ffffff", linewidth=1.2, path_effects=EDGE)
+    axes.plot([63.5], [63.5], "+", color="#ffffff", markersize=14)
     axes.set(xlim=(0, 127), ylim=(127, 0))
     return figure
 
@@ -435,6 +437,7 @@ PICTURES: tuple[Callable[[], Figure], ...] = (
     serial_order,
     color_search,
     pointing,
+    looking,
     binding,
     remapping,
     change_detection,
@@ -468,7 +471,11 @@ def write(figure: Figure, path: Path, photograph: bool) -> None:
 def main(folder: Path = HERE) -> None:
     """Draw every example."""
     for draw in PICTURES:
-        write(draw(), folder / f"{draw.__name__}.png", photograph=draw in (saliency, color_search, pointing))
+        write(
+            draw(),
+            folder / f"{draw.__name__}.png",
+            photograph=draw in (saliency, color_search, pointing, looking),
+        )
 
 
 if __name__ == "__main__":
