@@ -1,7 +1,7 @@
 /** Actions of a user on the page, by the names of its controls. */
 import { crc32, deflateSync } from "node:zlib";
 
-import type { Locator, Page } from "playwright-core";
+import type { Download, Locator, Page } from "playwright-core";
 
 import type { Observer } from "./observer";
 
@@ -71,6 +71,13 @@ export async function choose(page: Page, name: string, item: string | RegExp): P
   await button(page, name).click();
   await page.getByRole("menuitem", { name: item, exact: typeof item === "string" }).click();
   await page.getByRole("menu").waitFor({ state: "detached" });
+}
+
+/** What is downloaded when something is done. */
+export async function downloaded(page: Page, act: () => Promise<unknown>): Promise<Download> {
+  // both at once: a download that never comes is an error of this call, whichever ends first
+  const [download] = await Promise.all([page.waitForEvent("download"), act()]);
+  return download;
 }
 
 /** Open the area beside a button, use it and close it. */

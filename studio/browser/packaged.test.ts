@@ -1,6 +1,6 @@
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
-import { button, choose, colours, drawn, reopen } from "./hands";
+import { button, choose, colours, downloaded, drawn, reopen } from "./hands";
 import { examplePackage, infoOf } from "./installed";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -51,9 +51,8 @@ test("a plot of a package is drawn again with new values and sizes, and is expor
   await expect.poll(() => drawn(drawing)).not.toBe(before);
   await shot(page, "plot-packaged");
 
-  const coming = page.waitForEvent("download");
-  await choose(page, "Menu of this plot", "Export PNG");
-  expect((await coming).suggestedFilename()).toBe("target_activation.png");
+  const picture = await downloaded(page, () => choose(page, "Menu of this plot", "Export PNG"));
+  expect(picture.suggestedFilename()).toBe("target_activation.png");
 
   const width = await drawing.evaluate((canvas) => (canvas as HTMLCanvasElement).width);
   await page.setViewportSize({ width: 1100, height: 700 });

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, expect, test } from "vitest";
 import { obstacles } from "./axe";
 import { PLOT_TITLES } from "../src/plots/kinds/kinds";
 import { writeArranged, writeEveryPlot } from "./everyPlot";
-import { colours, drawn, panel, reopen, settled } from "./hands";
+import { colours, downloaded, drawn, panel, reopen, settled } from "./hands";
 import { examplePackage } from "./installed";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
@@ -231,9 +231,8 @@ test("every kind of plot is exported as PNG, SVG and CSV", async () => {
     for (const format of ["PNG", "SVG", "CSV"]) {
       const item = page.getByRole("menuitem", { name: `Export ${format}` });
       await plot(name).getByRole("button", { name: "Menu of this plot" }).click();
-      const coming = page.waitForEvent("download");
-      await item.click();
-      files[format] = readFileSync(await (await coming).path());
+      const file = await downloaded(page, () => item.click());
+      files[format] = readFileSync(await file.path());
       await page.getByRole("menu").waitFor({ state: "detached" });
     }
     expect(files["PNG"]?.subarray(1, 4).toString(), name).toBe("PNG");

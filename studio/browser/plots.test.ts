@@ -5,7 +5,7 @@ import type { Locator, Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
 
 import { ident, many, panels, plot as plotOf, selection, ten } from "./bench/documents";
-import { beside, button, choose, colours, drawn, panel, reopen, settled } from "./hands";
+import { beside, button, choose, colours, downloaded, drawn, panel, reopen, settled } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -325,9 +325,8 @@ test("small multiples show the fields over the same axes side by side, on the sa
   const texts = (await page.evaluate(readTexts)).map((one) => one.texts.map(({ text }) => text).join(" "));
   expect(new Set(texts).size, "the same numbers at all axes").toBe(1);
   await shot(page, "plot-multiples");
-  const coming = page.waitForEvent("download");
-  await choose(page, "Menu of this plot", "Export SVG");
-  const svg = readFileSync(await (await coming).path(), "utf8");
+  const exported = await downloaded(page, () => choose(page, "Menu of this plot", "Export SVG"));
+  const svg = readFileSync(await exported.path(), "utf8");
   keep("plot-multiples.svg", svg);
   for (const name of ["u0", "u19"]) expect(svg).toContain(`>${name}</text>`);
   await page.setViewportSize({ width: 1280, height: 800 });
@@ -439,10 +438,9 @@ test("a field over two dimensions is a heat map with a scale; a sensor shows its
   // 40 x 40 samples at the same distance are a square
   const square = await settled(page, () => map.locator(".u-over").boundingBox());
   expect(Math.abs((square?.width ?? 0) - (square?.height ?? Infinity))).toBeLessThan(2.5);
-  const coming = page.waitForEvent("download");
   await map.getByRole("button", { name: "Menu of this plot" }).click();
-  await page.getByRole("menuitem", { name: "Export SVG" }).click();
-  const svg = readFileSync(await (await coming).path(), "utf8");
+  const exported = await downloaded(page, () => page.getByRole("menuitem", { name: "Export SVG" }).click());
+  const svg = readFileSync(await exported.path(), "utf8");
   keep("plot-heat.svg", svg);
   expect(svg.match(/<image [^>]*href="data:image\/png;base64,/g), "the values are an image").toHaveLength(1);
   await map.getByRole("combobox", { name: "Port of spatial" }).selectOption("input");
@@ -513,9 +511,8 @@ test("a field is a surface, and one over three axes is cut by three planes", asy
   await surface.getByRole("group", { name: /arrow keys turn/ }).press("ArrowLeft");
   await expect.poll(() => drawn(scene)).not.toBe(before);
   await observer.until(() => arranged().includes('"azimuth"'));
-  const coming = page.waitForEvent("download");
-  await choose(page, "Menu of this plot", "Export SVG");
-  const svg = readFileSync(await (await coming).path(), "utf8");
+  const exported = await downloaded(page, () => choose(page, "Menu of this plot", "Export SVG"));
+  const svg = readFileSync(await exported.path(), "utf8");
   keep("plot-surface.svg", svg);
   expect(svg.match(/<image /g)).toHaveLength(1);
   for (const text of ["x", "y", "activation"]) expect(svg).toContain(`>${text}</text>`);
@@ -585,9 +582,7 @@ test("a plot is exported as a picture file", async () => {
   const { page } = studio;
   await step(300);
   await plot("Curves of u").getByText("Press play").waitFor({ state: "detached" });
-  const coming = page.waitForEvent("download");
-  await choose(page, "Menu of this plot", "Export PNG");
-  const download = await coming;
+  const download = await downloaded(page, () => choose(page, "Menu of this plot", "Export PNG"));
   expect(download.suggestedFilename()).toBe("u.png");
   const png = readFileSync(await download.path());
   expect(png.subarray(0, 8).toString("latin1")).toBe("\x89PNG\r\n\x1a\n");
@@ -597,9 +592,7 @@ test("a plot is exported as a picture file", async () => {
   expect(height).toBeGreaterThan(2 * (drawn?.height ?? Infinity) - 2);
   expect(png.length).toBeGreaterThan(5000);
 
-  const next = page.waitForEvent("download");
-  await choose(page, "Menu of this plot", "Export SVG");
-  const vectors = await next;
+  const vectors = await downloaded(page, () => choose(page, "Menu of this plot", "Export SVG"));
   expect(vectors.suggestedFilename()).toBe("u.svg");
   const svg = readFileSync(await vectors.path(), "utf8");
   keep("plot-curves.svg", svg);
@@ -622,9 +615,7 @@ test("a plot is exported as a table", async () => {
   const { page } = studio;
   await step(300);
   await plot("Curves of u").getByText("Press play").waitFor({ state: "detached" });
-  const coming = page.waitForEvent("download");
-  await choose(page, "Menu of this plot", "Export CSV");
-  const download = await coming;
+  const download = await downloaded(page, () => choose(page, "Menu of this plot", "Export CSV"));
   expect(download.suggestedFilename()).toBe("u_Curves.csv");
   const lines = readFileSync(await download.path(), "utf8")
     .trimEnd()
