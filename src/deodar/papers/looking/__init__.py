@@ -26,7 +26,7 @@ HELP = "Sandamirskaya (2014): an event camera learns where to turn, from random 
 BY_CONDITION = ("conditions",)
 """Entries of `about` that map names of conditions to their settings."""
 
-PICTURES = {"looking.png": "looking"}
+PICTURES = {"looking": "looking"}
 """The picture of the manual, and the figure that it shows."""
 
 __getattr__ = papers.files(__name__)
