@@ -58,3 +58,13 @@ def numeric(name: str, value: str, where: str, counts: Collection[str] = ()) -> 
     except ValueError:
         raise WorldError(f"{name} is {value!r}; expected a number", where=where) from None
     return int(given) if name in counts and given.is_integer() else given
+
+
+def of(trials: Sequence[int], rows: np.ndarray, what: str) -> np.ndarray:
+    """Return the row of each trial; a single row is used for all trials."""
+    if len(rows) == 1:
+        return np.repeat(rows, len(trials), axis=0)
+    if max(trials) >= len(rows):
+        text = f"there are {len(rows)} of them, and trial {max(trials)} is run"
+        raise WorldError(text, where=what, fix="Give one for all, or a row for each trial")
+    return rows[list(trials)]

@@ -27,7 +27,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
-from deodar.worlds._settings import number, periods
+from deodar.worlds._settings import number, of, periods
 from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.camera import picture_rays, surfaces
 from deodar.worlds.arena.contact import move
@@ -37,7 +37,7 @@ from deodar.worlds.arena.layout import UNITS, ArenaObject, LayoutSource, builtin
 from deodar.worlds.arena.objects import ArenaObjects, made
 from deodar.worlds.arena.overlaps import BlockCheck
 from deodar.worlds.arena.picture_noise import PictureNoise, picture
-from deodar.worlds.arena.places import Places, of, rows_of
+from deodar.worlds.arena.places import Places, rows_of
 from deodar.worlds.arena.room import Room
 from deodar.worlds.arena.vehicle import Vehicle, drive, limited, wrapped
 from deodar.worlds.arena.vehicles import VEHICLES, vehicle_of

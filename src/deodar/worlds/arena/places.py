@@ -30,16 +30,6 @@ def rows_of(what: str, given: npt.ArrayLike, scale: Sequence[float]) -> np.ndarr
     return rows * np.asarray(scale)
 
 
-def of(trials: Sequence[int], rows: np.ndarray, what: str) -> np.ndarray:
-    """Return the row of each trial; a single row is used for all trials."""
-    if len(rows) == 1:
-        return np.repeat(rows, len(trials), axis=0)
-    if max(trials) >= len(rows):
-        text = f"there are {len(rows)} of them, and trial {max(trials)} is run"
-        raise WorldError(text, where=what, fix="Give one for all, or a row for each trial")
-    return rows[list(trials)]
-
-
 class Places:
     """Checks of positions in an arena, and their form in messages.
 

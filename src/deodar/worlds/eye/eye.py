@@ -22,7 +22,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody
-from deodar.worlds._settings import named, number, numeric
+from deodar.worlds._settings import named, number, numeric, of
 from deodar.worlds.eye import screen
 from deodar.worlds.eye.event_camera import EventCamera, rate
 from deodar.worlds.eye.optics import CENTRE, PIXELS, Optics
@@ -158,7 +158,7 @@ class Eye(PureWorld):
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         first = np.full((1, 2), np.nan) if self.first is None else self.first
-        return {"pose": _of(trials, self.poses, "pose"), "first": _of(trials, first, "first")}
+        return {"pose": of(trials, self.poses, "pose"), "first": of(trials, first, "first")}
 
     def structure(self) -> Hashable:
         settings = (self.lag, self.radius, self.contrast, self.blink, self.speed, self.drift, self.reach)
@@ -379,19 +379,6 @@ def _rows(name: str, given: Any, low: float, high: float) -> np.ndarray:
         wanted = f"two numbers from {low:g} to {high:g}, or a row of them for each trial"
         raise WorldError(f"is {show(given)}; expected {wanted}", where=name)
     return rows
-
-
-def _of(trials: Sequence[int], rows: np.ndarray, name: str) -> np.ndarray:
-    """Return the row of each trial; a single row is used for all trials."""
-    if len(rows) == 1:
-        return np.repeat(rows, len(trials), axis=0)
-    if max(trials) >= len(rows):
-        raise WorldError(
-            f"there are {len(rows)} of them, and trial {max(trials)} is run",
-            where=name,
-            fix="Give one for all, or a row for each trial",
-        )
-    return rows[list(trials)]
 
 
 def _where(condition: Array, one: PyTree, other: PyTree) -> PyTree:
