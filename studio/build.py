@@ -21,6 +21,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -57,6 +58,9 @@ TOOLS: dict[str, list[list[str]]] = {
     "bench": [[VITEST, "run", "--config", "vitest.bench.ts"]],
     "pictures": [[VITEST, "run", "--config", "vitest.pictures.ts"]],
 }
+
+# Words whose tests depend on how fast the machine is: see `again`.
+TWICE = {"browser", "firefox", "webkit"}
 
 
 @dataclass(frozen=True)
@@ -305,10 +309,40 @@ def run(word: str) -> int:
     if word == "pictures":
         environment.setdefault("DEODAR_SHOTS", str(STUDIO.parent / "docs" / "pictures"))
     for command in TOOLS[word]:
-        done = subprocess.run((found.program, *command), cwd=STUDIO, env=environment, check=False)
-        if done.returncode:
-            return done.returncode
+        told = again(command, found, environment) if word in TWICE else called(command, found, environment)
+        if told:
+            return told
     return 0
+
+
+def called(command: list[str], with_node: Node, environment: dict[str, str]) -> int:
+    """The status of a script for node."""
+    return subprocess.run((with_node.program, *command), cwd=STUDIO, env=environment, check=False).returncode
+
+
+def again(command: list[str], with_node: Node, environment: dict[str, str]) -> int:
+    """The status of tests, of which the files that fail are run once more.
+
+    A machine that others use too may stall for a moment. A file runs from its beginning, with a studio of its
+    own: a test that is repeated alone would start from what its failure left behind.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder, "report.json")
+        reporters = ["--reporter=default", "--reporter=json", f"--outputFile={report}"]
+        status = called([*command, *reporters], with_node, environment)
+        failed = failures(report, STUDIO)
+    if not status or not failed:
+        return status
+    print(f"These files failed and are run once more: {', '.join(failed)}", flush=True)
+    return called([*command, *failed], with_node, environment)
+
+
+def failures(report: Path, studio: Path) -> list[str]:
+    """The files in the report of a run with tests that failed, relative to the folder of the page."""
+    if not report.is_file():
+        return []
+    results = json.loads(report.read_text(encoding="utf-8"))["testResults"]
+    return [Path(one["name"]).relative_to(studio).as_posix() for one in results if one["status"] == "failed"]
 
 
 def main(words: list[str]) -> int:

@@ -8,9 +8,6 @@ export default defineConfig({
     maxWorkers: 2,
     testTimeout: 120_000,
     hookTimeout: 120_000,
-    // a machine that others use too may stall for a moment: what fails is tried once more, and reported
-    // either way
-    retry: 1,
     expect: { poll: { timeout: 60_000, interval: 50 } },
     // the observer needs what node has only from version 22 on without being asked
     execArgv: "WebSocket" in globalThis ? [] : ["--experimental-websocket"],

@@ -10,7 +10,6 @@ export default defineConfig({
     fileParallelism: false,
     testTimeout: 120_000,
     hookTimeout: 120_000,
-    retry: 1, // as the tests in Chromium
     expect: { poll: { timeout: 60_000, interval: 50 } },
     execArgv: "WebSocket" in globalThis ? [] : ["--experimental-websocket"],
   },

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import os
 import re
 import sys
 import tomllib
@@ -206,3 +207,41 @@ def test_a_browser_starts_with_the_program_that_its_variable_names(
     monkeypatch.setenv(firefox.variable, "/opt/firefox")
     assert firefox.program() == "/opt/firefox"
     assert page.BROWSERS["webkit"].program() is None, "without an X server it cannot start"
+
+
+FALLIBLE = """
+import json, sys
+from pathlib import Path
+words = sys.argv[1:]
+calls = Path("calls.txt")
+before = calls.read_text().splitlines() if calls.is_file() else []
+calls.write_text("\\n".join([*before, " ".join(w for w in words if not w.startswith("--"))]))
+here = Path.cwd()
+states = {"browser/good.test.ts": "passed", "browser/stalls.test.ts": "passed" if before else "failed"}
+if "always" in words:
+    states["browser/stalls.test.ts"] = "failed"
+report = [w.removeprefix("--outputFile=") for w in words if w.startswith("--outputFile=")]
+if report:
+    results = [{"name": str(here / name), "status": state} for name, state in states.items()]
+    Path(report[0]).write_text(json.dumps({"testResults": results}))
+sys.exit("failed" in states.values())
+"""
+
+
+@pytest.mark.parametrize(("word", "status"), [("once", 0), ("always", 1)])
+def test_only_files_of_tests_that_failed_run_once_more(
+    page: ModuleType, studio: Path, monkeypatch: pytest.MonkeyPatch, word: str, status: int
+) -> None:
+    (studio / "tests.py").write_text(FALLIBLE)
+    monkeypatch.setattr(page, "STUDIO", studio)
+    node = page.Node(sys.executable, ())
+    assert page.again(["tests.py", word], node, dict(os.environ)) == status
+    assert (studio / "calls.txt").read_text().splitlines() == [word, f"{word} browser/stalls.test.ts"]
+
+
+def test_tests_that_end_without_a_report_fail_at_once(
+    page: ModuleType, studio: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (studio / "tests.py").write_text("import sys; sys.exit(3)")
+    monkeypatch.setattr(page, "STUDIO", studio)
+    assert page.again(["tests.py"], page.Node(sys.executable, ()), dict(os.environ)) == 3
