@@ -1,7 +1,7 @@
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { findings, smallTargets } from "./axe";
-import { button, panel } from "./hands";
+import { button, panel, settled } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
@@ -101,6 +101,23 @@ test("a world with solids is shown in three dimensions, at the same places as fr
   expect(await findings(studio.page)).toEqual([]);
   expect(await smallTargets(studio.page)).toEqual([]);
   await shot(studio.page, "studio-world-solid");
+});
+
+test("the view shows the whole floor in a panel of another shape, until the user turns it", async () => {
+  const { page } = studio;
+  const size = page.viewportSize() as { width: number; height: number };
+  const apart = async () => {
+    const [area, red, green] = [await view().boundingBox(), await seen(0), await seen(1)];
+    return Math.hypot(red.x - green.x, red.y - green.y) / (area?.width ?? Number.NaN);
+  };
+  await seen(0);
+  const before = await settled(page, apart);
+  await page.setViewportSize({ width: 420, height: 900 });
+  await expect.poll(async () => (await view().boundingBox())?.width).toBeLessThan(421);
+  // the cart and the block are as far apart as before, as a share of the width
+  await expect.poll(apart).toBeLessThan(before + 0.03);
+  await page.setViewportSize(size);
+  await expect.poll(async () => Math.abs((await settled(page, apart)) - before)).toBeLessThan(0.01);
 });
 
 test("an object is dragged over the floor", async () => {

@@ -131,8 +131,6 @@ function show(
   };
   const made = new Stage(canvas, redraw);
   shown.current = made;
-  const border = now().scene.border as [number, number, number, number];
-  made.frame(border, host.clientWidth / Math.max(1, host.clientHeight));
   const puller = new Puller(
     async (message) => (await socket.ask(message)).answer,
     () => now().hands.carrier.refuse(puller.refused),
@@ -152,6 +150,7 @@ function show(
     if (width === 0 || height === 0) {
       return;
     }
+    made.frame(now().scene.border as [number, number, number, number], width / height);
     const { solids, poses, bodies } = live.now;
     made.show(solids);
     made.place(poses);

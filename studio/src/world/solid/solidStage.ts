@@ -57,6 +57,10 @@ export class SolidStage {
   private followed: Vector3 | null = null;
   // Pixels of the page.
   private size = new Vector2(1, 1);
+  // Whether the view was turned or has followed a body, and the border and aspect that it shows as a whole
+  // until then.
+  private turned = false;
+  private framed = "";
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -76,10 +80,19 @@ export class SolidStage {
     this.controls.minDistance = 0.05;
     this.controls.maxDistance = 50;
     this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("start", () => {
+      this.turned = true;
+    });
   }
 
-  // Show the whole floor within a border, and what is above it, on a canvas of an aspect.
+  // Show the whole floor within a border, and what is above it, on a canvas of an aspect, unless the user has
+  // chosen a view: a panel gets its size after it was made, and another one with its neighbours.
   frame([x0, y0, x1, y1]: [number, number, number, number], aspect: number): void {
+    const wanted = [x0, y0, x1, y1, aspect].join();
+    if (this.turned || wanted === this.framed) {
+      return;
+    }
+    this.framed = wanted;
     const across = Math.hypot(x1 - x0, y1 - y0);
     const half = Math.tan((ANGLE / 2) * (Math.PI / 180)) * Math.min(1, aspect);
     const distance = (0.6 * across) / half;
@@ -133,6 +146,7 @@ export class SolidStage {
     if (now !== null && this.followed !== null) {
       const way = now.clone().sub(this.followed);
       if (way.length() > 0) {
+        this.turned = true;
         this.camera.position.add(way);
         this.controls.target.add(way);
         this.controls.update();
@@ -143,6 +157,7 @@ export class SolidStage {
 
   // Turn by angles in degrees, and come nearer by a factor.
   turn(azimuth: number, elevation: number, nearer = 1): void {
+    this.turned = true;
     const { target } = this.controls;
     // of three.js, whose angles are around y
     const upright = new Matrix4().makeRotationX(-Math.PI / 2);
