@@ -145,12 +145,14 @@ export type AxisView = {
 //
 // Each row of `path` has x and y of each body; `fresh`: the path starts again, and the page drops the old
 // one. `poses` (base64 of float32) has for each solid its position and the rows of its rotation matrix.
+// `picture` (base64) has red, green and blue of what a camera sees, a byte each, row by row from the top.
 export type Bodies = {
   type: "bodies";
   bodies: BodyView[];
   fresh: boolean;
   path: number[][];
   poses?: string;
+  picture?: string;
 };
 
 // A round body that moves by itself; `heading` is in rad, 0 along x, counter-clockwise.
@@ -934,6 +936,13 @@ export type PathView = {
 export type Pause = {
   type: "pause";
   request?: number;
+};
+
+// A picture that a camera of the world sees, and its size in pixels.
+export type PictureView = {
+  name: string;
+  columns: number;
+  rows: number;
 };
 
 // Move boxes to positions, by the ids of their elements.
@@ -1747,13 +1756,16 @@ export type WorldPreview = {
 // The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 //
 // `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
-// that name; `solid`: it can be shown in three dimensions.
+// that name; `solid`: it can be shown in three dimensions; `can_place`: objects can be added; `picture`: what
+// its camera sees is in the messages on bodies.
 export type WorldScene = {
   type: "scene";
   scene: SceneView | null;
   note?: string;
   camera?: boolean;
   solid?: boolean;
+  can_place?: boolean;
+  picture?: PictureView | null;
 };
 
 // A setting of a world; `form` is the type of its value, `file` a file that it opens.

@@ -72,6 +72,7 @@ def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> No
         }
         assert scene(one)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
         assert one.said["scene"]["camera"], "an e-puck has one"
+        assert one.said["scene"]["can_place"] and one.said["scene"]["picture"] is None
         assert "bodies" not in one.said, "it did not ask"
         await one.do("watch_world", on=True)
         await one.do("speed", factor=None)
@@ -156,6 +157,28 @@ def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(fi
         play(address, story)
 
 
+def test_an_eye_shows_its_events_and_nothing_can_be_placed(file: Path) -> None:
+    model = dd.Model("turning", dt=10)
+    model.add(Boost("to the right", [], 1200.0)) >> model.add(Motor("pan", [], "pan"))
+    dd.save(model, file.parent / "turning.json")
+
+    async def story(one: Page) -> None:
+        await shown(one)
+        assert one.said["scene"]["picture"] == {"name": "events", "columns": 128, "rows": 128}
+        assert not one.said["scene"]["can_place"]
+        await one.do("watch_world", on=True)
+        await one.until(lambda: "bodies" in one.said)
+        before = one.said["bodies"]["picture"]
+        assert len(base64.b64decode(before)) == 3 * 128 * 128
+        await one.do("step", n=4)
+        await one.until(lambda: one.said["bodies"]["picture"] != before)
+        (problem,) = (await one.ask("place_object", name="a", x=900, y=900, width=9, height=9))["problems"]
+        assert "nothing can be placed in the world Eye" in problem["what"]
+
+    with studio(file.parent, file.parent / "turning.json", world=dd.Eye()) as address:
+        play(address, story)
+
+
 def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
     async def story(one: Page) -> None:
         await one.open("open_file", path="node.json")
@@ -166,6 +189,8 @@ def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
             "note": "",
             "camera": False,
             "solid": False,
+            "can_place": False,
+            "picture": None,
         }
         (problem,) = (await one.ask("move_object", name="crate", x=1, y=1))["problems"]
         assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]

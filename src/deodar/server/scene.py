@@ -11,6 +11,7 @@ from deodar.server.to_page import (
     BodyView,
     BoxView,
     MarkView,
+    PictureView,
     SceneView,
     SolidView,
     WorldScene,
@@ -53,7 +54,16 @@ def scene(seen: _scene.Scene | None, note: str = "", world: World | None = None)
     marks = [MarkView(name=m.name, x=m.center[0], y=m.center[1], fixed=m.fixed) for m in seen.marks]
     plan = SceneView(unit=seen.unit, border=list(seen.border), boxes=boxes, marks=marks)
     camera = world is not None and CAMERA in world.sensors
-    return WorldScene(scene=plan, note=note, camera=camera, solid=bool(seen.solids))
+    drawn = seen.picture
+    picture = None if drawn is None else PictureView(name=drawn.name, columns=drawn.columns, rows=drawn.rows)
+    return WorldScene(
+        scene=plan,
+        note=note,
+        camera=camera,
+        solid=bool(seen.solids),
+        can_place=world is not None and world.can_place,
+        picture=picture,
+    )
 
 
 class SentBodies:
@@ -70,6 +80,7 @@ class SentBodies:
         self._bodies: list[BodyView] = []
         self._solids: tuple[Solid, ...] = ()
         self._poses = b""
+        self._picture = b""
 
     def news(self, state: PublishedState) -> list[WorldSolids | Bodies]:
         """Return the solids, bodies and the part of their path that the page does not have."""
@@ -80,16 +91,20 @@ class SentBodies:
         if shown != self._solids:
             self._solids = shown
             out.append(WorldSolids(solids=[_solid(s) for s in shown]))
+        picture = b"" if seen is None or seen.picture is None else seen.picture.pixels
         fresh = path is not self._path or count < self._taken
         taken = 0 if fresh else self._taken
-        if not (fresh or count != taken or bodies != self._bodies or poses != self._poses or out):
+        same = bodies == self._bodies and poses == self._poses and picture == self._picture
+        if same and not fresh and count == taken and not out:
             return []
         self._path, self._taken, self._bodies, self._poses = path, count, bodies, poses
+        self._picture = picture
         moved = Bodies(
             bodies=bodies,
             fresh=fresh,
             path=[[round(v, DIGITS) for v in place] for place in path.places[taken:count]],
             poses=_text(poses),
+            picture=_text(picture),
         )
         return [*out, moved]
 

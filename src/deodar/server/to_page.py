@@ -624,18 +624,29 @@ class SceneView(Data, frozen=True):
     marks: list[MarkView]
 
 
+class PictureView(Data, frozen=True):
+    """A picture that a camera of the world sees, and its size in pixels."""
+
+    name: str
+    columns: int
+    rows: int
+
+
 @MESSAGES.register
 class WorldScene(Message, frozen=True, tag="scene"):
     """The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 
     `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
-    that name; `solid`: it can be shown in three dimensions.
+    that name; `solid`: it can be shown in three dimensions; `can_place`: objects can be added; `picture`: what
+    its camera sees is in the messages on bodies.
     """
 
     scene: SceneView | None
     note: str = ""
     camera: bool = False
     solid: bool = False
+    can_place: bool = False
+    picture: PictureView | None = None
 
 
 @MESSAGES.register
@@ -644,12 +655,14 @@ class Bodies(Message, frozen=True, tag="bodies"):
 
     Each row of `path` has x and y of each body; `fresh`: the path starts again, and the page drops the old
     one. `poses` (base64 of float32) has for each solid its position and the rows of its rotation matrix.
+    `picture` (base64) has red, green and blue of what a camera sees, a byte each, row by row from the top.
     """
 
     bodies: list[BodyView]
     fresh: bool
     path: list[list[float]]
     poses: str = ""
+    picture: str = ""
 
 
 class SolidView(Data, frozen=True):

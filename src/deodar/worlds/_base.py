@@ -150,6 +150,11 @@ class World:
         """
         raise WorldError(f"nothing can be placed in the world {type(self).__name__}", where=name)
 
+    @property
+    def can_place(self) -> bool:
+        """Whether `place` adds objects."""
+        return type(self).place is not World.place
+
     def remove(self, name: str) -> None:
         """Remove an object from the scene."""
         raise WorldError(f"nothing can be removed from the world {type(self).__name__}", where=name)

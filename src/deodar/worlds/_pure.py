@@ -109,6 +109,9 @@ class PureWorld(World):
             return read()
         return lax.cond(any_copy(self.renews(state, sensor)), read, lambda: before)
 
+    def passed(self) -> None:
+        """Do what a view needs after each period on the host; batches inside the compiled step omit it."""
+
     # ----------------------------------------------------------------------------------- computed on the host
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
@@ -153,6 +156,7 @@ class PureWorld(World):
             self._now(),
             self._commands(motors),
         )
+        self.passed()
 
     @property
     def exchanges(self) -> bool:
@@ -191,6 +195,7 @@ class PureWorld(World):
         self._state, seen = self.call(
             ("exchange", len(held), *names), both, *self._values(), self._now(), self._commands(motors), held
         )
+        self.passed()
         return [np.asarray(reading) for reading in seen]
 
     def _commands(self, motors: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -67,6 +67,22 @@ class SceneBody:
 
 
 @dataclass(frozen=True)
+class ScenePicture:
+    """What a camera of the world sees now, drawn for people; models read its sensors instead.
+
+    Attributes:
+        name: name of the picture.
+        columns, rows: its size, pixels.
+        pixels: red, green and blue of each pixel, a byte each, row by row from the top.
+    """
+
+    name: str
+    columns: int
+    rows: int
+    pixels: bytes
+
+
+@dataclass(frozen=True)
 class Scene:
     """View of a world from above, at one moment; a world with bodies in three dimensions has its solids too.
 
@@ -76,6 +92,7 @@ class Scene:
         boxes, marks, bodies: solid objects, named positions, and bodies that move by themselves.
         solids: what is drawn in three dimensions; the same object until something else is drawn.
         poses: position and rotation matrix of each solid, `POSE` numbers of float32.
+        picture: what a camera of the world sees; None: it has none, or none that is drawn.
     """
 
     unit: str
@@ -85,6 +102,7 @@ class Scene:
     bodies: tuple[SceneBody, ...] = ()
     solids: tuple[Solid, ...] = ()
     poses: bytes = b""
+    picture: ScenePicture | None = None
 
     def entry(self, name: str) -> SceneBox | Mark:
         """Return the box or mark of a name, if the user may move it.

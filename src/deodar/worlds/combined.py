@@ -116,6 +116,10 @@ class Combined(World):
     def scene(self) -> Scene | None:
         return self.world.scene()
 
+    @property
+    def can_place(self) -> bool:
+        return self.world.can_place
+
     def move(self, name: str, center: Sequence[float]) -> None:
         self.world.move(name, center)
 

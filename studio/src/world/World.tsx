@@ -12,6 +12,7 @@ import { BlockPalette } from "./BlockPalette";
 import { AddCamera, CameraView, useCamera } from "./CameraView";
 import type { Ground } from "./ground";
 import { live } from "./live";
+import { PictureView } from "./PictureView";
 import { Plan } from "./Plan";
 import { objects, placeText } from "./plan";
 import { SolidScene } from "./solid/SolidScene";
@@ -20,6 +21,7 @@ import { useHands } from "./useHands";
 const HELP =
   "Drag an object, or a colour onto the plan. A click on a colour places a block in front of the robot, a " +
   "double click a box of that colour; Delete removes the selected one, arrow keys move it.";
+const MOVING_HELP = "Drag an object, or move the chosen one with the arrow keys.";
 const SOLID_HELP =
   "Drag an object to move it, a link of the robot to push it, anything else to turn the view; the right " +
   "button shifts it, the wheel comes nearer. A double click places a box.";
@@ -36,6 +38,8 @@ export function World() {
   const note = useSyncExternalStore(live.listen, live.note);
   const hasCamera = useSyncExternalStore(live.listen, live.camera);
   const hasSolids = useSyncExternalStore(live.listen, live.solid);
+  const canPlace = useSyncExternalStore(live.listen, live.canPlace);
+  const picture = useSyncExternalStore(live.listen, live.picture);
   const record = useStudio((state) => state.document?.record != null);
   const open = useStudio((state) => state.connection === "open");
   const camera = useCamera();
@@ -73,7 +77,9 @@ export function World() {
           ? "The objects are at their places at the start of the run."
           : solid
             ? SOLID_HELP
-            : HELP
+            : canPlace
+              ? HELP
+              : MOVING_HELP
       : `${looked.name}: ${placeText(carried.held?.at ?? looked, scene.border, scene.unit)}`;
   return (
     <section className="world" aria-label={solid ? "World in three dimensions" : "World from above"}>
@@ -106,7 +112,7 @@ export function World() {
           {carried.refused === "" ? told : carried.refused}
         </span>
       </header>
-      {!record && (
+      {!record && canPlace && (
         <BlockPalette
           scene={scene}
           chosen={hands.colour}
@@ -127,6 +133,7 @@ export function World() {
           )}
         </div>
         {camera !== null && <CameraView camera={camera} />}
+        {picture !== null && <PictureView picture={picture} />}
       </div>
     </section>
   );

@@ -1,20 +1,33 @@
 // The world as the server showed it last: its objects, the positions of its bodies, their paths, and its
 // solids. Many pictures a second pass through here, so that React renders only static parts.
 
-import type { Bodies, BodyView, SceneView, SolidView, WorldScene, WorldSolids } from "../protocol";
-import { floatsOf } from "./base64";
+import type {
+  Bodies,
+  BodyView,
+  PictureView,
+  SceneView,
+  SolidView,
+  WorldScene,
+  WorldSolids,
+} from "../protocol";
+import { bytesOf, floatsOf } from "./base64";
 
 export type Seen = {
   scene: SceneView | null;
   note: string;
-  // Whether the world has a camera, and whether it can be shown in three dimensions.
+  // Whether the world has a camera, whether it can be shown in three dimensions, and whether objects can be
+  // added to it.
   camera: boolean;
   solid: boolean;
+  canPlace: boolean;
   bodies: BodyView[];
   path: number[][];
   // What is drawn in three dimensions, and for each the position and the rows of the rotation matrix.
   solids: SolidView[];
   poses: Float32Array;
+  // The picture that a camera of the world sees, and its red, green and blue, row by row from the top.
+  picture: PictureView | null;
+  pixels: Uint8Array;
 };
 
 export const NOTHING_SEEN: Seen = {
@@ -22,10 +35,13 @@ export const NOTHING_SEEN: Seen = {
   note: "",
   camera: false,
   solid: false,
+  canPlace: false,
   bodies: [],
   path: [],
   solids: [],
   poses: new Float32Array(),
+  picture: null,
+  pixels: new Uint8Array(),
 };
 
 export class LiveWorld {
@@ -45,6 +61,10 @@ export class LiveWorld {
 
   readonly solid = (): boolean => this.seen.solid;
 
+  readonly canPlace = (): boolean => this.seen.canPlace;
+
+  readonly picture = (): PictureView | null => this.seen.picture;
+
   readonly listen = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
@@ -58,20 +78,29 @@ export class LiveWorld {
         note: message.note ?? "",
         camera: message.camera ?? false,
         solid: message.solid ?? false,
+        canPlace: message.can_place ?? false,
+        picture: same(this.seen.picture, message.picture ?? null),
       };
     } else if (message.type === "solids") {
       this.seen = { ...this.seen, solids: message.solids };
     } else {
-      const { bodies, fresh, path, poses } = message;
+      const { bodies, fresh, path, poses, picture } = message;
       this.seen = {
         ...this.seen,
         bodies,
         path: fresh ? path : [...this.seen.path, ...path],
         poses: floatsOf(poses ?? ""),
+        pixels: bytesOf(picture ?? ""),
       };
     }
     this.listeners.forEach((listener) => listener());
   }
+}
+
+// The picture before where nothing changed, because React compares objects.
+function same(before: PictureView | null, now: PictureView | null): PictureView | null {
+  const equal = before?.name === now?.name && before?.columns === now?.columns && before?.rows === now?.rows;
+  return equal ? before : now;
 }
 
 export const live = new LiveWorld();

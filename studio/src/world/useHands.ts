@@ -47,7 +47,7 @@ export function useHands(scene: SceneView | null): Hands {
   );
   const carrier = hand.current;
   const put = (at: PlanPoint) => {
-    if (scene !== null) {
+    if (scene !== null && live.now.canPlace) {
       const size = blockSide(scene, live.now.bodies[0]);
       void request({
         type: "place_object",

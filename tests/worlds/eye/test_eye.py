@@ -217,3 +217,26 @@ def test_it_opens_with_settings_and_opens_again_as_it_was_described() -> None:
         dd.Eye.open("gian=3")
     with pytest.raises(WorldError, match="expected a number"):
         dd.Eye.open("gain=much")
+
+
+def test_the_picture_of_the_scene_shows_events_that_fade() -> None:
+    world = begun(camera=QUIET, first=(41.5, 81.5), blink=40.0)
+
+    def drawn() -> np.ndarray:
+        picture = world.scene().picture
+        assert (picture.name, picture.columns, picture.rows) == ("events", 128, 128)
+        pixels = np.frombuffer(picture.pixels, np.uint8).reshape(128, 128, 3).astype(int)
+        return (pixels - [22, 24, 28])[::-1].transpose(1, 0, 2)  # columns first, row 0 at the bottom
+
+    assert not drawn().any(), "nothing was seen yet"
+    turned(world, 1000, 1000, 4)  # 40 ms: the target was lit once
+    lit = drawn()
+    where = np.argwhere(lit.any(axis=-1))
+    assert where.mean(axis=0) == pytest.approx([41.5, 81.5], abs=0.5)
+    red, _, blue = lit[41, 81]
+    assert red > 100 > blue, "brighter: orange"
+    turned(world, 1000, 1000, 4)  # it went dark
+    red, _, blue = drawn()[41, 81]
+    assert red < 0 or blue > red, "darker: blue"
+    world.reset(0)
+    assert not drawn().any()

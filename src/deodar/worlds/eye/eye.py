@@ -25,6 +25,7 @@ from deodar.worlds._scene import Mark, Scene, SceneBody
 from deodar.worlds._settings import named, number, numeric, of
 from deodar.worlds.eye import screen
 from deodar.worlds.eye.event_camera import EventCamera, rate
+from deodar.worlds.eye.event_picture import EventPicture
 from deodar.worlds.eye.optics import CENTRE, PIXELS, Optics
 
 LOWEST, HIGHEST = 0.0, 2000.0
@@ -91,9 +92,9 @@ class Eye(PureWorld):
         period: ms between two exchanges with the model.
 
     Shapes:
-        `events`, `on` and `off` are sampled over two axes in pixels, columns from the left and rows from the
-        top: the rate over the cell of each sample in the last period, per pixel and second. `pose` and
-        `target` have two samples.
+        `events`, `on` and `off` are sampled over two axes in pixels, columns and rows, which grow with the
+        pan and the tilt of the target: the rate over the cell of each sample in the last period, per pixel
+        and second. `pose` and `target` have two samples.
 
     Reference:
         Sandamirskaya (2014), Front. Neurosci. 7:276, section 3.1 (the camera, the unit, its range from 0 to
@@ -150,6 +151,7 @@ class Eye(PureWorld):
         self.first = None if first is None else _rows("first", first, 0.0, PIXELS - 1.0)
         self.poses = _rows("pose", pose, LOWEST, HIGHEST)
         self.carried, self.carries = np.full(2, MIDDLE), 0
+        self._picture = EventPicture(PIXELS)
 
     # ------------------------------------------------------------------------------------------------- arrays
 
@@ -284,6 +286,15 @@ class Eye(PureWorld):
 
     # -------------------------------------------------------------------------------------------- the outside
 
+    def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        super().reset(seed, trials, precision)
+        self._picture.clear()
+
+    def passed(self) -> None:
+        state = self._now()
+        on, off = (np.asarray(state[name])[0] for name in ("on", "off"))
+        self._picture.add(on, off, self.step)
+
     def move(self, name: str, center: Sequence[float]) -> None:
         """Move the target of all copies; `center` is its new direction, pan and tilt in servo units."""
         if name != TARGET:
@@ -299,7 +310,9 @@ class Eye(PureWorld):
         self.carried, self.carries = np.asarray(kept["carried"], float), int(kept["carries"])
 
     def scene(self) -> Scene:
-        """Return the directions that the servo motors reach, with the target, distractors and the gaze."""
+        """Return the directions that the servo motors reach, with the target, distractors and the gaze; its
+        picture has the events of the first copy.
+        """
         border = (LOWEST, LOWEST, HIGHEST, HIGHEST)
         if not hasattr(self, "_state"):
             return Scene("servo", border)
@@ -309,7 +322,7 @@ class Eye(PureWorld):
         marks += [Mark(f"distractor {k}", (float(x), float(y)), True) for k, (x, y) in enumerate(objects[1:])]
         shown = tuple(marks) if float(np.asarray(state["shown"])[0]) > 0 else ()
         gaze = SceneBody("gaze", (float(pose[0]), float(pose[1])), 0.0, CENTRED / self.optics.gain)
-        return Scene("servo", border, (), shown, (gaze,))
+        return Scene("servo", border, (), shown, (gaze,), picture=self._picture.scene())
 
     def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
         if sensor not in EVENTS:
