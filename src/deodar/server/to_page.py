@@ -637,8 +637,8 @@ class WorldScene(Message, frozen=True, tag="scene"):
     """The world from above, sent whenever a box or mark changed; None: the world has no view from above.
 
     `note` is a sentence on what a record does not contain of the world; `camera`: the world has a sensor of
-    that name; `solid`: it can be shown in three dimensions; `can_place`: objects can be added; `picture`: what
-    its camera sees is in the messages on bodies.
+    that name; `solid`: it can be shown in three dimensions; `can_place`: objects can be added; `picture`:
+    what its camera sees is in the messages on bodies.
     """
 
     scene: SceneView | None

@@ -9,7 +9,7 @@ import numpy as np
 from deodar.worlds._scene import ScenePicture
 
 FADES = 40.0
-"""Time after which an event has faded to 1/e, ms: about as long as a picture of a film is seen."""
+"""Time after which an event has faded to 1/e, ms: longer than the page takes for a picture."""
 
 FULL = 3.0
 """Events of a pixel that give it the full colour."""
