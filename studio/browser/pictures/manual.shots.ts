@@ -174,6 +174,28 @@ for (const colours of COLOURS) {
     await shot(page, name("pointing"));
   });
 
+  test(`eye, ${colours}`, async () => {
+    const studio = await open(colours, {});
+    const { page } = studio;
+    const observer = await studio.observe();
+    await openExample(page, "Looking");
+    await observer.runs();
+    await observer.ask({
+      type: "watch",
+      element: observer.element("motor intention").id,
+      port: "output",
+      most: 64,
+    });
+    // until the first peak has formed in the motor intention, and the gaze turns
+    await observer.ask({ type: "speed", factor: 0.2 });
+    await page.getByRole("button", { name: /^play/i }).click();
+    await observer.until(() => observer.max("motor intention", "output") > 0.9);
+    await page.getByRole("button", { name: /^pause/i }).click();
+    await page.mouse.move(3, 400);
+    await page.waitForTimeout(1000); // until all is drawn
+    await shot(page, name("eye"));
+  });
+
   test(`blocks, ${colours}`, async () => {
     const parts = ["left", "right"].flatMap((side, k) => [
       [`go ${side}`, { kind: "Boost", id: `0000000${k + 1}`, axes: [], amplitude: 300 }],
