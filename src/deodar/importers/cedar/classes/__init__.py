@@ -13,18 +13,22 @@ from deodar.importers.cedar.classes import (
     numerics,
     oscillators,
     programming,
+    rate_matrix,
     serial_order,
     sources,
+    synaptic,
     vision,
 )
 from deodar.importers.cedar.piece import SourceStep, StepPiece
 
 CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **fields.CLASSES,
+    **rate_matrix.CLASSES,
     **sources.CLASSES,
     **hebbian.CLASSES,
     **serial_order.CLASSES,
     **algebra.CLASSES,
+    **synaptic.CLASSES,
     **functions.CLASSES,
     **arrays.CLASSES,
     **programming.CLASSES,

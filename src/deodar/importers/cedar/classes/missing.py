@@ -96,13 +96,11 @@ UNDOCUMENTED = {
     "ImageGradient": "the border, the unit of its orientations and its rounding to 8 bits",
     "TemplateMatching": "which normalisation of the cross-correlation it has, and the size of its result",
     "ImageTransform": "the centre of its rotation, and the order of rotation, scaling and translation",
-    "SynapticConnection": "how its point-wise weights are placed; use Sum, Convolve, Gain and Project",
     "NeuralCoordinateTransform": "what it convolves over which border, and which slice it gives",
     "TwoStepInput": "when its countdown begins, and how it moves",
     "ViewportCamera": "the position of its window, and how it learns",
     "ViewportSlice": "the position of its window",
     "ResetDetector": "whether it also gives 1 at the start of a run",
-    "OverTime": "its maximum before the first input",
     "UnitConverter": "what follows from the unit of a value",
 }
 """What cedar's documentation does not state of steps that deodar could compute."""
