@@ -40,6 +40,7 @@ TYPES = {
                 "MatrixPadding",
                 "MatrixSlice",
                 "Norm",
+                "Nullspace",
                 "Normalization",
                 "Projection",
                 "PseudoInverse",
@@ -854,6 +855,9 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     ):
         put("PseudoInverse", variant, {}, {"matrix": source}, "inverted", target)
     put("PseudoInverse", "of a number", {}, {"matrix": one}, "inverted", one)
+    put("Nullspace", "", {}, {"jacobian": (3, 5)}, "nullspace", (5, 5))
+    for variant, shown in (("of a vector", "projected vector"), ("without it", "orthogonal vector")):
+        put("Nullspace", variant, {}, {"jacobian": (2, 4), "vector": (4,)}, shown, (4,))
     put("Maximum", "", {}, {"terms": [line, line, line]}, "maximum", line)
     put("Minimum", "", {}, {"terms": [line, line]}, "minimum", line)
     put("Norm", "", {}, {"input": plane}, "output", one)

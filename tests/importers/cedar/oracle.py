@@ -1142,6 +1142,24 @@ def pseudo_inverse(p, x, s, clock):
     return {"inverted": inverse.reshape(-1, 1) if 1 in inverse.shape else inverse}
 
 
+@steps_of("cedar.processing.Nullspace", needs=["jacobian"], may=["vector"])
+def null_space(p, x, s, clock):
+    """Return the projector on the null space, and both parts of a vector."""
+    jacobian = x["jacobian"]
+    columns = jacobian.shape[1]
+    if "vector" in x and x["vector"].size != columns:
+        raise Invalid("the vector has another size")
+    found = np.eye(columns) - np.linalg.pinv(jacobian) @ jacobian
+    if "vector" not in x:
+        return {"nullspace": found}
+    inside = found @ x["vector"].reshape(-1, 1)
+    return {
+        "nullspace": found,
+        "projected vector": inside,
+        "orthogonal vector": x["vector"].reshape(-1, 1) - inside,
+    }
+
+
 @steps_of("cedar.processing.steps.Histogram", needs=["input"], may=["mask"])
 def histogram(p, x, s, clock):
     """Count the cells in bins of equal width, without the end of the range."""

@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.importers.cedar import translate
 from tests.importers.cedar import oracle
-from tests.importers.cedar.models import DROP, TYPES, Model, between, every_type, gauss
+from tests.importers.cedar.models import DROP, TYPES, Model, between, every_type, gauss, written
 from tests.importers.cedar.test_oracle import invalid
 
 LINE, PLANE, CUBE = (12,), (8, 7), (6, 5, 7)
@@ -25,6 +25,7 @@ REFUSED = [
     ("SynapticConnection", {"convolution": LARGE}, {"matrix": LINE}, "result", "FFTW raises an exception"),
     ("RateMatrixToSpaceCode", {}, {"values": PLANE}, "output", "nothing is connected to 'bin map'"),
     ("RateMatrixToSpaceCode", {}, {"bin map": PLANE, "values": (5, 5)}, "output", "its values have the size"),
+    ("Nullspace", {}, {"jacobian": (2, 4), "vector": (3,)}, "nullspace", "its vector has the size [3]"),
     ("SpaceCodeToRateMatrix", {}, {"input": PLANE}, "output", "its input has 2 dimensions"),
 ]
 """Steps that cedar does not run."""
@@ -76,6 +77,13 @@ def test_a_rate_between_two_bins_is_in_the_upper_one_and_beyond_the_last_in_none
     if at is not None:
         wanted[:, :, at] = 1
     assert np.array_equal(code, wanted)
+
+
+def test_the_null_space_of_a_robot_states_what_takes_its_place():
+    steps = {"cedar.processing.steps.Jacobian": {"name": "J"}, TYPES["Nullspace"]: {"name": "step"}}
+    wires = [{"source": "J.jacobian", "target": "step.jacobian"}]
+    found, _ = why_of(written({"steps": steps, "connections": wires}))
+    assert "its size is that of 'J'" in found and "tool_velocity of dd.MuJoCo" in found
 
 
 def test_the_largest_bins_are_found_in_single_precision():

@@ -14,6 +14,7 @@ from deodar.importers.cedar.classes import (
     oscillators,
     programming,
     rate_matrix,
+    robotics,
     serial_order,
     sources,
     synaptic,
@@ -34,6 +35,7 @@ CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **programming.CLASSES,
     **numerics.CLASSES,
     **oscillators.CLASSES,
+    **robotics.CLASSES,
     **vision.CLASSES,
 }
 

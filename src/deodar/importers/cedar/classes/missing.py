@@ -119,7 +119,10 @@ def placeholder(
         why: the reason, if it is not the type.
         stops: why cedar does not run the step.
     """
-    what = why or _reason(step, [*ins, *outs]) or unknown(step.kind, "has no counterpart", known)
+    what = _reason(step, [*ins, *outs]) or unknown(step.kind, "has no counterpart", known)
+    if why:
+        # of a step that is translated elsewhere: what takes its place with a robot, too
+        what = f"{why}; it {WORLDS[step.short]}" if step.short in WORLDS and step.kind in known else why
     name = step.path[-1]
     dims: Counts = ()
     return StepPiece(
