@@ -1,4 +1,5 @@
-// Leads to an element or a group on the canvas: the panel of the architecture is shown, folded groups are opened.
+// Leads to an element or a group on the canvas: the panel of the architecture is shown, and folded groups are
+// opened.
 
 import { getStage } from "../build/stage";
 import { isShown, openTool } from "../panels/openPlot";

@@ -359,7 +359,10 @@ def attempt(a, step, clock):
     except Invalid:
         step.valid = False
     except Stopped:  # this happens when it computes; the step has its sizes and can be read
-        return {"result": np.zeros_like(values_of(a, step)["matrix"])} if step.kind.begin is None else None
+        if step.kind.begin is not None:
+            return None
+        given = values_of(a, step)["matrix"]
+        return {"result": np.zeros_like(given[0] if isinstance(given, list) else given)}
     return None
 
 

@@ -177,7 +177,7 @@ def over_time(b: SourceStep) -> StepPiece:
     largest = c.add(Envelope("upper", name=b.label), input=c.slot("input"), other=StepSignal(before.name))
     c.add(before, input=largest)
     c.outlet("output", largest, dims)
-    why = "Envelope of its input and its last output; that it begins with the first input is a guess"
+    why = "Envelope of its input and its last output; that a run begins with its first input is a guess"
     return c.done(why, "approximated")
 
 
