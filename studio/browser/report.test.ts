@@ -23,11 +23,17 @@ const LOSSY = [
   readFileSync(SAMPLE, "utf8"),
 );
 
+/** The sample with a connection of the group that does not name a slot. */
+const GROUPED = readFileSync(SAMPLE, "utf8").replace(
+  '"source": "new Projection.output"',
+  '"source": "new Projection"',
+);
+
 let studio: Studio;
 let observer: Observer;
 
 beforeAll(async () => {
-  studio = await startStudio({ files: { "behavior.json": LOSSY } });
+  studio = await startStudio({ files: { "behavior.json": LOSSY, "grouped.json": GROUPED } });
   observer = await studio.observe();
 });
 
@@ -185,6 +191,40 @@ test("a line opens the panel of the architecture again where it was closed", asy
   await expect.poll(() => selected(placeholder)).toBe(true);
   await expect.poll(() => inView(placeholder)).toBe(true);
   expect(await line("gain factor").isVisible(), "the report stays open").toBe(true);
+});
+
+test("a line of a group leads to the group, and of a renamed group to its first element", async () => {
+  const { page } = studio;
+  await observer.ask({ type: "open_file", path: "grouped.json", discard: true });
+  await observer.runs();
+  await button(page, "Import report: 2 not carried (1 approximated, 1 dropped)").click();
+  const broken = line("does not name two slots");
+  await report()
+    .getByRole("group", { name: `${GROUP} (group)` })
+    .waitFor();
+  await broken.click();
+  const frame = page.locator(".graph-frame[data-selected]").filter({ hasText: GROUP });
+  await frame.waitFor();
+  await expect.poll(() => inView(frame)).toBe(true);
+  await report().locator(".report-title[data-shown]").getByText(GROUP).waitFor();
+  expect(await obstacles(page)).toEqual([]);
+  await shot(page, "report-group");
+  await button(page, `Fold ${GROUP}`).click();
+  await frame.waitFor({ state: "detached" });
+  const folded = page.locator(".graph-folded[data-selected]").filter({ hasText: GROUP });
+  await folded.waitFor();
+  await page.locator(".react-flow__pane").click({ position: { x: 8, y: 8 } });
+  await folded.waitFor({ state: "detached" });
+  await broken.click();
+  await folded.waitFor();
+  await expect.poll(() => inView(folded)).toBe(true);
+  await observer.ask({ type: "rename", group: [GROUP], name: "behavior" });
+  await report().getByText(`group ${GROUP} in the file`).waitFor();
+  await broken.click();
+  const first = observer.document?.elements.find(({ group }) => group[0] === "behavior");
+  await panel(page, "Inspector")
+    .getByRole("heading", { name: first?.name ?? "", exact: true })
+    .waitFor();
 });
 
 test("a document without a report has no count, and its panel says so", async () => {

@@ -1169,9 +1169,9 @@ export type RepeatTrial = {
 // An item of an imported file: an element, parameter or connection, and what became of it.
 //
 // `where` is the label of the element in the file, and `element` the id that it got in the document, also if
-// it was renamed or removed since; both are empty for what belongs to no element. `part` is the sort of the
-// item, and `what` its name. `why` states how it was approximated or why it was dropped; for a carried item,
-// its counterpart.
+// it was renamed or removed since; both are empty for what belongs to no element. Of a group, `group` has the
+// names that it had, and `element` is the first element in it. `part` is the sort of the item, and `what` its
+// name. `why` states how it was approximated or why it was dropped; for a carried item, its counterpart.
 export type ReportLineView = {
   where: string;
   element: string;
@@ -1179,6 +1179,7 @@ export type ReportLineView = {
   what: string;
   verdict: "approximated" | "carried" | "dropped";
   why: string;
+  group: string[];
 };
 
 // Reset state, time and noise to the start, with another seed if one is given. Parameters stay.

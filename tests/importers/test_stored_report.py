@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.codec import JsonObject
-from deodar.importers import stored_report
+from deodar.importers import cedar, stored_report
 from deodar.importers.report import ImportReport, Line
 from deodar.model import building, edit, files
 from deodar.model.document import Document
@@ -82,6 +82,56 @@ def test_a_renamed_element_keeps_its_lines() -> None:
     [entry] = doc.entries
     found = stored_report.report_of(building.rename(doc, entry.id, "b"))
     assert found is not None and found.lines[1].element == entry.id
+
+
+def grouped() -> Document:
+    """Return a document with an element, a group in a group, and an empty group."""
+    model = dd.Model("m")
+    for name in ("a", "g.h.u", "g.v"):
+        model.add(dd.Field(name.rpartition(".")[2], []), group=name.rpartition(".")[0])
+    return edit.group(model.document, ("empty",))
+
+
+def test_a_line_of_a_group_has_its_names_and_the_id_of_its_first_element() -> None:
+    doc = grouped()
+    u, v = doc.by_names()["g", "h", "u"].id, doc.by_names()["g", "v"].id
+    labels = ("g", "g.h", "g.v", "empty", "g.w", "")
+    lines = [Line(label, "connection", "x", "dropped") for label in labels]
+    kept = stored_report.with_report(doc, ImportReport("cedar", "memory.json", lines))
+    found = stored_report.report_of(kept)
+    assert found is not None
+    assert [(line.where, line.element, line.group) for line in found.lines] == [
+        ("g", u, ("g",)),
+        ("g.h", u, ("g", "h")),
+        ("g.v", v, ()),
+        ("empty", "", ("empty",)),
+        ("g.w", "", ()),
+        ("", "", ()),
+    ]
+    data = [line.data() for line in found.lines]
+    assert [line.get("group") for line in data] == [["g"], ["g", "h"], None, ["empty"], None, None]
+    assert [line.get("element") for line in data] == [u, u, v, None, None, None]
+
+
+def test_an_element_with_the_path_of_a_group_has_the_lines() -> None:
+    doc = grouped()
+    [entry] = [e for e in doc.entries if e.names == ("a",)]
+    doc = edit.group(doc, ("a.b",))
+    lines = [Line("a", "element", "x", "carried"), Line("a.b", "connection", "x", "dropped")]
+    found = stored_report.located(ImportReport("cedar", "memory.json", lines), doc).lines
+    assert [(line.element, line.group) for line in found] == [(entry.id, ()), ("", ("a.b",))]
+
+
+def test_a_group_of_cedar_with_a_broken_connection_has_its_line() -> None:
+    text = SAMPLES[0].read_text()
+    broken = text.replace('"source": "new Projection.output"', '"source": "new Projection"', 1)
+    assert broken != text
+    done = cedar.read(broken.encode(), "broken.json")
+    lines = stored_report.located(done.report, done.model.document).lines
+    [line] = [line for line in lines if "does not name two slots" in line.why]
+    assert line.group == ("Elementary behavior",)
+    first = next(entry for entry in done.model.document.entries if entry.group == line.group)
+    assert line.element == first.id
 
 
 def test_the_report_leaves_the_rest_of_the_layout_as_it_is() -> None:

@@ -25,8 +25,9 @@ class Line:
         what: the class, the name of the parameter or component, the source, or the key.
         verdict: `carried` (the model does what the file states), `approximated`, or `dropped`.
         why: how it was approximated or why it was dropped; for a carried item, its counterpart.
-        element: id of the element of the model that the item belongs to; empty if that is not known, or if
-            there is none.
+        element: id of the element of the model that the item belongs to, for an item of a group that of the
+            first element in it; empty if that is not known, or if there is none.
+        group: names of the group of the model, from the outermost, if the item belongs to a group.
     """
 
     where: str
@@ -35,15 +36,16 @@ class Line:
     verdict: Verdict
     why: str = ""
     element: str = ""
+    group: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         place = f"{self.where}: " if self.where else ""
         return f"{place}{self.part} {self.what}: {self.verdict}{f', {self.why}' if self.why else ''}"
 
     def data(self) -> JsonObject:
-        """Return plain data, for JSON; without `element` if it is empty."""
-        found = dc.asdict(self)
-        return found if self.element else {key: value for key, value in found.items() if key != "element"}
+        """Return plain data, for JSON; without `element` and `group` if they are empty."""
+        found = {**dc.asdict(self), "group": list(self.group)}
+        return {key: value for key, value in found.items() if value or key not in ("element", "group")}
 
 
 @dc.dataclass(frozen=True)

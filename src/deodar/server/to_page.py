@@ -302,9 +302,10 @@ class ReportLineView(Data, frozen=True):
     """An item of an imported file: an element, parameter or connection, and what became of it.
 
     `where` is the label of the element in the file, and `element` the id that it got in the document, also if
-    it was renamed or removed since; both are empty for what belongs to no element. `part` is the sort of the
-    item, and `what` its name. `why` states how it was approximated or why it was dropped; for a carried item,
-    its counterpart.
+    it was renamed or removed since; both are empty for what belongs to no element. Of a group, `group` has
+    the names that it had, and `element` is the first element in it. `part` is the sort of the item, and
+    `what` its name. `why` states how it was approximated or why it was dropped; for a carried item, its
+    counterpart.
     """
 
     where: str
@@ -313,6 +314,7 @@ class ReportLineView(Data, frozen=True):
     what: str
     verdict: Verdict
     why: str
+    group: list[str]
 
 
 @MESSAGES.register

@@ -12,6 +12,8 @@ export type Stage = {
   reveal: (element: string) => void;
   // Selects an element and brings it into the middle.
   center: (element: string) => void;
+  // Selects a group with all its elements and brings it into view.
+  centerGroup: (group: string) => void;
 };
 
 let stage: Stage | null = null;

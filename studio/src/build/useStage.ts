@@ -24,14 +24,15 @@ export function useStage(
   around: RefObject<HTMLDivElement | null>,
   scene: GraphScene,
   center: (element: string) => void,
+  centerGroup: (group: string) => void,
 ) {
   const flow = useReactFlow();
   const latest = useRef(scene);
-  const centering = useRef(center);
+  const centering = useRef({ center, centerGroup });
   useEffect(() => {
     latest.current = scene;
-    centering.current = center;
-  }, [scene, center]);
+    centering.current = { center, centerGroup };
+  }, [scene, center, centerGroup]);
   useEffect(listen, []);
 
   useEffect(() => {
@@ -61,7 +62,8 @@ export function useStage(
       toScreen: (at) => flow.flowToScreenPosition(at),
       scene: () => latest.current,
       reveal,
-      center: (element) => centering.current(element),
+      center: (element) => centering.current.center(element),
+      centerGroup: (group) => centering.current.centerGroup(group),
     });
     return () => setStage(null);
   }, [around, flow]);

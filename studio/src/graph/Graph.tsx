@@ -7,6 +7,7 @@ import {
   ReactFlow,
   ReactFlowProvider,
   useReactFlow,
+  getViewportForBounds,
   useStoreApi,
   type Edge,
   type EdgeTypes,
@@ -46,9 +47,17 @@ import "./graph.css";
 import { useHover } from "./hover";
 import { moved } from "./layout/moved";
 import { newPainting, PainterContext } from "./boxes/PainterContext";
-import { foldedAround, groupKey, type GraphScene, type SceneNode, type Structure } from "./scene";
+import {
+  foldedAround,
+  foldedOutside,
+  groupKey,
+  type GraphScene,
+  type SceneNode,
+  type Structure,
+} from "./scene";
 import { Search } from "./Search";
 import { SignMarks } from "./wires/SignMarks";
+import type { Tree } from "./layout/tree";
 import { useStructure } from "./layout/structure";
 import { useAnchor } from "./useAnchor";
 import { useNodes } from "./useNodes";
@@ -86,7 +95,7 @@ function Canvas({ structure }: { structure: Structure }) {
   const [painting] = useState(newPainting);
   const { painter, layer } = painting;
   const [searching, setSearching] = useState(false);
-  const center = useCenter(now);
+  const { center, centerGroup } = useCenter(now);
   const shown = useCallback((canvas: HTMLCanvasElement) => layer.attach(canvas), [layer]);
   useEffect(() => layer.change(), [layer, nodes]);
   const flow = useReactFlow<SceneNode>();
@@ -96,11 +105,20 @@ function Canvas({ structure }: { structure: Structure }) {
     () => views.subscribe(({ transform }, before) => transform !== before.transform && layer.change()),
     [views, layer],
   );
-  const stage = useStage(around, now, (element) => {
-    touch();
-    useStudio.getState().select([element]);
-    center(element);
-  });
+  const stage = useStage(
+    around,
+    now,
+    (element) => {
+      touch();
+      useStudio.getState().select([element]);
+      center(element);
+    },
+    (group) => {
+      touch();
+      pickGroup(group, false);
+      centerGroup(group);
+    },
+  );
   const wiring = useWires(useMemo(() => withCourses(now), [now]));
   // The first element of an empty document stays where it was put.
   const [fits] = useState(now.nodes.length > 0);
@@ -258,32 +276,43 @@ function Canvas({ structure }: { structure: Structure }) {
   );
 }
 
-// Brings an element into the middle; folded groups around it are opened first.
-function useCenter(now: GraphScene): (element: string) => void {
-  const { getNodesBounds, setCenter, getZoom } = useReactFlow();
-  const [wanted, setWanted] = useState<string | null>(null);
+// Brings an element, or all of a group, into the middle; folded groups around it are opened first.
+function useCenter(now: GraphScene): Record<"center" | "centerGroup", (id: string) => void> {
+  const { getNodesBounds, setCenter, setViewport, getZoom } = useReactFlow();
+  const views = useStoreApi();
+  const [wanted, setWanted] = useState<{ id: string; isGroup: boolean } | null>(null);
   useEffect(() => {
-    if (wanted === null || foldedAround(now.tree, wanted).length > 0) {
+    if (wanted === null || foldedOver(now.tree, wanted).length > 0) {
       return;
     }
-    const wire = now.wires.find(({ id }) => id === now.pills.get(wanted));
-    const { x, y, width, height } = getNodesBounds(
-      wire === undefined ? [wanted] : [wire.source, wire.target],
-    );
-    void setCenter(x + width / 2, y + height / 2, {
-      zoom: Math.max(getZoom(), 0.8),
-      duration: glide(GLIDE_MS),
-    });
     setWanted(null);
-  }, [wanted, now, getNodesBounds, setCenter, getZoom]);
-  return (element) => {
-    const folded = foldedAround(now.tree, element);
+    const [zoom, duration] = [Math.max(getZoom(), 0.8), glide(GLIDE_MS)];
+    if (wanted.isGroup) {
+      const group = now.places.groups.get(wanted.id);
+      const { width, height } = views.getState();
+      if (group !== undefined) {
+        void setViewport(getViewportForBounds(group, width, height, ZOOM.min, zoom, 0.1), { duration });
+      }
+      return;
+    }
+    const wire = now.wires.find(({ id }) => id === now.pills.get(wanted.id));
+    const { x, y, width, height } = getNodesBounds(
+      wire === undefined ? [wanted.id] : [wire.source, wire.target],
+    );
+    void setCenter(x + width / 2, y + height / 2, { zoom, duration });
+  }, [wanted, now, views, getNodesBounds, setCenter, setViewport, getZoom]);
+  const want = (id: string, isGroup: boolean) => {
+    const folded = foldedOver(now.tree, { id, isGroup });
     if (folded.length > 0) {
       unfold(folded);
     }
-    setWanted(element);
+    setWanted({ id, isGroup });
   };
+  return { center: (element) => want(element, false), centerGroup: (group) => want(group, true) };
 }
+
+const foldedOver = (found: Tree, { id, isGroup }: { id: string; isGroup: boolean }): string[] =>
+  isGroup ? foldedOutside(found, id) : foldedAround(found, id);
 
 function miniClass({ type }: SceneNode): string {
   return `graph-mini-${type}`;

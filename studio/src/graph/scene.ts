@@ -10,7 +10,7 @@ import { elementFamily, type ElementFamily } from "./boxes/family";
 import { COUNT, FOLDED, places, type Places, type Point, type Rect, type Size } from "./layout/layout";
 import { signText, together, type Sign } from "./wires/sign";
 import type { Course } from "./wires/wirePath";
-import { around, hiddenBy, tree, type Branch, type Tree } from "./layout/tree";
+import { around, hiddenBy, outside, tree, type Branch, type Tree } from "./layout/tree";
 
 export type Structure = Pick<DocumentView, "elements" | "connections" | "groups" | "layout">;
 
@@ -345,7 +345,13 @@ function wiresOf(edges: Chain[], found: Tree, names: Map<string, ElementView>): 
 
 // The folded groups that hide an element, so that it can be shown.
 export function foldedAround(found: Tree, element: string): string[] {
-  return around(found, element)
-    .filter((group) => group.folded)
-    .map((group) => group.key);
+  return foldedKeys(around(found, element));
 }
+
+// The folded groups that hide a group.
+export function foldedOutside(found: Tree, group: string): string[] {
+  return foldedKeys(outside(found, group));
+}
+
+const foldedKeys = (groups: Branch[]): string[] =>
+  groups.filter((group) => group.folded).map((group) => group.key);

@@ -1,10 +1,12 @@
-// The lines of the report. Arrow keys lead from line to line; Enter or a click shows the element of a line.
+// The lines of the report. Arrow keys lead from line to line; Enter or a click shows the element or the group
+// of a line.
 
 import { type KeyboardEvent, memo, useRef, useState } from "react";
 
+import { usePicked } from "../build/picked";
 import { useStudio } from "../store";
-import type { ReportItem, ReportLine } from "./reportItems";
-import { showElement } from "./showElement";
+import type { ReportGoal, ReportItem, ReportLine } from "./reportItems";
+import { showGoal } from "./showGoal";
 
 // `most` is the number of lines to draw.
 type Props = { items: ReportItem[]; most: number };
@@ -69,22 +71,19 @@ type ItemProps = {
 };
 
 function Item({ item, active, onFocus }: ItemProps) {
-  const { element, title, note, lines } = item;
-  const shown = useStudio((state) => element !== null && state.selected.includes(element));
+  const { goal, title, note, lines } = item;
+  const element = goal !== null && "element" in goal ? goal.element : null;
+  const group = goal !== null && "group" in goal ? goal.group : null;
+  const selected = useStudio((state) => element !== null && state.selected.includes(element));
+  const picked = usePicked((state) => group !== null && state.groups.includes(group));
   return (
     <div role="group" aria-label={note === "" ? title : `${title} (${note})`} className="report-item">
-      <div className="report-title" aria-hidden data-shown={shown || undefined}>
+      <div className="report-title" aria-hidden data-shown={selected || picked || undefined}>
         <span className="report-name">{title}</span>
         {note !== "" && <span className="report-note">{note}</span>}
       </div>
       {lines.map((line) => (
-        <LineOption
-          key={line.key}
-          line={line}
-          element={element}
-          active={line.key === active}
-          onFocus={onFocus}
-        />
+        <LineOption key={line.key} line={line} goal={goal} active={line.key === active} onFocus={onFocus} />
       ))}
     </div>
   );
@@ -92,21 +91,21 @@ function Item({ item, active, onFocus }: ItemProps) {
 
 type LineProps = {
   line: ReportLine;
-  element: string | null;
+  goal: ReportGoal | null;
   active: boolean;
   onFocus: (key: string) => void;
 };
 
-const LineOption = memo(function LineOption({ line, element, active, onFocus }: LineProps) {
+const LineOption = memo(function LineOption({ line, goal, active, onFocus }: LineProps) {
   const { part, what, verdict, why } = line;
-  const show = () => element !== null && showElement(element);
+  const show = () => goal !== null && showGoal(goal);
   return (
     <div
       className="report-line"
       role="option"
       tabIndex={active ? 0 : -1}
       aria-selected={active}
-      data-leads={element !== null || undefined}
+      data-leads={goal !== null || undefined}
       onFocus={() => onFocus(line.key)}
       onClick={show}
       onKeyDown={(event) => {

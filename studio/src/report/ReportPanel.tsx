@@ -1,5 +1,5 @@
 // The panel of the import report: what became of every element, parameter and connection of the file of
-// another tool. Lines of an element lead to it.
+// another tool. Lines of an element or a group lead to it.
 
 import "./report.css";
 
@@ -8,17 +8,11 @@ import { IconSearch, IconTrash } from "@tabler/icons-react";
 import { type KeyboardEvent, useMemo, useState } from "react";
 
 import { useOffline } from "../connection/NeedsServer";
+import { keyOf } from "../graph/layout/tree";
 import type { ImportReportView } from "../protocol";
 import { request } from "../socket";
 import { useStudio } from "../store";
-import {
-  countOf,
-  type ElementPaths,
-  FILTERS,
-  lossesText,
-  type ReportFilter,
-  reportItems,
-} from "./reportItems";
+import { countOf, FILTERS, lossesText, type Present, type ReportFilter, reportItems } from "./reportItems";
 import { ReportList } from "./ReportList";
 
 export function ReportPanel() {
@@ -47,13 +41,16 @@ const NAMES: Record<ReportFilter, string> = {
 const MOST = 800;
 
 function Walk({ report }: { report: ImportReportView }) {
-  const paths = usePaths();
+  const present = usePresent();
   const offline = useOffline();
   const losses = countOf(report, "losses");
   const [filter, setFilter] = useState<ReportFilter>(losses > 0 ? "losses" : "all");
   const [search, setSearch] = useState("");
   const [most, setMost] = useState(MOST);
-  const items = useMemo(() => reportItems(report, paths, filter, search), [report, paths, filter, search]);
+  const items = useMemo(
+    () => reportItems(report, present, filter, search),
+    [report, present, filter, search],
+  );
   const count = items.reduce((sum, { lines }) => sum + lines.length, 0);
   return (
     <div className="report">
@@ -121,11 +118,19 @@ function Walk({ report }: { report: ImportReportView }) {
   );
 }
 
-// The same as long as no element is added, removed or renamed, whatever values change.
-function usePaths(): ElementPaths {
+// The same as long as no element and no group is added, removed or renamed, whatever values change.
+function usePresent(): Present {
   const elements = useStudio((state) => state.elements);
-  const text = JSON.stringify([...elements.values()].map(({ id, path }) => [id, path]));
-  return useMemo(() => new Map(JSON.parse(text) as [string, string][]), [text]);
+  const groups = useStudio((state) => state.document?.groups);
+  const paths = JSON.stringify([...elements.values()].map(({ id, path }) => [id, path]));
+  const keys = JSON.stringify((groups ?? []).map(keyOf));
+  return useMemo(
+    () => ({
+      elements: new Map(JSON.parse(paths) as [string, string][]),
+      groups: new Set(JSON.parse(keys) as string[]),
+    }),
+    [paths, keys],
+  );
 }
 
 // From the search to the lines.

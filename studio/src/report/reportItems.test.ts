@@ -10,6 +10,7 @@ const line = (where: string, what: string, more: Partial<ReportLineView> = {}): 
   what,
   verdict: "carried",
   why: "",
+  group: [],
   ...more,
 });
 const report: ImportReportView = {
@@ -26,13 +27,13 @@ const report: ImportReportView = {
     line("field", "field.output", { part: "connection", verdict: "approximated" }),
   ],
 };
-const paths = new Map([["id of field", "perception.u"]]);
+const paths = { elements: new Map([["id of field", "perception.u"]]), groups: new Set<string>() };
 
 it("lines are grouped by element, which has its present path, and the name in the file beside it", () => {
   const items = reportItems(report, paths, "all", "");
-  expect(items.map(({ title, note, element }) => [title, note, element])).toEqual([
+  expect(items.map(({ title, note, goal }) => [title, note, goal])).toEqual([
     ["The file as a whole", "", null],
-    ["perception.u", "field in the file", "id of field"],
+    ["perception.u", "field in the file", { element: "id of field" }],
     ["robot", "removed from the document", null],
     ["default thread", "no element of the document", null],
   ]);
@@ -42,7 +43,7 @@ it("lines are grouped by element, which has its present path, and the name in th
 });
 
 it("an element that has the name of the file needs no note", () => {
-  const same = new Map([["id of field", "field"]]);
+  const same = { ...paths, elements: new Map([["id of field", "field"]]) };
   expect(reportItems(report, same, "all", "field")[0]?.note).toBe("");
 });
 
@@ -80,4 +81,25 @@ it("a search finds words of a line, and the name of its element, now and in the 
   expect(found("perception dropped")).toEqual(["sigmoid"]);
   expect(found("field connection")).toEqual(["field.output"]);
   expect(found("nothing of the sort")).toEqual([]);
+});
+
+it("lines of a group lead to it while it has its name, then to its first element", () => {
+  const group = ["outer", "in.ner"];
+  const lines = [line("outer.in.ner", "a", { part: "connection", element: "id of field", group })];
+  const shown = (elements: [string, string][], groups: string[]) =>
+    reportItems(
+      { ...report, lines },
+      { elements: new Map(elements), groups: new Set(groups) },
+      "all",
+      "",
+    ).map(({ title, note, goal }) => [title, note, goal]);
+  const first: [string, string] = ["id of field", "outer.other.u"];
+  expect(shown([first], ["outer", "outer/in.ner"])).toEqual([
+    ["outer.in.ner", "group", { group: "outer/in.ner" }],
+  ]);
+  expect(shown([], ["outer/in.ner"])).toEqual([["outer.in.ner", "group", { group: "outer/in.ner" }]]);
+  expect(shown([first], ["outer", "outer/other"])).toEqual([
+    ["outer.other.u", "group outer.in.ner in the file", { element: "id of field" }],
+  ]);
+  expect(shown([], ["outer"])).toEqual([["outer.in.ner", "removed from the document", null]]);
 });

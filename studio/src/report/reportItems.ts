@@ -1,5 +1,6 @@
 // The import report as the panel shows it: lines by the element that they belong to, under its present name.
 
+import { keyOf } from "../graph/layout/tree";
 import type { ImportReportView, ReportLineView } from "../protocol";
 
 export const FILTERS = ["losses", "approximated", "dropped", "all"] as const;
@@ -9,16 +10,19 @@ export type ReportLine = ReportLineView & { key: string };
 
 export type ReportItem = {
   key: string;
-  // The element that its lines lead to; null where the document has none.
-  element: string | null;
+  // What its lines lead to; null where the document has none.
+  goal: ReportGoal | null;
   title: string;
   // What the name in the file was, or why its lines lead nowhere.
   note: string;
   lines: ReportLine[];
 };
 
-// The present paths of elements by their ids.
-export type ElementPaths = ReadonlyMap<string, string>;
+// An element by its id, or a group by its key on the canvas.
+export type ReportGoal = { element: string } | { group: string };
+
+// The present paths of elements by their ids, and the keys of the present groups.
+export type Present = { elements: ReadonlyMap<string, string>; groups: ReadonlySet<string> };
 
 const FILE = "The file as a whole";
 
@@ -46,7 +50,7 @@ export function lossesText(report: ImportReportView): string {
 // Every word of a search must occur in a line, or in the name of its element, now or in the file.
 export function reportItems(
   report: ImportReportView,
-  paths: ElementPaths,
+  present: Present,
   filter: ReportFilter,
   search: string,
 ): ReportItem[] {
@@ -56,7 +60,7 @@ export function reportItems(
     .filter((word) => word !== "");
   const items = new Map<string, ReportItem>();
   report.lines.forEach((line, i) => {
-    const item = items.get(line.where) ?? itemFor(line, paths);
+    const item = items.get(line.where) ?? itemFor(line, present);
     const { part, what, verdict, why } = line;
     const text = `${item.title} ${line.where} ${part} ${what} ${verdict} ${why}`.toLowerCase();
     if (passes(line, filter) && words.every((word) => text.includes(word))) {
@@ -67,18 +71,25 @@ export function reportItems(
   return [...items.values()];
 }
 
-function itemFor({ where, element }: ReportLineView, paths: ElementPaths): ReportItem {
-  const path = paths.get(element);
+// Groups have no ids: a group of the name in the file is found again, and of a renamed or moved one the first
+// element that it had.
+function itemFor({ where, element, group }: ReportLineView, { elements, groups }: Present): ReportItem {
+  const [key, path] = [keyOf(group), elements.get(element)];
+  if (group.length > 0 && groups.has(key)) {
+    return { key: where, goal: { group: key }, title: where, note: "group", lines: [] };
+  }
   if (path === undefined) {
     const title = where === "" ? FILE : where;
-    return { key: where, element: null, title, note: absence(where, element), lines: [] };
+    const gone = element !== "" || group.length > 0;
+    return { key: where, goal: null, title, note: absence(where, gone), lines: [] };
   }
-  const note = path === where ? "" : `${where} in the file`;
-  return { key: where, element, title: path, note, lines: [] };
+  const sort = group.length > 0 ? "group " : "";
+  const note = sort + (path === where ? "" : `${where} in the file`);
+  return { key: where, goal: { element }, title: path, note, lines: [] };
 }
 
-function absence(where: string, element: string): string {
-  if (element !== "") {
+function absence(where: string, gone: boolean): string {
+  if (gone) {
     return "removed from the document";
   }
   return where === "" ? "" : "no element of the document";

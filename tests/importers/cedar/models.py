@@ -19,7 +19,9 @@ TYPES = {
                 "Preshape",
                 "HebbianConnection",
                 "SpaceToRateCode",
+                "RateMatrixToSpaceCode",
                 "RateToSpaceCode",
+                "SpaceCodeToRateMatrix",
                 "HarmonicOscillator",
                 "SerialOrder",
             )
@@ -38,6 +40,7 @@ TYPES = {
                 "MatrixPadding",
                 "MatrixSlice",
                 "Norm",
+                "Nullspace",
                 "Normalization",
                 "Projection",
                 "PseudoInverse",
@@ -47,6 +50,7 @@ TYPES = {
                 "ScalarsToVector",
                 "StaticGain",
                 "SubtractElementwise",
+                "SynapticConnection",
                 "TransferFunction",
                 "Transpose",
                 "VectorToScalars",
@@ -74,6 +78,7 @@ TYPES = {
                 "NumericalDifferentiation",
                 "NumericalIntegration",
                 "OuterProduct",
+                "OverTime",
                 "PositionOfMaximum",
                 "Sinus",
                 "Stack",
@@ -521,6 +526,8 @@ def every_type() -> dict[str, str]:
     _algebra(put, line, plane, one)
     _arrays(put, line, plane, cube, one)
     _programs(put, line, plane, one)
+    _synapses(put, line, plane, cube, one)
+    _rate_matrices(put, plane)
     models[TYPES["VariableBox"]] = _moved_box({"center at input": False})
     models[TYPES["VariableBox"] + ", centred"] = _moved_box({"center at input": True})
     for kind in ("HopfOscillatorRHS", "HarmonicOscillatorRHS"):
@@ -534,6 +541,69 @@ def every_type() -> dict[str, str]:
         for engine in ("OpenCV", "FFTW"):
             models[f"{TYPES['NeuralField']}, {shape} {engine}"] = _bordered(shape, engine)
     return models
+
+
+def _synapses(put: Any, line: Any, plane: Any, cube: Any, one: Any) -> None:
+    """Add connections with all of their parts, each alone, and with point-wise weights."""
+    inside = Many([gauss(1.3, [0.9], shifts=[1]), box(0.2, [4])])
+    flat = Many([gauss(1, [1.4, 0.9]), box(-0.1, [3, 2])])
+    ring = {**border("Cyclic"), "kernels": inside}
+    moved = Many([gauss(2, [4.0], anchor=[-3])])
+    gain = {"static gain": {"Synapse Weight": -0.8}}
+    summed = {"enabled": True, "dimension mapping": {0: DROP, 1: 0}, "output dimensionality": 1}
+    summed |= {"output dimension sizes": [7], "compression type": "SUM"}
+    wide = {"enabled": True, "dimension mapping": {0: 1}, "output dimensionality": 2}
+    wide |= {"output dimension sizes": [5, 50], "compression type": "MAXIMUM"}
+    off = {"projection": {**wide, "enabled": False}}
+    for variant, more, source, target in (
+        ("", {"convolution": {"kernels": inside}, **gain, **off}, line, line),
+        (
+            "several",
+            {"convolution": ring, **gain},
+            [one, line, line],
+            line,
+        ),
+        ("plane", {"convolution": {**border("Reflect"), "kernels": flat}, **gain}, plane, plane),
+        ("FFTW", {"convolution": {**border("Zero", "FFTW"), "kernels": flat}, **gain}, plane, plane),
+        ("summed", {"convolution": {"kernels": flat}, "projection": summed}, plane, (7,)),
+        ("largest", {"projection": {**summed, "compression type": "MAXIMUM"}}, [plane, plane], (7,)),
+        ("expanded", {**gain, "projection": wide}, line, (5, 12)),
+        ("of numbers", {"convolution": {"kernels": Many([gauss(1.5, [3.0])])}, **gain}, [one, one], one),
+        ("of defaults", {}, line, line),
+        ("weights", {"PointWiseWeight": {"kernels": inside}, **gain}, line, line),
+        (
+            "weights, moved",
+            {"PointWiseWeight": {"kernels": moved}},
+            line,
+            line,
+        ),
+        ("weights, plane", {"PointWiseWeight": {"kernels": flat}, "projection": summed}, plane, (7,)),
+        ("weights, cube", {"PointWiseWeight": {"kernels": Many([gauss(2, [1.2, 2.5, 0.6])])}}, cube, cube),
+        ("weights, one", {"PointWiseWeight": {"kernels": Many([gauss(3, [1.0])])}, **gain}, one, one),
+        (
+            "weights, all",
+            {
+                "convolution": ring,
+                "PointWiseWeight": {"kernels": Many([gauss(1.5, [3.2], normalize=False)])},
+                **gain,
+                "projection": wide,
+            },
+            [line, one],
+            (5, 12),
+        ),
+    ):
+        put("SynapticConnection", variant, more, {"matrix": source}, "result", target)
+
+
+def _rate_matrices(put: Any, plane: Any) -> None:
+    """Add codes of rates inside and beyond the limits, and of the largest of several bins."""
+    for variant, low, high, bins in (("", 0.1, 0.9, 6), ("narrow", 0.3, 0.45, 4), ("falling", 0.8, 0.1, 3)):
+        given = {"number of bins": bins, "lower limit": low, "upper limit": high}
+        reads = {"bin map": plane, "values": plane} if variant == "narrow" else {"bin map": plane}
+        put("RateMatrixToSpaceCode", variant, given, reads, "output", (*plane, bins))
+    limits = {"lower limit": -1, "upper limit": 2}
+    put("SpaceCodeToRateMatrix", "", limits, {"input": (6, 5, 7)}, "output", (6, 5))
+    put("SpaceCodeToRateMatrix", "falling", {"lower limit": 1}, {"input": (6, 1, 7)}, "output", (6,))
 
 
 def _moved_box(more: dict[str, Any]) -> str:
@@ -785,6 +855,9 @@ def _algebra(put: Any, line: Any, plane: Any, one: Any) -> None:
     ):
         put("PseudoInverse", variant, {}, {"matrix": source}, "inverted", target)
     put("PseudoInverse", "of a number", {}, {"matrix": one}, "inverted", one)
+    put("Nullspace", "", {}, {"jacobian": (3, 5)}, "nullspace", (5, 5))
+    for variant, shown in (("of a vector", "projected vector"), ("without it", "orthogonal vector")):
+        put("Nullspace", variant, {}, {"jacobian": (2, 4), "vector": (4,)}, shown, (4,))
     put("Maximum", "", {}, {"terms": [line, line, line]}, "maximum", line)
     put("Minimum", "", {}, {"terms": [line, line]}, "minimum", line)
     put("Norm", "", {}, {"input": plane}, "output", one)
@@ -956,6 +1029,8 @@ def _programs(put: Any, line: Any, plane: Any, one: Any) -> None:
     put("ScalarsToVector", "", three, {f"scalar {i}": one for i in range(3)}, "vector", (3,))
     put("VectorToScalars", "", three, {"input vector": (3,)}, "scalar 1", one)
     put("Delay", "", {"number of time steps": 3}, {"input": line}, "output", line)
+    put("OverTime", "", {}, {"input": line}, "output", line)
+    put("OverTime", "of a number", {}, {"input": one}, "output", one)
     put("Timer", "", {}, {"run signal (optional)": one}, "time", one)
     put("NumericalIntegration", "", {}, {"input": line}, "integration result", line)
     start, delay, reset = (f"{w} (optional)" for w in ("initial state", "delay", "reset signal"))

@@ -359,7 +359,10 @@ def attempt(a, step, clock):
     except Invalid:
         step.valid = False
     except Stopped:  # this happens when it computes; the step has its sizes and can be read
-        return {"result": np.zeros_like(values_of(a, step)["matrix"])} if step.kind.begin is None else None
+        if step.kind.begin is not None:
+            return None
+        given = values_of(a, step)["matrix"]
+        return {"result": np.zeros_like(given[0] if isinstance(given, list) else given)}
     return None
 
 
@@ -1142,6 +1145,24 @@ def pseudo_inverse(p, x, s, clock):
     return {"inverted": inverse.reshape(-1, 1) if 1 in inverse.shape else inverse}
 
 
+@steps_of("cedar.processing.Nullspace", needs=["jacobian"], may=["vector"])
+def null_space(p, x, s, clock):
+    """Return the projector on the null space, and both parts of a vector."""
+    jacobian = x["jacobian"]
+    columns = jacobian.shape[1]
+    if "vector" in x and x["vector"].size != columns:
+        raise Invalid("the vector has another size")
+    found = np.eye(columns) - np.linalg.pinv(jacobian) @ jacobian
+    if "vector" not in x:
+        return {"nullspace": found}
+    inside = found @ x["vector"].reshape(-1, 1)
+    return {
+        "nullspace": found,
+        "projected vector": inside,
+        "orthogonal vector": x["vector"].reshape(-1, 1) - inside,
+    }
+
+
 @steps_of("cedar.processing.steps.Histogram", needs=["input"], may=["mask"])
 def histogram(p, x, s, clock):
     """Count the cells in bins of equal width, without the end of the range."""
@@ -1291,6 +1312,40 @@ def projection(p, x, s, clock):
     return {"output": as_matrix(np.broadcast_to(y, sizes).astype(float))}
 
 
+def point_wise_weights(shape, kernels):
+    """Return kernels as weights of the cells of an array, with their centre on its middle cell."""
+    result = np.zeros(shape)
+    for type_id, p in kernels:
+        parts, anchor = kernel_parts(type_id, p, len(shape))
+        factors = []
+        for n, part, shift in zip(shape, parts, anchor, strict=True):
+            own = np.zeros(n)
+            for j, value in enumerate(part):
+                i = n // 2 + j - centre_of(len(part), False) + shift
+                if 0 <= i < n:
+                    own[i] = value
+            factors.append(own)
+        result += math.prod(np.ix_(*factors))
+    return result
+
+
+@steps_of("cedar.processing.SynapticConnection", many=["matrix"], needs=["matrix"])
+def synaptic_connection(p, x, s, clock):
+    """Add up the inputs, convolve, multiply by weights of the cells and by one weight, and project."""
+    y = sum(same_sizes(x["matrix"]))
+    settings = p.inner("convolution")
+    kernels, weights = settings.listed("kernels"), p.inner("PointWiseWeight").listed("kernels")
+    y = convolved(y, kernels, settings) if kernels else y
+    if weights:
+        cells = by_dimension(y).shape or (1,)
+        y = y * point_wise_weights(cells, weights).reshape(y.shape)
+    y = y * p.inner("static gain").number("Synapse Weight", 1)
+    inner = p.inner("projection")
+    if not inner.flag("enabled", "false"):
+        return {"result": y}
+    return {"result": projection(inner, {"input": y}, s, clock)["output"]}
+
+
 def resized_linear(y, axis, m):
     """Return m samples between the centres of the cells; beyond the outer centres the value stays."""
     n = y.shape[axis]
@@ -1435,6 +1490,34 @@ def rate_to_space_code(p, x, s, clock):
     return {"output": bell(sizes, centers, sigmas, p.number("amplitude", 1), p.flag("cyclic", "false"))}
 
 
+@steps_of("cedar.dynamics.RateMatrixToSpaceCode", needs=["bin map"], may=["values"])
+def rate_matrix_to_space_code(p, x, s, clock):
+    """Mark the bin of each rate; a half counts as the upper bin, and bins that do not exist are left out."""
+    rates = x["bin map"]
+    if number_of_dimensions(rates) != 2:
+        raise Invalid("a matrix of rates is read here")
+    values = equal(x["values"], rates) if "values" in x else np.ones(rates.shape)
+    bins = int(p.number("number of bins", 10))
+    low, high = p.number("lower limit", 0), p.number("upper limit", 1)
+    code = np.zeros((*rates.shape, bins))
+    for (i, j), rate in np.ndenumerate(rates):
+        k = math.floor((rate - low) / (high - low) * (bins - 1) + 0.5)
+        if 0 <= k < bins:
+            code[i, j, k] = values[i, j]
+    return {"output": code}
+
+
+@steps_of("cedar.dynamics.SpaceCodeToRateMatrix", needs=["input"])
+def space_code_to_rate_matrix(p, x, s, clock):
+    """Return the rate of the largest bin; of equal ones that of the first."""
+    code = x["input"]
+    if code.ndim != 3:
+        raise Invalid("three dimensions are read here")
+    low, high = p.number("lower limit", 0), p.number("upper limit", 1)
+    rates = np.linspace(low, high, code.shape[2])
+    return {"output": rates[code.argmax(axis=2)]}
+
+
 # -------------------------------------------------------------------------- numerics, programming
 
 
@@ -1496,6 +1579,13 @@ def delay(p, x, s, clock):
     queue = s.setdefault("queue", deque([np.zeros_like(x["input"])] * n))
     queue.append(x["input"].copy())
     return {"output": queue.popleft()}
+
+
+@steps_of("cedar.processing.steps.OverTime", needs=["input"])
+def over_time(p, x, s, clock):
+    """Put out the largest input so far."""
+    s["largest"] = np.maximum(x["input"], s.get("largest", x["input"]))
+    return {"output": s["largest"].copy()}
 
 
 @steps_of("cedar.processing.steps.Timer", may=["run signal (optional)", "reset signal (optional)"])

@@ -13,7 +13,10 @@ DT = 10.0
 TYPES = models.every_type()
 
 ASSUMED = {
+    "cedar.dynamics.RateMatrixToSpaceCode": "the bins of rates between two bins and beyond the limits",
     "cedar.dynamics.SerialOrder": "which outputs inhibit all nodes",
+    "cedar.dynamics.SpaceCodeToRateMatrix": "the rates of the bins, and which of equal bins counts",
+    "cedar.processing.SynapticConnection, weights": "where its point-wise weights lie",
     "cedar.processing.sources.SpatialTemplate": "where the angle begins",
     "cedar.processing.sources.StepSignal": "the form of the wave",
     "cedar.processing.steps.ExponentialSmoothing": "the first level and trend",
@@ -22,6 +25,7 @@ ASSUMED = {
     "cedar.processing.steps.NumericalDifferentiation": "the first step",
     "cedar.processing.steps.NumericalIntegration, all": "where a reset signal is on",
     "cedar.processing.steps.NumericalIntegration, reset": "where a reset signal is on",
+    "cedar.processing.steps.OverTime": "its maximum before the first input",
     "cedar.processing.steps.Timer": "where a signal is on",
 }
 """What is not documented of cedar: the reference assumes the same as the import, which reports it."""

@@ -3,47 +3,17 @@
 from __future__ import annotations
 
 import dataclasses as dc
-import math
-import re
 from collections.abc import Mapping
 from typing import Any
 
 from deodar.errors import DeodarError
 from deodar.importers.cedar.equation import solved
-from deodar.importers.cedar.file import CedarGroup, StepPath, members, pairs, text
-from deodar.importers.cedar.values import milliseconds, number
+from deodar.importers.cedar.file import CedarGroup, StepPath, members, text
+from deodar.importers.cedar.held import held
+from deodar.importers.cedar.values import number
 from deodar.importers.report import Line
-from deodar.leaves import get
 from deodar.model import edit
 from deodar.model.document import Document, Entry
-
-NAMES: Mapping[str, Mapping[str, str]] = {
-    "NeuralField": {
-        "time scale": "tau",
-        "resting level": "resting_level",
-        "input noise gain": "noise",
-        "global inhibition": "global_inhibition",
-        "sigmoid.beta": "sigmoid.beta",
-        "sigmoid.threshold": "sigmoid.threshold",
-    },
-    "StaticGain": {"gain factor": "factor"},
-    "GaussInput": {"amplitude": "amplitude"},
-    "BoxInput": {"amplitude": "amplitude"},
-    "Boost": {"strength": "amplitude"},
-    "ConstMatrix": {"value": "amplitude"},
-    "Preshape": {"time scale build up": "tau_build", "time scale decay": "tau_decay"},
-    "SpaceToRateCode": {"tau": "tau"},
-}
-"""Parameters of cedar's steps and of deodar's elements that hold the same number."""
-
-KERNEL = re.compile(r"(?:lateral )?kernels\[(\d{1,3})\]\.(amplitude)\Z")
-LISTED = re.compile(r"(.+)\[(\d{1,3})\]\Z")
-
-OPPOSITE = ("global inhibition",)
-"""Parameters whose sign is the opposite here."""
-
-TIMES = ("time scale", "time scale build up", "time scale decay", "tau")
-"""Parameters that are times."""
 
 STRUCTURE = ("dimensionality", "sizes", "number of")
 
@@ -127,32 +97,7 @@ class LinkEnd:
 def _end(group: CedarGroup, name: str, parameter: str, by: Mapping[StepPath, Entry]) -> LinkEnd | None:
     """Return one end of a link; None without a parameter of deodar that holds cedar's number."""
     entry, step = by.get((*group.path, name)), group.steps.get(name)
-    if entry is None or step is None:
+    found = None if entry is None or step is None else held(step, entry, parameter)
+    if entry is None or found is None:
         return None
-    kernel = KERNEL.match(parameter)
-    leaf = f"kernel.{kernel[1]}.{kernel[2]}" if kernel else NAMES.get(step.short, {}).get(parameter)
-    if leaf is None:
-        return None
-    sign = -1.0 if parameter in OPPOSITE else 1.0
-    try:
-        held = sign * float(get(entry.element, leaf))
-    except (DeodarError, TypeError, ValueError):  # a kernel that the field does not have
-        return None
-    found = stated(step.values, parameter)
-    # the amplitude of a node's kernel, or the strength of an inactive boost, is another number here
-    if found is not None and not math.isclose(found, held, rel_tol=1e-9, abs_tol=1e-12):
-        return None
-    return LinkEnd(entry.id, leaf, sign, held)
-
-
-def stated(values: Any, parameter: str) -> float | None:
-    """Return the number of a parameter in the file; None if it does not state one."""
-    for name in parameter.split("."):
-        listed = LISTED.match(name)
-        if listed:
-            found = pairs(members(values).get(listed[1]))
-            k = int(listed[2])
-            values = found[k][1] if k < len(found) else None
-        else:
-            values = members(values).get(name)
-    return milliseconds(values) if parameter in TIMES else number(values)
+    return LinkEnd(entry.id, found.leaf, found.sign, found.value)

@@ -6,11 +6,9 @@ import dataclasses as dc
 from collections.abc import Mapping
 from typing import Any
 
-from deodar.errors import DeodarError
 from deodar.importers.cedar.file import CedarStep, StepPath, members, text
-from deodar.importers.cedar.links import KERNEL, NAMES, OPPOSITE, TIMES, stated
+from deodar.importers.cedar.held import TIMES, held
 from deodar.importers.cedar.values import milliseconds, number
-from deodar.leaves import get
 from deodar.model.document import Entry
 from deodar.model.paths import display
 
@@ -60,19 +58,10 @@ class TrialParameters:
         if step.short == "Boost" and name in (SWITCH, STRENGTH):
             value = float(self.boost(path)[name == STRENGTH])
             return ChangedParameter(path, name, f"{own}amplitude", 1.0, value)
-        kernel = KERNEL.match(name)
-        leaf = f"kernel.{kernel[1]}.{kernel[2]}" if kernel else NAMES.get(step.short, {}).get(name)
-        if leaf is None:
+        found = held(step, entry, name)
+        if found is None:
             return None
-        sign = -1.0 if name in OPPOSITE else 1.0
-        try:
-            held = sign * float(get(entry.element, leaf))
-        except (DeodarError, TypeError, ValueError):  # a kernel that the field does not have
-            return None
-        found = stated(step.values, name)
-        if found is not None and abs(found - held) > 1e-9 * max(abs(found), 1.0):
-            return None  # another number here, such as the amplitude of a node's kernel
-        return ChangedParameter(path, name, f"{own}{leaf}", sign, held)
+        return ChangedParameter(path, name, f"{own}{found.leaf}", found.sign, found.value)
 
     def given(self, parameter: ChangedParameter, value: Any) -> float | None:
         """Return the number of a value for a parameter; None if it is none."""

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { fakeElement } from "../fakes";
-import { around, below, hiddenBy, tree } from "./tree";
+import { around, below, hiddenBy, outside, tree } from "./tree";
 
 const elements = [
   fakeElement("top"),
@@ -15,6 +15,8 @@ test("groups nest, also those that only elements name", () => {
   expect(found.groups.get("arm/hand")).toMatchObject({ name: "hand", elements: ["arm.hand.u"], count: 1 });
   expect(found.groups.get("arm")?.count).toBe(3);
   expect(around(found, "arm.hand.u").map((g) => g.key)).toEqual(["arm", "arm/hand"]);
+  expect(outside(found, "arm/hand").map((g) => g.key)).toEqual(["arm"]);
+  expect([outside(found, "arm"), outside(found, "gone")]).toEqual([[], []]);
 });
 
 test("couplings on edges are counted but have no box of their own", () => {

@@ -70,8 +70,17 @@ export function tree(
 
 // The groups around an element, the outermost first.
 export function around(found: Tree, element: string): Branch[] {
+  return upTo(found, found.home.get(element) ?? "");
+}
+
+// The groups around a group, the outermost first.
+export function outside(found: Tree, group: string): Branch[] {
+  return upTo(found, found.outer.get(group) ?? "");
+}
+
+function upTo(found: Tree, last: string): Branch[] {
   const path: Branch[] = [];
-  for (let key = found.home.get(element) ?? ""; key !== ""; key = found.outer.get(key) ?? "") {
+  for (let key = last; key !== ""; key = found.outer.get(key) ?? "") {
     const group = found.groups.get(key);
     if (group !== undefined) {
       path.unshift(group);

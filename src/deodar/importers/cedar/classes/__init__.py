@@ -13,23 +13,29 @@ from deodar.importers.cedar.classes import (
     numerics,
     oscillators,
     programming,
+    rate_matrix,
+    robotics,
     serial_order,
     sources,
+    synaptic,
     vision,
 )
 from deodar.importers.cedar.piece import SourceStep, StepPiece
 
 CLASSES: dict[str, Callable[[SourceStep], StepPiece]] = {
     **fields.CLASSES,
+    **rate_matrix.CLASSES,
     **sources.CLASSES,
     **hebbian.CLASSES,
     **serial_order.CLASSES,
     **algebra.CLASSES,
+    **synaptic.CLASSES,
     **functions.CLASSES,
     **arrays.CLASSES,
     **programming.CLASSES,
     **numerics.CLASSES,
     **oscillators.CLASSES,
+    **robotics.CLASSES,
     **vision.CLASSES,
 }
 

@@ -21,7 +21,7 @@ from deodar.importers.cedar.grid import Counts
 from deodar.importers.cedar.kernels import kernels, too_long
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar.importers.cedar.transfer import transferred
-from deodar.importers.cedar.values import number
+from deodar.importers.cedar.values import StepValues, number
 from deodar.numerics.sigmoids.absolute import Absolute
 
 DROPPED = 4_294_967_295
@@ -209,15 +209,33 @@ def _steered(b: SourceStep, dims: Counts) -> StepPiece:
 
 def projection(b: SourceStep) -> StepPiece:
     """Translate Projection, by cedar's rules for valid mappings."""
-    given = b.first("input")
-    count = b.values.whole("output dimensionality", 1, 0, 4)
-    if count or "output dimension sizes" not in b.values.body:
-        new = [int(n) for n in b.values.numbers("output dimension sizes", 50, count, 1, 1e6)]
+    element, dims = projected(b, b.values, b.first("input"), b.label, tuple(REDUCTIONS))
+    return one_to_one(element, "input", "output", dims)
+
+
+def projected(
+    b: SourceStep, values: StepValues, given: Counts, name: str, ways: Sequence[str]
+) -> tuple[Project, Counts]:
+    """Return the projection that the parameters of an object describe, and the size of its output.
+
+    Args:
+        b: the step.
+        values: the object: the step itself, or an object inside it.
+        given: size of the input.
+        name: name of the element.
+        ways: reductions that cedar offers.
+
+    Raises:
+        Refused: cedar does not accept the mapping.
+    """
+    count = values.whole("output dimensionality", 1, 0, 4)
+    if count or "output dimension sizes" not in values.body:
+        new = [int(n) for n in values.numbers("output dimension sizes", 50, count, 1, 1e6)]
     else:
-        b.values.say("output dimension sizes", "carried", "none for one number")
+        values.say("output dimension sizes", "carried", "none for one number")
         new = []
-    how = b.values.word("compression type", "SUM", tuple(REDUCTIONS))
-    mapping = _mapping(b, len(given))
+    how = values.word("compression type", "SUM", ways)
+    mapping = _mapping(values, len(given))
     _require_valid(mapping, len(given), count)
     if len(given) == 2 and count == 3 and (mapping[0], mapping[1]) == (2, 0) and new[0] != new[1]:
         b.bug("two dimensions into three with exchanged axes leave slices empty")
@@ -226,7 +244,7 @@ def projection(b: SourceStep) -> StepPiece:
     dims = tuple(new)
     if not given:
         # one number fills all
-        return one_to_one(Project(b.axes(dims), name=b.label), "input", "output", dims)
+        return Project(b.axes(dims), name=name), dims
     here, there = b.axes(dims), b.axes(given)
     names = {there[s].name: here[t].name for s, t in mapping.items() if there[s].name != here[t].name}
     names |= {
@@ -234,14 +252,13 @@ def projection(b: SourceStep) -> StepPiece:
         for s, a in enumerate(there)
         if s not in mapping and a.name in [c.name for c in here]
     }
-    element = Project(here, REDUCTIONS[how], names, name=b.label)
-    return one_to_one(element, "input", "output", dims)
+    return Project(here, REDUCTIONS[how], names, name=name), dims
 
 
-def _mapping(b: SourceStep, count: int) -> dict[int, int]:
+def _mapping(values: StepValues, count: int) -> dict[int, int]:
     """Return the dimensions that remain, and their places in the output."""
-    found = members(b.values.body.get("dimension mapping"))
-    b.values.say("dimension mapping")
+    found = members(values.body.get("dimension mapping"))
+    values.say("dimension mapping")
     out: dict[int, int] = {}
     for key, value in found.items():
         source, target = number(key), number(value)

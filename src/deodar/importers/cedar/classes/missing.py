@@ -96,13 +96,11 @@ UNDOCUMENTED = {
     "ImageGradient": "the border, the unit of its orientations and its rounding to 8 bits",
     "TemplateMatching": "which normalisation of the cross-correlation it has, and the size of its result",
     "ImageTransform": "the centre of its rotation, and the order of rotation, scaling and translation",
-    "SynapticConnection": "how its point-wise weights are placed; use Sum, Convolve, Gain and Project",
     "NeuralCoordinateTransform": "what it convolves over which border, and which slice it gives",
     "TwoStepInput": "when its countdown begins, and how it moves",
     "ViewportCamera": "the position of its window, and how it learns",
     "ViewportSlice": "the position of its window",
     "ResetDetector": "whether it also gives 1 at the start of a run",
-    "OverTime": "its maximum before the first input",
     "UnitConverter": "what follows from the unit of a value",
 }
 """What cedar's documentation does not state of steps that deodar could compute."""
@@ -121,7 +119,10 @@ def placeholder(
         why: the reason, if it is not the type.
         stops: why cedar does not run the step.
     """
-    what = why or _reason(step, [*ins, *outs]) or unknown(step.kind, "has no counterpart", known)
+    what = _reason(step, [*ins, *outs]) or unknown(step.kind, "has no counterpart", known)
+    if why:
+        # of a step that is translated elsewhere: what takes its place with a robot, too
+        what = f"{why}; it {WORLDS[step.short]}" if step.short in WORLDS and step.kind in known else why
     name = step.path[-1]
     dims: Counts = ()
     return StepPiece(

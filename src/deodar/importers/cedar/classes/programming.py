@@ -8,7 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.couplings.axis_weights import AxisWeights
+from deodar.couplings.delay import Delay
 from deodar.couplings.delay_line import DelayLine
+from deodar.couplings.envelope import Envelope
 from deodar.couplings.gain import Gain
 from deodar.couplings.maximum_position import MaximumPosition
 from deodar.couplings.pointwise import Pointwise
@@ -24,11 +26,15 @@ from deodar.elements.integrator import Integrator
 from deodar.importers._piece import Unfit
 from deodar.importers.cedar.classes.algebra import one_to_one
 from deodar.importers.cedar.classes.numerics import SECOND
+from deodar.importers.cedar.composition import Composition, StepSignal
 from deodar.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar.numerics.axes import Axis
 from deodar.numerics.sigmoids.step import Step
 
 FLOAT_TYPES = ("Float", "Double")
+
+LOWEST = -1e30
+"""Maximum before the first input: less than any input."""
 
 LEAST = 1e-9
 """Sum of an input up to which there is no peak."""
@@ -164,6 +170,17 @@ def delay(b: SourceStep) -> StepPiece:
     return piece
 
 
+def over_time(b: SourceStep) -> StepPiece:
+    """Translate OverTime: the largest input so far, at each sample."""
+    dims, c = b.first("input"), Composition(b)
+    before = Delay(b.axes(dims), LOWEST, name=b.named("before"))
+    largest = c.add(Envelope("upper", name=b.label), input=c.slot("input"), other=StepSignal(before.name))
+    c.add(before, input=largest)
+    c.outlet("output", largest, dims)
+    why = "Envelope of its input and its last output; that a run begins with its first input is a guess"
+    return c.done(why, "approximated")
+
+
 def sinus_signal(b: SourceStep) -> StepPiece:
     """Translate SinusSignal: A sin((t + phase) / period 2 pi) + offset, t in s."""
     return _signal(b, "cos" if b.values.flag("make cos", False) else "sin")
@@ -219,6 +236,7 @@ CLASSES = {
     "cedar.processing.steps.Switch": switch,
     "cedar.processing.steps.PositionOfMaximum": position,
     "cedar.processing.steps.Delay": delay,
+    "cedar.processing.steps.OverTime": over_time,
     "cedar.processing.sources.SinusSignal": sinus_signal,
     "cedar.processing.sources.StepSignal": step_signal,
 }

@@ -1,19 +1,23 @@
-// Leads to an element on the canvas: the panel of the architecture is shown, folded groups are opened.
+// Leads to an element or a group on the canvas: the panel of the architecture is shown, and folded groups are
+// opened.
 
 import { getStage } from "../build/stage";
 import { isShown, openTool } from "../panels/openPlot";
+import type { ReportGoal } from "./reportItems";
 
 // A panel that was closed gets its size within some frames; it has it when it keeps one for a few.
 const FRAMES = 90;
 const STILL = 5;
 
-export function showElement(element: string): void {
+export function showGoal(goal: ReportGoal): void {
+  const show = () =>
+    "group" in goal ? getStage()?.centerGroup(goal.group) : getStage()?.center(goal.element);
   if (isShown("graph")) {
-    getStage()?.center(element);
+    show();
     return;
   }
   openTool("graph");
-  whenStill(() => getStage()?.center(element), FRAMES, "", 0);
+  whenStill(show, FRAMES, "", 0);
 }
 
 function whenStill(run: () => void, frames: number, before: string, still: number): void {
