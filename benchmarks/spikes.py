@@ -2,7 +2,8 @@
 memory, rates, in deodar's simulator and in norse.
 
     python benchmarks/spikes.py run --norse PYTHON   measure all, and write evidence/neuromorphic, 20 min
-    python benchmarks/spikes.py run selection        selection, thresholds, memory, rates, readers or speed
+    python benchmarks/spikes.py run selection        selection, events, thresholds, memory, rates, readers or
+                                                     speed
     python benchmarks/spikes.py pages                write tables and figures of docs/neuromorphic.md
     python benchmarks/spikes.py print                print the tables
 
@@ -32,21 +33,28 @@ from tests.neuromorphic.scenes import (  # noqa: E402
     DETECTOR,
     GRADED,
     MEMORY,
+    RADIUS,
     Pairs,
+    Targets,
     bistable,
+    chosen,
     pairs,
+    targets,
     winner_take_all,
 )
 
 import deodar as dd  # noqa: E402
 from deodar.analysis.statistics import wilson  # noqa: E402
+from deodar.architectures.event_selection import retina  # noqa: E402
 from deodar.neuromorphic.build import build  # noqa: E402
 from deodar.neuromorphic.chip_limits import chip_limits  # noqa: E402
+from deodar.neuromorphic.comparison import compare_spikes  # noqa: E402
 from deodar.neuromorphic.drive import NetworkInput, network_input  # noqa: E402
 from deodar.neuromorphic.fitting import fit  # noqa: E402
 from deodar.neuromorphic.graph import NirGraph  # noqa: E402
 from deodar.neuromorphic.mismatch import chip, differing  # noqa: E402
 from deodar.neuromorphic.norse import norse_version, run_norse  # noqa: E402
+from deodar.neuromorphic.prepare import SpikingOptions  # noqa: E402
 from deodar.neuromorphic.running import rates  # noqa: E402
 from deodar.neuromorphic.simulator import SpikingSimulator  # noqa: E402
 from deodar.neuromorphic.translate import translate  # noqa: E402
@@ -166,6 +174,67 @@ def selection(python: str) -> Rows:
 
 def _same(found: np.ndarray, wanted: np.ndarray) -> int:
     return int((np.abs(found - wanted) <= NEAR).sum())
+
+
+# ------------------------------------------------------------------------------------ selection among events
+
+TARGETS, CELL = 100, 10
+"""Trials, half of them with the more salient target on either side, and neurons of a cell."""
+
+SHARES = (0.8, 0.9, 0.95, 0.98, 1.0)
+"""Contrast of the other target, as a share of that of the target."""
+
+
+def events(python: str) -> Rows:
+    """Which of two blinking targets the field in front of the event camera selects, as rates and as spikes.
+
+    The parameters of the model were found with other places and other events (seeds 1 and 0).
+    """
+    del python
+    rows: Rows = []
+    cases = [(s, m, True) for s in SHARES for m in MISMATCH] + [(0.8, 0.0, False)]
+    for share, mismatch, selects in cases:
+        model = dd.architectures.event_selection(**({} if selects else {"inhibition": 0.0}))
+        given = targets(TARGETS, share, seed=11)
+        options = SpikingOptions(neurons=CELL, mismatch=mismatch, seed=5)
+        found = compare_spikes(model, 1000, TARGETS, options, given.world, norse=False)
+        same = found.estimates["perceptual"]["spikes"]["winner"]
+        row: dict[str, Any] = {
+            "share": share,
+            "events": event_share(given, options.seed),
+            "mismatch": mismatch,
+            "inhibition": selects,
+            "of": TARGETS,
+            "wanted": same.n,
+            "same": round(same.value * same.n),
+        }
+        for run, outputs in found.runs.items():
+            one, other = chosen(outputs["perceptual"][-20:].mean(0), given)
+            row[run] = {
+                "target": int((one & ~other).sum()),
+                "other": int((other & ~one).sum()),
+                "both": int((one & other).sum()),
+            }
+        rows.append(row)
+        print(row, flush=True)
+    return rows
+
+
+def event_share(given: Targets, seed: int) -> float:
+    """Return the number of events of the other target, as a share of those of the target."""
+    model = dd.Model("counts", dt=10)
+    plane = retina(128)
+    model.add(dd.Sensor("events", plane, sensor="events"))
+    data = dd.simulate(
+        model, 500, seed=seed, record="events.output", every=10, trials=10, world=given.world, progress=False
+    )
+    rates = data["events.output"].mean("time").values
+    pixels = np.stack(np.meshgrid(plane[0].points, plane[1].points, indexing="ij"), -1)
+    near = [
+        np.linalg.norm(pixels - p[:10, None, None], axis=-1) <= RADIUS + 1
+        for p in (given.places, given.others)
+    ]
+    return float(rates[near[1]].sum() / rates[near[0]].sum())
 
 
 # ----------------------------------------------------------------------------------- detection and forgetting
@@ -431,6 +500,7 @@ def speed(python: str) -> Rows:
 
 PARTS: dict[str, Callable[[str], Rows]] = {
     "selection": selection,
+    "events": events,
     "thresholds": thresholds,
     "memory": memory,
     "rates": rates_of_neurons,
@@ -463,6 +533,17 @@ def texts(found: Mapping[str, Rows], about: Mapping[str, Any]) -> dict[str, str]
     out["selection"] = table(
         ["inputs and network", *(f"same winner, {n}" for n in names)],
         [[r["condition"], *(share(r[n], r["of"]) if n in r else "not run" for n in names)] for r in rows],
+    )
+    out["events"] = table(
+        [
+            "contrast of the other target",
+            "its events",
+            "mismatch",
+            "rates select the target",
+            "spikes select the target",
+            "the same one",
+        ],
+        [_event_cells(r) for r in found["events"]],
     )
     out["thresholds"] = table(
         ["", "mismatch", "rates", "spikes", "difference", "sd between chips"],
@@ -523,6 +604,18 @@ def texts(found: Mapping[str, Rows], about: Mapping[str, Any]) -> dict[str, str]
     made = about["made_by"]
     out["made"] = ", ".join(f"{k} {v}" for k, v in made.items() if k != "commit")
     return out
+
+
+def _event_cells(row: Mapping[str, Any]) -> list[str]:
+    """Return the cells of a row of the table of events."""
+    found = [share(row[run]["target"], row["of"]) for run in ("rates", "spikes")]
+    if row["share"] == 1:  # neither is more salient
+        found = [f"{row[run]['target']}, the other one {row[run]['other']}" for run in ("rates", "spikes")]
+    if not row["inhibition"]:
+        found = [f"{f}; both: {row[run]['both']}" for f, run in zip(found, ("rates", "spikes"), strict=True)]
+    name = f"{row['share']:.0%}" if row["inhibition"] else f"control: no inhibition, {row['share']:.0%}"
+    same = share(row["same"], row["wanted"]) if row["inhibition"] else "none"
+    return [name, f"{row['events']:.0%}", f"{row['mismatch']:.0%}", *found, same]
 
 
 def figure(rows: Rows) -> None:
