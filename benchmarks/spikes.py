@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import functools
+import itertools
 import json
 import re
 import subprocess
@@ -74,23 +75,29 @@ NEAR = 2
 Rows = list[dict[str, Any]]
 
 
-def spread(share: float) -> dict[str, float]:
-    """Return the mismatch of thresholds and constant currents."""
-    return {"v_threshold": share, "bias": share} if share else {}
+def spread(share: float, more: Sequence[str] = ()) -> dict[str, float]:
+    """Return the mismatch of thresholds and constant currents, and of more parameters."""
+    return dict.fromkeys(("v_threshold", "bias", *more), share) if share else {}
 
 
-def network(model: dd.Model, neurons: int = 20, step: float | None = None) -> NirGraph:
+def network(model: dd.Model, neurons: int = 20, step: float | None = None, tonic: bool = False) -> NirGraph:
     """Return the graph of a model."""
-    return build(translate(model, neurons=neurons, step=step).network)
+    return build(translate(model, neurons=neurons, step=step, tonic=tonic).network)
 
 
 def spikes(
-    graph: NirGraph, inputs: np.ndarray, share: float, chips: int, every: int, seed: int = 1
+    graph: NirGraph,
+    inputs: np.ndarray,
+    share: float | Mapping[str, float],
+    chips: int,
+    every: int,
+    seed: int = 1,
 ) -> np.ndarray:
     """Run a graph, trial k on chip k modulo `chips`; sums of spikes, windows x trials x neurons."""
     trials = inputs.shape[1]
     on = np.arange(trials) % chips
-    found = differing(graph, spread(share), chips, seed)
+    mismatch = share if isinstance(share, Mapping) else spread(share)
+    found = differing(graph, mismatch, chips, seed)
     each = {node: {field: v[on] for field, v in fields.items()} for node, fields in found.items()}
     simulator = SpikingSimulator(graph, copies=trials, differing=each)
     return simulator.run(simulator.start(), inputs, every)[0]
@@ -192,11 +199,12 @@ def events(python: str) -> Rows:
     """
     del python
     rows: Rows = []
-    cases = [(s, m, True) for s in SHARES for m in MISMATCH] + [(0.8, 0.0, False)]
-    for share, mismatch, selects in cases:
+    cases = [(s, m, True, False) for s in SHARES for m in MISMATCH]
+    cases += [(0.95, 0.2, True, True), (0.98, 0.2, True, True), (0.8, 0.0, False, False)]
+    for share, mismatch, selects, tonic in cases:
         model = dd.architectures.event_selection(**({} if selects else {"inhibition": 0.0}))
         given = targets(TARGETS, share, seed=11)
-        options = SpikingOptions(neurons=CELL, mismatch=mismatch, seed=5)
+        options = SpikingOptions(neurons=CELL, mismatch=mismatch, seed=5, tonic=tonic)
         found = compare_spikes(model, 1000, TARGETS, options, given.world, norse=False)
         same = found.estimates["perceptual"]["spikes"]["winner"]
         row: dict[str, Any] = {
@@ -204,6 +212,7 @@ def events(python: str) -> Rows:
             "events": event_share(given, options.seed),
             "mismatch": mismatch,
             "inhibition": selects,
+            "tonic": tonic,
             "of": TARGETS,
             "wanted": same.n,
             "same": round(same.value * same.n),
@@ -240,6 +249,8 @@ def event_share(given: Targets, seed: int) -> float:
 # ----------------------------------------------------------------------------------- detection and forgetting
 
 ROUNDS = 9
+DETECTOR_REST, LOWER = -5.0, 0.8
+"""Resting level of the field, and by how much it is lower in the rows that try this as a remedy."""
 
 
 def bisected(active: Callable[[np.ndarray], np.ndarray], low: float, high: float, copies: int) -> np.ndarray:
@@ -277,7 +288,9 @@ def rate_active(what: str, strength: np.ndarray) -> np.ndarray:
     return np.array(out)
 
 
-def spikes_active(graph: NirGraph, mismatch: float, what: str, strength: np.ndarray) -> np.ndarray:
+def spikes_active(
+    graph: NirGraph, mismatch: Mapping[str, float], what: str, strength: np.ndarray
+) -> np.ndarray:
     """Return whether the neurons have a peak at the end, each strength on a chip of its own."""
     settling = round(graph.settling / graph.step)
     parts = (
@@ -298,16 +311,27 @@ def thresholds(python: str) -> Rows:
     """
     del python
     rows: Rows = []
-    graph = network(bistable(DETECTOR, np.zeros((1, 31))))
-    for what in ("detection", "forgetting"):
+    model, lower = (bistable(DETECTOR, np.zeros((1, 31))) for _ in range(2))
+    lower.set("u.resting_level", DETECTOR_REST - LOWER)
+    all_of_them = [*((m, ()) for m in MISMATCH), (0.2, ("w_in",))]
+    cases = {
+        "constant current": (network(model), all_of_them),
+        f"constant current, {LOWER} lower": (network(lower), [(0.2, ())]),
+        "constant current, 80 neurons of a cell": (network(model, 80), [(0.2, ())]),
+        "tonic neurons": (network(model, tonic=True), all_of_them),
+    }
+    for what, resting in itertools.product(("detection", "forgetting"), cases):
         wanted = float(bisected(functools.partial(rate_active, what), 0.0, 10.0, 1)[0])
-        for mismatch in MISMATCH:
+        graph, variants = cases[resting]
+        for mismatch, more in variants:
             copies = TRIALS if mismatch else 1
-            active = functools.partial(spikes_active, graph, mismatch, what)
+            active = functools.partial(spikes_active, graph, spread(mismatch, more), what)
             found = bisected(active, 0.0, 10.0, copies)
             row = {
                 "what": what,
+                "resting": resting,
                 "mismatch": mismatch,
+                "more": list(more),
                 "rates": wanted,
                 "spikes": float(found.mean()),
                 "sd": float(found.std(ddof=1)) if copies > 1 else 0.0,
@@ -546,11 +570,12 @@ def texts(found: Mapping[str, Rows], about: Mapping[str, Any]) -> dict[str, str]
         [_event_cells(r) for r in found["events"]],
     )
     out["thresholds"] = table(
-        ["", "mismatch", "rates", "spikes", "difference", "sd between chips"],
+        ["", "resting level", "mismatch", "rates", "spikes", "difference", "sd between chips"],
         [
             [
                 r["what"],
-                f"{r['mismatch']:.0%}",
+                r["resting"],
+                f"{r['mismatch']:.0%}{', of w_in too' if r['more'] else ''}",
                 f"{r['rates']:.2f}",
                 f"{r['spikes']:.2f}",
                 f"{r['spikes'] / r['rates'] - 1:+.1%}",
@@ -615,7 +640,8 @@ def _event_cells(row: Mapping[str, Any]) -> list[str]:
         found = [f"{f}; both: {row[run]['both']}" for f, run in zip(found, ("rates", "spikes"), strict=True)]
     name = f"{row['share']:.0%}" if row["inhibition"] else f"control: no inhibition, {row['share']:.0%}"
     same = share(row["same"], row["wanted"]) if row["inhibition"] else "none"
-    return [name, f"{row['events']:.0%}", f"{row['mismatch']:.0%}", *found, same]
+    mismatch = f"{row['mismatch']:.0%}{', tonic neurons' if row['tonic'] else ''}"
+    return [name, f"{row['events']:.0%}", mismatch, *found, same]
 
 
 def figure(rows: Rows) -> None:

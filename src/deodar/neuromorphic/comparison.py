@@ -110,7 +110,7 @@ def compare_spikes(
         model: the model.
         duration: document time.
         trials: number of trials; trial k runs on chip k modulo 10, if neurons differ.
-        options: neurons, step, chip, mismatch and seed.
+        options: neurons, step, chip, mismatch, tonic neurons and seed.
         world: the world that its sensors read.
         norse: whether norse runs it too, where it is installed; or the Python of an environment that has it.
 
