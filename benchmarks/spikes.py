@@ -2,7 +2,8 @@
 memory, rates, in deodar's simulator and in norse.
 
     python benchmarks/spikes.py run --norse PYTHON   measure all, and write evidence/neuromorphic, 20 min
-    python benchmarks/spikes.py run selection        selection, thresholds, memory, rates, readers or speed
+    python benchmarks/spikes.py run selection        selection, events, thresholds, memory, rates, readers or
+                                                     speed
     python benchmarks/spikes.py pages                write tables and figures of docs/neuromorphic.md
     python benchmarks/spikes.py print                print the tables
 
@@ -14,6 +15,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import functools
+import itertools
 import json
 import re
 import subprocess
@@ -32,21 +34,28 @@ from tests.neuromorphic.scenes import (  # noqa: E402
     DETECTOR,
     GRADED,
     MEMORY,
+    RADIUS,
     Pairs,
+    Targets,
     bistable,
+    chosen,
     pairs,
+    targets,
     winner_take_all,
 )
 
 import deodar as dd  # noqa: E402
 from deodar.analysis.statistics import wilson  # noqa: E402
+from deodar.architectures.event_selection import retina  # noqa: E402
 from deodar.neuromorphic.build import build  # noqa: E402
 from deodar.neuromorphic.chip_limits import chip_limits  # noqa: E402
+from deodar.neuromorphic.comparison import compare_spikes  # noqa: E402
 from deodar.neuromorphic.drive import NetworkInput, network_input  # noqa: E402
 from deodar.neuromorphic.fitting import fit  # noqa: E402
 from deodar.neuromorphic.graph import NirGraph  # noqa: E402
 from deodar.neuromorphic.mismatch import chip, differing  # noqa: E402
 from deodar.neuromorphic.norse import norse_version, run_norse  # noqa: E402
+from deodar.neuromorphic.prepare import SpikingOptions  # noqa: E402
 from deodar.neuromorphic.running import rates  # noqa: E402
 from deodar.neuromorphic.simulator import SpikingSimulator  # noqa: E402
 from deodar.neuromorphic.translate import translate  # noqa: E402
@@ -66,23 +75,29 @@ NEAR = 2
 Rows = list[dict[str, Any]]
 
 
-def spread(share: float) -> dict[str, float]:
-    """Return the mismatch of thresholds and constant currents."""
-    return {"v_threshold": share, "bias": share} if share else {}
+def spread(share: float, more: Sequence[str] = ()) -> dict[str, float]:
+    """Return the mismatch of thresholds and constant currents, and of more parameters."""
+    return dict.fromkeys(("v_threshold", "bias", *more), share) if share else {}
 
 
-def network(model: dd.Model, neurons: int = 20, step: float | None = None) -> NirGraph:
+def network(model: dd.Model, neurons: int = 20, step: float | None = None, tonic: bool = False) -> NirGraph:
     """Return the graph of a model."""
-    return build(translate(model, neurons=neurons, step=step).network)
+    return build(translate(model, neurons=neurons, step=step, tonic=tonic).network)
 
 
 def spikes(
-    graph: NirGraph, inputs: np.ndarray, share: float, chips: int, every: int, seed: int = 1
+    graph: NirGraph,
+    inputs: np.ndarray,
+    share: float | Mapping[str, float],
+    chips: int,
+    every: int,
+    seed: int = 1,
 ) -> np.ndarray:
     """Run a graph, trial k on chip k modulo `chips`; sums of spikes, windows x trials x neurons."""
     trials = inputs.shape[1]
     on = np.arange(trials) % chips
-    found = differing(graph, spread(share), chips, seed)
+    mismatch = share if isinstance(share, Mapping) else spread(share)
+    found = differing(graph, mismatch, chips, seed)
     each = {node: {field: v[on] for field, v in fields.items()} for node, fields in found.items()}
     simulator = SpikingSimulator(graph, copies=trials, differing=each)
     return simulator.run(simulator.start(), inputs, every)[0]
@@ -168,9 +183,74 @@ def _same(found: np.ndarray, wanted: np.ndarray) -> int:
     return int((np.abs(found - wanted) <= NEAR).sum())
 
 
+# ------------------------------------------------------------------------------------ selection among events
+
+TARGETS, CELL = 100, 10
+"""Trials, half of them with the more salient target on either side, and neurons of a cell."""
+
+SHARES = (0.8, 0.9, 0.95, 0.98, 1.0)
+"""Contrast of the other target, as a share of that of the target."""
+
+
+def events(python: str) -> Rows:
+    """Which of two blinking targets the field in front of the event camera selects, as rates and as spikes.
+
+    The parameters of the model were found with other places and other events (seeds 1 and 0).
+    """
+    del python
+    rows: Rows = []
+    cases = [(s, m, True, False) for s in SHARES for m in MISMATCH]
+    cases += [(0.95, 0.2, True, True), (0.98, 0.2, True, True), (0.8, 0.0, False, False)]
+    for share, mismatch, selects, tonic in cases:
+        model = dd.architectures.event_selection(**({} if selects else {"inhibition": 0.0}))
+        given = targets(TARGETS, share, seed=11)
+        options = SpikingOptions(neurons=CELL, mismatch=mismatch, seed=5, tonic=tonic)
+        found = compare_spikes(model, 1000, TARGETS, options, given.world, norse=False)
+        same = found.estimates["perceptual"]["spikes"]["winner"]
+        row: dict[str, Any] = {
+            "share": share,
+            "events": event_share(given, options.seed),
+            "mismatch": mismatch,
+            "inhibition": selects,
+            "tonic": tonic,
+            "of": TARGETS,
+            "wanted": same.n,
+            "same": round(same.value * same.n),
+        }
+        for run, outputs in found.runs.items():
+            one, other = chosen(outputs["perceptual"][-20:].mean(0), given)
+            row[run] = {
+                "target": int((one & ~other).sum()),
+                "other": int((other & ~one).sum()),
+                "both": int((one & other).sum()),
+            }
+        rows.append(row)
+        print(row, flush=True)
+    return rows
+
+
+def event_share(given: Targets, seed: int) -> float:
+    """Return the number of events of the other target, as a share of those of the target."""
+    model = dd.Model("counts", dt=10)
+    plane = retina(128)
+    model.add(dd.Sensor("events", plane, sensor="events"))
+    data = dd.simulate(
+        model, 500, seed=seed, record="events.output", every=10, trials=10, world=given.world, progress=False
+    )
+    rates = data["events.output"].mean("time").values
+    pixels = np.stack(np.meshgrid(plane[0].points, plane[1].points, indexing="ij"), -1)
+    near = [
+        np.linalg.norm(pixels - p[:10, None, None], axis=-1) <= RADIUS + 1
+        for p in (given.places, given.others)
+    ]
+    return float(rates[near[1]].sum() / rates[near[0]].sum())
+
+
 # ----------------------------------------------------------------------------------- detection and forgetting
 
 ROUNDS = 9
+DETECTOR_REST, LOWER = -5.0, 0.8
+"""Resting level of the field, and by how much it is lower in the rows that try this as a remedy."""
 
 
 def bisected(active: Callable[[np.ndarray], np.ndarray], low: float, high: float, copies: int) -> np.ndarray:
@@ -208,7 +288,9 @@ def rate_active(what: str, strength: np.ndarray) -> np.ndarray:
     return np.array(out)
 
 
-def spikes_active(graph: NirGraph, mismatch: float, what: str, strength: np.ndarray) -> np.ndarray:
+def spikes_active(
+    graph: NirGraph, mismatch: Mapping[str, float], what: str, strength: np.ndarray
+) -> np.ndarray:
     """Return whether the neurons have a peak at the end, each strength on a chip of its own."""
     settling = round(graph.settling / graph.step)
     parts = (
@@ -229,16 +311,27 @@ def thresholds(python: str) -> Rows:
     """
     del python
     rows: Rows = []
-    graph = network(bistable(DETECTOR, np.zeros((1, 31))))
-    for what in ("detection", "forgetting"):
+    model, lower = (bistable(DETECTOR, np.zeros((1, 31))) for _ in range(2))
+    lower.set("u.resting_level", DETECTOR_REST - LOWER)
+    all_of_them = [*((m, ()) for m in MISMATCH), (0.2, ("w_in",))]
+    cases = {
+        "constant current": (network(model), all_of_them),
+        f"constant current, {LOWER} lower": (network(lower), [(0.2, ())]),
+        "constant current, 80 neurons of a cell": (network(model, 80), [(0.2, ())]),
+        "tonic neurons": (network(model, tonic=True), all_of_them),
+    }
+    for what, resting in itertools.product(("detection", "forgetting"), cases):
         wanted = float(bisected(functools.partial(rate_active, what), 0.0, 10.0, 1)[0])
-        for mismatch in MISMATCH:
+        graph, variants = cases[resting]
+        for mismatch, more in variants:
             copies = TRIALS if mismatch else 1
-            active = functools.partial(spikes_active, graph, mismatch, what)
+            active = functools.partial(spikes_active, graph, spread(mismatch, more), what)
             found = bisected(active, 0.0, 10.0, copies)
             row = {
                 "what": what,
+                "resting": resting,
                 "mismatch": mismatch,
+                "more": list(more),
                 "rates": wanted,
                 "spikes": float(found.mean()),
                 "sd": float(found.std(ddof=1)) if copies > 1 else 0.0,
@@ -431,6 +524,7 @@ def speed(python: str) -> Rows:
 
 PARTS: dict[str, Callable[[str], Rows]] = {
     "selection": selection,
+    "events": events,
     "thresholds": thresholds,
     "memory": memory,
     "rates": rates_of_neurons,
@@ -464,12 +558,24 @@ def texts(found: Mapping[str, Rows], about: Mapping[str, Any]) -> dict[str, str]
         ["inputs and network", *(f"same winner, {n}" for n in names)],
         [[r["condition"], *(share(r[n], r["of"]) if n in r else "not run" for n in names)] for r in rows],
     )
+    out["events"] = table(
+        [
+            "contrast of the other target",
+            "its events",
+            "mismatch",
+            "rates select the target",
+            "spikes select the target",
+            "the same one",
+        ],
+        [_event_cells(r) for r in found["events"]],
+    )
     out["thresholds"] = table(
-        ["", "mismatch", "rates", "spikes", "difference", "sd between chips"],
+        ["", "resting level", "mismatch", "rates", "spikes", "difference", "sd between chips"],
         [
             [
                 r["what"],
-                f"{r['mismatch']:.0%}",
+                r["resting"],
+                f"{r['mismatch']:.0%}{', of w_in too' if r['more'] else ''}",
                 f"{r['rates']:.2f}",
                 f"{r['spikes']:.2f}",
                 f"{r['spikes'] / r['rates'] - 1:+.1%}",
@@ -523,6 +629,19 @@ def texts(found: Mapping[str, Rows], about: Mapping[str, Any]) -> dict[str, str]
     made = about["made_by"]
     out["made"] = ", ".join(f"{k} {v}" for k, v in made.items() if k != "commit")
     return out
+
+
+def _event_cells(row: Mapping[str, Any]) -> list[str]:
+    """Return the cells of a row of the table of events."""
+    found = [share(row[run]["target"], row["of"]) for run in ("rates", "spikes")]
+    if row["share"] == 1:  # neither is more salient
+        found = [f"{row[run]['target']}, the other one {row[run]['other']}" for run in ("rates", "spikes")]
+    if not row["inhibition"]:
+        found = [f"{f}; both: {row[run]['both']}" for f, run in zip(found, ("rates", "spikes"), strict=True)]
+    name = f"{row['share']:.0%}" if row["inhibition"] else f"control: no inhibition, {row['share']:.0%}"
+    same = share(row["same"], row["wanted"]) if row["inhibition"] else "none"
+    mismatch = f"{row['mismatch']:.0%}{', tonic neurons' if row['tonic'] else ''}"
+    return [name, f"{row['events']:.0%}", mismatch, *found, same]
 
 
 def figure(rows: Rows) -> None:

@@ -29,7 +29,8 @@ def test_a_model_is_written_as_a_file_of_nir(here: Path, capsys: pytest.CaptureF
     graph = parse_nir((here / "small.nir").read_bytes())
     assert graph.neurons == 40 and graph.step == 0.5e-3 and data["tool"] == "nir"
     assert any("8 bits" in line["why"] for line in data["lines"])
-    assert main([*call, "--force"]) == 0
+    assert main([*call, "--force", "--tonic"]) == 0
+    assert parse_nir((here / "small.nir").read_bytes()).neurons == 44
     assert "40 neurons" not in capsys.readouterr().err
 
 
@@ -37,6 +38,7 @@ def test_options_of_neurons_are_refused_elsewhere(here: Path, capsys: pytest.Cap
     with pytest.raises(SystemExit):
         main(["export", "cosivina", "small.json", "--neurons", "4"])
     assert "--neurons is about spiking neurons" in capsys.readouterr().err
+    assert main(["export", "cosivina", "small.json"]) == 0, "the default of --tonic is no option"
     assert main(["export", "nir", "small.json", "--chip", "digital"]) == 1
     assert "there is no chip 'digital'" in capsys.readouterr().err
 

@@ -1,13 +1,15 @@
-"""A soft winner-take-all of 30 cells, and trials of two inputs."""
+"""A soft winner-take-all of 30 cells, trials of two inputs, bistable fields, and two blinking targets."""
 
 from __future__ import annotations
 
 import dataclasses as dc
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
 import deodar as dd
+from deodar.architectures.event_selection import retina
 
 CELLS = 30
 X = dd.Axis("x", 0, CELLS - 1, samples=CELLS)
@@ -89,3 +91,56 @@ def bistable(kind: Bistable, inputs: NDArray[np.float64] | NDArray[np.float32]) 
     for name, values, when in zip("ab", inputs, windows, strict=False):
         model.add(dd.Pattern(name, [x], values, windows=when)) >> u
     return model
+
+
+RADIUS, NEAR = 6.0, 12.0
+"""Radius of the targets, and distance of a peak up to which it is that of a target, pixels."""
+
+
+@dc.dataclass(frozen=True)
+class Targets:
+    """Trials of two targets that blink in front of the event camera: column and row of the one with more
+    contrast and of the other one, trials x 2, and the world.
+    """
+
+    places: NDArray[np.float64]
+    others: NDArray[np.float64]
+    world: dd.Eye
+
+
+def targets(trials: int, share: float, seed: int = 7) -> Targets:
+    """Targets whose columns are 40 pixels apart or more, the first one in turn on the left and on the right.
+
+    Args:
+        trials: number of trials.
+        share: contrast of the other target, as a share.
+        seed: seed of the places.
+    """
+    rng = np.random.default_rng(seed)
+    found: list[NDArray[np.float64]] = []
+    while len(found) < trials:
+        pair = rng.uniform(24, 103, (2, 2))
+        on_the_left = pair[0, 0] < pair[1, 0]
+        if abs(pair[0, 0] - pair[1, 0]) >= 40 and on_the_left == (len(found) % 2 == 0):
+            found.append(pair)
+    places, others = np.moveaxis(np.array(found), 1, 0)
+    rival = np.column_stack([others, np.full(trials, share)])
+    return Targets(places, others, dd.Eye(endless=False, first=places, rival=rival, radius=RADIUS))
+
+
+def chosen(outputs: NDArray[np.float32], given: Targets) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return whether there is a peak at the target and at the other one, for each trial.
+
+    Args:
+        outputs: output of the field over columns and rows, trials x cells.
+        given: the trials.
+    """
+    side = math.isqrt(outputs.shape[-1])
+    points = retina(side)[0].points
+    active = outputs.reshape(-1, side, side) > 0.5
+    near = [
+        (np.abs(points - p[:, :1])[:, :, None] <= NEAR) & (np.abs(points - p[:, 1:])[:, None, :] <= NEAR)
+        for p in (given.places, given.others)
+    ]
+    one, other = (np.asarray((active & n).any((1, 2))) for n in near)
+    return one, other

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.errors import GraphError, TimeError
+from deodar.errors import GraphError, MissingExtra, TimeError
 from deodar.neuromorphic import nir_file, nir_reader
 from deodar.neuromorphic.build import build
 from deodar.neuromorphic.graph import EndNode, NirGraph
@@ -72,6 +72,13 @@ def test_a_graph_that_is_written_is_read(content: bytes) -> None:
     assert equal(read_nir(content), small())
     graph = build(translate(winner_take_all(pairs(1).inputs[0])).network)
     assert equal(parse_nir(write_nir(graph)), graph)
+
+
+@pytest.mark.parametrize("name", ["nir", "h5py"])
+def test_a_missing_package_is_named(name: str, content: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(MissingExtra, match=rf"the package {name}.*deodar\[neuromorphic\]"):
+        write_nir(small()) if name == "nir" else read_nir(content)
 
 
 def test_the_package_nir_reads_the_file_with_four_kinds_of_nodes(content: bytes, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from deodar.architectures.change_detection import LENGTH as TRIAL_LENGTH
 from deodar.architectures.change_detection import TEST as TEST_WINDOW
 from deodar.architectures.change_detection import change_detection, change_trial
 from deodar.architectures.color_search import color_search
+from deodar.architectures.event_selection import event_selection
 from deodar.architectures.feature_space import binding, feature_space
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.architectures.looking import looking
@@ -38,6 +39,7 @@ __all__ = [
     "change_trial",
     "color_search",
     "competition",
+    "event_selection",
     "feature_space",
     "follow",
     "lesson",

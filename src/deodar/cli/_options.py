@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from deodar.neuromorphic.prepare import SpikingOptions
     from deodar.worlds._base import World
 
-SPIKING = ("neurons", "step", "chip", "mismatch", "seed")
+SPIKING = ("neurons", "step", "chip", "mismatch", "tonic", "seed")
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -52,7 +52,7 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
 
 
 def add_spiking(parser: argparse.ArgumentParser, of: str = "") -> None:
-    """Add `--neurons`, `--step`, `--chip` and `--mismatch`; `of` begins their help."""
+    """Add `--neurons`, `--step`, `--chip`, `--mismatch` and `--tonic`; `of` begins their help."""
     parser.add_argument(
         "--neurons", type=whole, metavar="N", help=f"{of}neurons of each sample of a field (default 20)"
     )
@@ -69,6 +69,12 @@ def add_spiking(parser: argparse.ArgumentParser, of: str = "") -> None:
         type=float,
         metavar="SHARE",
         help=f"{of}relative standard deviation of thresholds and constant currents (default: the chip's)",
+    )
+    parser.add_argument(
+        "--tonic",
+        action="store_true",
+        default=None,
+        help=f"{of}resting levels by neurons that spike in every step, which mismatch does not change",
     )
 
 

@@ -20,7 +20,7 @@ compare runs the model as rates, as spikes in deodar's simulator, and in norse w
 same measures. chips lists the limits of chips. The file of a network: deodar export nir MODEL."""
 
 ROWS = {
-    "winner": ("same winner as most rate trials", "share"),
+    "winner": ("same winner as the rate model", "share"),
     "peaks": ("peaks", ""),
     "detection": ("detection after", "time"),
     "forgetting": ("forgetting after", "time"),

@@ -102,11 +102,15 @@ def compare_spikes(
 ) -> SpikingComparison:
     """Run a model as rates and as spikes, and measure both.
 
+    With a world, each trial has events, pictures and rows of the world of its own, and rates and spikes of a
+    trial have the same ones. The winner of each trial is then compared with that of the same trial of the
+    rate model, else with the most frequent one.
+
     Args:
         model: the model.
         duration: document time.
         trials: number of trials; trial k runs on chip k modulo 10, if neurons differ.
-        options: neurons, step, chip, mismatch and seed.
+        options: neurons, step, chip, mismatch, tonic neurons and seed.
         world: the world that its sensors read.
         norse: whether norse runs it too, where it is installed; or the Python of an environment that has it.
 
@@ -119,7 +123,8 @@ def compare_spikes(
     made = prepare(model, model.document.name, given)
     network, graph = made.translated.network, made.fitted.graph
     every = max(1, round(WINDOW / network.step))
-    inputs = network_input(made.translated, graph, duration, world)
+    many = None if world is None else trials
+    inputs = network_input(made.translated, graph, duration, world, many, given.seed)
     chips = min(trials, CHIPS) if any(made.spread.values()) else 1
     sampling = SpikingTrials(trials, every, made.spread, chips, given.seed)
     step = network.step / network.unit
@@ -135,7 +140,9 @@ def compare_spikes(
     axes = {p.label: p.axes for p in network.populations if p.probed}
     on = np.asarray(inputs.on[: windows * every].reshape(windows, every).any(1))
     estimates = {
-        label: _estimates({run: r[label] for run, r in runs.items()}, axes[label], on, every * step)
+        label: _estimates(
+            {run: r[label] for run, r in runs.items()}, axes[label], on, every * step, world is not None
+        )
         for label in runs["spikes"]
     }
     return SpikingComparison(made, inputs, every, runs, estimates, version)
@@ -152,7 +159,7 @@ def _rate_model(
 ) -> Rates:
     """Run the model itself; its outputs in the middle of each window."""
     labels = [p.label for p in made.translated.network.populations if p.probed]
-    noisy = any(e.element.noise_axes() is not None for e in model.document.entries)
+    many = world is not None or any(e.element.noise_axes() is not None for e in model.document.entries)
     dt = model.document.step
     found = simulate(
         model,
@@ -160,7 +167,7 @@ def _rate_model(
         seed=seed,
         record=[f"{label}.output" for label in labels],
         every=dt,
-        trials=trials if noisy else None,
+        trials=trials if many else None,
         world=world,
         progress=False,
     )
@@ -168,21 +175,25 @@ def _rate_model(
     out: dict[str, NDArray[np.float32]] = {}
     for label in labels:
         values = found[f"{label}.output"].values
-        values = values if noisy else values[None]
+        values = values if many else values[None]
         values = values[:, np.minimum(at, values.shape[1] - 1)]
-        many = np.broadcast_to(values, (trials, *values.shape[1:]))
-        out[label] = np.moveaxis(many.reshape(trials, windows, -1), 0, 1).astype(np.float32)
+        each = np.broadcast_to(values, (trials, *values.shape[1:]))
+        out[label] = np.moveaxis(each.reshape(trials, windows, -1), 0, 1).astype(np.float32)
     return out
 
 
 def _estimates(
-    runs: Mapping[str, NDArray[np.float32]], axes: Axes, on: NDArray[np.bool_], window: float
+    runs: Mapping[str, NDArray[np.float32]], axes: Axes, on: NDArray[np.bool_], window: float, paired: bool
 ) -> dict[str, dict[str, Estimate]]:
-    """Return each measure of an element, for each of the runs."""
+    """Return each measure of an element, for each of the runs.
+
+    With `paired` each trial is compared with that of the rate model, else with all of its trials.
+    """
     level = max(float(runs["rates"].max()), 1e-6)
     found = {run: outcomes(values, axes, on, window, level) for run, values in runs.items()}
-    wanted = _most(found["rates"].winner)
-    mean = runs["rates"].mean(1, keepdims=True)
+    winner = found["rates"].winner
+    wanted = winner if paired else np.full_like(winner, _most(winner))
+    mean = runs["rates"] if paired else runs["rates"].mean(1, keepdims=True)
     return {
         run: {
             "winner": _winner(f, wanted, axes),
@@ -206,18 +217,18 @@ def _most(winners: NDArray[np.float64]) -> float:
     return float(values[counts.argmax()])
 
 
-def _winner(found: FieldOutcomes, wanted: float, axes: Axes) -> Estimate:
-    """Return the share of trials with the most frequent winner of the rate model."""
-    if np.isnan(wanted):
-        return Estimate(np.nan, None, 0)
+def _winner(found: FieldOutcomes, wanted: NDArray[np.float64], axes: Axes) -> Estimate:
+    """Return the share of trials with the wanted winner, of those in which one is wanted."""
+    known = ~np.isnan(wanted)
     sizes = [a.samples for a in axes] or [1]
-    places = np.stack(np.unravel_index(np.nan_to_num(found.winner).astype(int), sizes))
-    target = np.array(np.unravel_index(int(wanted), sizes))[:, None]
-    apart = np.abs(places - target)
+    places, targets = (
+        np.stack(np.unravel_index(np.nan_to_num(v[known]).astype(int), sizes)) for v in (found.winner, wanted)
+    )
+    apart = np.abs(places - targets)
     for k, axis in enumerate(axes):
         if axis.periodic:
             apart[k] = np.minimum(apart[k], axis.samples - apart[k])
-    near = (apart <= np.maximum(1, NEAR * np.array(sizes))[:, None]).all(0) & ~np.isnan(found.winner)
+    near = (apart <= np.maximum(1, NEAR * np.array(sizes))[:, None]).all(0) & ~np.isnan(found.winner[known])
     return _share(near.astype(float))
 
 

@@ -36,12 +36,19 @@ class TranslationSetup:
         neurons: neurons of a cell.
         step, membrane: dt and tau_mem, in s.
         unit: the document's unit of time, in s.
+        tonic: whether tonic neurons give the resting levels (see `tonic.py`).
     """
 
     neurons: int
     step: float
     membrane: float
     unit: float
+    tonic: bool = False
+
+    @property
+    def resting(self) -> tuple[Verdict, str]:
+        """Verdict on a resting level or threshold, and what it becomes."""
+        return "carried", "synaptic weights from tonic neurons" if self.tonic else "constant current"
 
     def code(self, sigmoid: SigmoidFunction, neurons: int = 0) -> SpikeCode:
         """Return the neurons of an output function."""
@@ -83,7 +90,7 @@ def field(entry: Entry, setup: TranslationSetup) -> Counterpart:
     weights = kernel_matrix(element.kernel, axes) - element.global_inhibition * cell(axes)
     said: dict[str, tuple[Verdict, str]] = {
         "tau": ("carried", "time constant of the synapses"),
-        "resting_level": ("carried", "constant current"),
+        "resting_level": setup.resting,
         "sigmoid": _sigmoid(element.sigmoid, code),
         "kernel": ("carried", "synaptic weights"),
         "global_inhibition": ("carried", "synaptic weights from each cell to each cell"),
@@ -118,8 +125,8 @@ def soft_winner_take_all(entry: Entry, setup: TranslationSetup) -> Counterpart:
     said: dict[str, tuple[Verdict, str]] = {
         "tau": ("approximated", "time constant of the synapses, so that the input passes it too"),
         "tau_inhibition": ("carried", "time constant of the synapses of the inhibitory neurons"),
-        "threshold": ("carried", "constant current"),
-        "threshold_inhibition": ("carried", "constant current"),
+        "threshold": setup.resting,
+        "threshold_inhibition": setup.resting,
         "sigmoid": _sigmoid(element.sigmoid, code),
         "sigmoid_inhibition": _sigmoid(element.sigmoid_inhibition, pool),
         **dict.fromkeys(

@@ -25,7 +25,8 @@ class NetworkInput:
     """The analog input of a network, and its spike trains as rates.
 
     Attributes:
-        analog: steps x values of the Input; first the steps in which currents settle, without input.
+        analog: steps x values of the Input, or steps x trials x values; first the steps in which currents
+            settle, without input.
         settling: number of these steps.
         step: dt in s.
         expected: spikes per step of each value of the Input that is a spike train; 0 for analog values.
@@ -39,7 +40,7 @@ class NetworkInput:
     @property
     def on(self) -> NDArray[np.bool_]:
         """Whether an excitatory input is on, for each step after settling."""
-        given = self.analog[self.settling :].max(1, initial=0.0)
+        given = self.analog[self.settling :].max(tuple(range(1, self.analog.ndim)), initial=0.0)
         return np.asarray(given > 1e-3 * max(1e-30, float(given.max(initial=0.0))))
 
     def pieces(self, trials: int, seed: int, size: int) -> Iterator[InputValues]:
@@ -54,14 +55,19 @@ class NetworkInput:
             if not len(places):
                 yield part
                 continue
-            many = np.repeat(part[:, None], trials, axis=1)
+            many = part.copy() if part.ndim == 3 else np.repeat(part[:, None], trials, axis=1)
             for k, source in enumerate(sources):
                 many[:, k, places] = source.poisson(self.expected[places], (len(part), len(places)))
             yield many
 
 
 def network_input(
-    translated: Translated, graph: NirGraph, duration: float, world: World | None = None
+    translated: Translated,
+    graph: NirGraph,
+    duration: float,
+    world: World | None = None,
+    trials: int | None = None,
+    seed: int = 0,
 ) -> NetworkInput:
     """Return the input of a network: that of the model, from its start.
 
@@ -70,6 +76,9 @@ def network_input(
         graph: the graph of the network.
         duration: document time.
         world: the world that its sensors read.
+        trials: number of trials, each with an input of its own, because the world differs between them; none:
+            all trials have the same input.
+        seed: seed of the world, and of noise outside of the network.
 
     Raises:
         TimeError: the duration has too many steps.
@@ -82,7 +91,8 @@ def network_input(
             f"{duration:g} are {steps:,} steps of {step:g}",
             fix=f"Give a duration up to {MOST_STEPS * step:g}",
         )
-    analog = np.zeros((settling + steps, graph.nodes[INPUT].size), np.float32)
+    many = () if trials is None else (trials,)
+    analog = np.zeros((settling + steps, *many, graph.nodes[INPUT].size), np.float32)
     fed = {doc.by_id()[c.target].path for c in doc.connections if c.target_port == "input"}
     ranges = [r for r in graph.inputs if r.kind == "analog" and r.label in fed]
     if ranges:
@@ -93,13 +103,17 @@ def network_input(
             model,
             steps * step,
             dt=step,
+            seed=seed,
             record=list(ports.values()),
             every=step,
+            trials=trials,
             world=world,
             progress=False,
         )
         for r in ranges:
-            analog[settling:, r.start : r.stop] = data[ports[r.label]].values[:steps].reshape(steps, -1)
+            values = data[ports[r.label]].values
+            values = values if trials is None else np.moveaxis(values, 0, 1)
+            analog[settling:, ..., r.start : r.stop] = values[:steps].reshape(steps, *many, -1)
     expected = np.zeros(graph.nodes[INPUT].size, np.float32)
     for r in graph.inputs:
         expected[r.start : r.stop] = r.rate * graph.step

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from deodar import codec
-from deodar.errors import GraphError, MissingExtra
+from deodar.errors import GraphError
 from deodar.neuromorphic.graph import (
     INPUT,
     NEURON_FIELDS,
@@ -28,7 +28,7 @@ from deodar.neuromorphic.graph import (
     NirGraph,
     OutputRange,
 )
-from deodar.neuromorphic.nir_reader import MOST_BYTES, output_range
+from deodar.neuromorphic.nir_reader import MOST_BYTES, hdf5, needed, output_range
 
 SECONDS, SECONDS_PER_BYTE = 20.0, 1e-7
 """Limit of the time that reading takes."""
@@ -70,11 +70,9 @@ def _plain(part: InputRange | OutputRange) -> dict[str, Any]:
 
 
 def _nir() -> Any:
-    try:
+    with needed("nir"):
         # an extra
         import nir
-    except ImportError:
-        raise MissingExtra("nir", "neuromorphic", "a file of NIR") from None
     return nir
 
 
@@ -102,6 +100,7 @@ def read_nir(content: bytes, name: str = "") -> NirGraph:
         raise GraphError(f"the file has {len(content):,} bytes, more than {MOST_BYTES:,}", where=name)
     if not content.startswith(b"\x89HDF\r\n\x1a\n"):
         raise GraphError("it is not an HDF5 file", where=name, fix="Give a file of NIR, which ends in .nir")
+    hdf5()  # a missing package is found before a process starts
     seconds = SECONDS + SECONDS_PER_BYTE * len(content)
     try:
         done = subprocess.run(
@@ -124,7 +123,7 @@ def read_nir(content: bytes, name: str = "") -> NirGraph:
     return unpack(done.stdout)
 
 
-def pack(graph: NirGraph | GraphError | MissingExtra) -> bytes:
+def pack(graph: NirGraph | GraphError) -> bytes:
     """Return a graph, or why there is none, for another process: arrays and JSON, nothing else."""
     about: dict[str, Any]
     arrays: dict[str, np.ndarray] = {}
@@ -142,7 +141,7 @@ def pack(graph: NirGraph | GraphError | MissingExtra) -> bytes:
                 arrays |= {f"{k}.{f.name}": getattr(node, f.name) for f in dc.fields(node)}
     else:
         [problem] = graph.problems
-        about = {"wrong": [type(graph).__name__, problem.what, problem.where, problem.fix]}
+        about = {"wrong": [problem.what, problem.where, problem.fix]}
     buffer = io.BytesIO()
     np.savez(buffer, about=np.frombuffer(codec.text(about).encode(), np.uint8), **arrays)  # pyright: ignore[reportArgumentType]
     return buffer.getvalue()
@@ -153,8 +152,7 @@ def unpack(content: bytes) -> NirGraph:
     with np.load(io.BytesIO(content), allow_pickle=False) as data:
         about: Any = codec.parse(data["about"].tobytes().decode())
         if "wrong" in about:
-            _, what, where, fix = about["wrong"]
-            raise GraphError(what, where, fix)
+            raise GraphError(*about["wrong"])
         nodes: dict[str, GraphNode] = {}
         for k, (name, kind, size) in enumerate(about["nodes"]):
             if kind == "EndNode":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from deodar.errors import GraphError, MissingExtra
+from deodar.errors import GraphError
 from deodar.neuromorphic.nir_file import pack
 from deodar.neuromorphic.nir_reader import MOST_BYTES, parse_nir
 
@@ -21,7 +21,7 @@ def main(name: str) -> None:
         pass  # not every system limits memory; sizes are checked anyway
     try:
         found = parse_nir(sys.stdin.buffer.read(), name)
-    except (GraphError, MissingExtra) as error:
+    except GraphError as error:
         found = error
     sys.stdout.buffer.write(pack(found))
 

@@ -8,9 +8,10 @@ HDF5 library itself run without end or crash, so `nir_file.py` runs this reader 
 
 from __future__ import annotations
 
+import contextlib
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -39,22 +40,26 @@ MOST_NODES, MOST_EDGES, MOST_TEXT = 10_000, 100_000, 1_000_000
 READABLE = ("Input", "Output", "Affine", "Linear", "CubaLIF")
 
 
-def parse_nir(content: bytes, name: str = "") -> NirGraph:
-    """Return the graph of a file, in this process.
-
-    Args:
-        content: the file.
-        name: its name, for errors.
-
-    Raises:
-        GraphError: it is not a file of NIR, is damaged or too large, or has nodes that deodar does not know.
-        MissingExtra: the package h5py is not installed.
-    """
+@contextlib.contextmanager
+def needed(package: str) -> Generator[None]:
+    """Raise MissingExtra if the import of a package of the extra `neuromorphic` fails inside."""
     try:
+        yield
+    except ImportError:
+        raise MissingExtra(package, "neuromorphic", "a file of NIR") from None
+
+
+def hdf5() -> Any:
+    """Return the package h5py, or raise MissingExtra."""
+    with needed("h5py"):
         # an extra
         import h5py
-    except ImportError:
-        raise MissingExtra("h5py", "neuromorphic", "a file of NIR") from None
+    return h5py
+
+
+def parse_nir(content: bytes, name: str = "") -> NirGraph:
+    """Return the graph of a file, in this process; arguments and errors are those of `nir_file.read_nir`."""
+    h5py = hdf5()
     try:
         with h5py.File(io.BytesIO(content), "r") as file:
             return _NirReader(h5py, name).graph(file)

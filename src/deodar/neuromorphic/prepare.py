@@ -27,7 +27,9 @@ class SpikingOptions:
         step: dt in the document's time unit; none: the document's.
         chip: name of the chip.
         mismatch: relative standard deviation of thresholds and constant currents; none: the chip's own.
-        seed: seed of the mismatch and of Poisson spikes.
+        seed: seed of the mismatch, of Poisson spikes and of the world.
+        tonic: whether neurons that spike in every step give the resting levels, in place of constant
+            currents, which mismatch spreads.
     """
 
     neurons: int = NEURONS
@@ -35,6 +37,7 @@ class SpikingOptions:
     chip: str = CHIP
     mismatch: float | None = None
     seed: int = 0
+    tonic: bool = False
 
 
 @dc.dataclass(frozen=True)
@@ -77,7 +80,7 @@ def prepare(model: Model, name: str = "", options: SpikingOptions | None = None)
     spread = limits.mismatch
     if given.mismatch is not None:
         spread = {field: given.mismatch for field in DIFFERING}
-    translated = translate(model, name, given.neurons, given.step)
+    translated = translate(model, name, given.neurons, given.step, tonic=given.tonic)
     fitted = fit(build(translated.network), limits)
     network, cores = translated.network, fitted.cores
     size = (

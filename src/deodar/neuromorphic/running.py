@@ -102,6 +102,6 @@ def _whole(given: NetworkInput, every: int) -> NetworkInput:
     """Return the input with a number of settling steps and steps that are multiples of a window."""
     settling = -(-given.settling // every) * every
     steps = (len(given.analog) - given.settling) // every * every
-    before = np.zeros((settling - given.settling, given.analog.shape[1]), np.float32)
+    before = np.zeros((settling - given.settling, *given.analog.shape[1:]), np.float32)
     analog = np.concatenate([before, given.analog[: given.settling + steps]])
     return NetworkInput(analog, settling, given.step, given.expected)

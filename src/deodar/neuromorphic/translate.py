@@ -25,6 +25,7 @@ from deodar.neuromorphic.counterparts import COUNTERPARTS, Counterpart, Translat
 from deodar.neuromorphic.linear_maps import element_matrix, require_size
 from deodar.neuromorphic.network import Population, Projection, SpikingNetwork, WeightMatrix
 from deodar.neuromorphic.spike_code import NoSpikeCode
+from deodar.neuromorphic.tonic import with_tonic_neurons
 from deodar.parameters import parameters
 
 NEURONS, MEMBRANE = 20, 20e-3
@@ -57,6 +58,7 @@ def translate(
     neurons: int = NEURONS,
     step: float | None = None,
     membrane: float = MEMBRANE,
+    tonic: bool = False,
 ) -> Translated:
     """Translate a model to a network of spiking neurons.
 
@@ -66,6 +68,8 @@ def translate(
         neurons: neurons of a cell.
         step: dt in the document's time unit; none: the document's.
         membrane: tau_mem in s.
+        tonic: whether neurons that spike in every step give the resting levels, in place of constant
+            currents, which mismatch spreads.
 
     Raises:
         ModelError: the model has problems, or nothing in it has a counterpart that spikes.
@@ -85,7 +89,7 @@ def translate(
             f"the step {dt * 1e3:g} ms is not below the membrane's time constant {membrane * 1e3:g} ms",
             fix=f"Give a shorter step, for example --step {membrane / 40 / unit:g}",
         )
-    return _Translation(doc, nodes, TranslationSetup(neurons, dt, membrane, unit)).run(name)
+    return _Translation(doc, nodes, TranslationSetup(neurons, dt, membrane, unit, tonic)).run(name)
 
 
 class _Translation:
@@ -125,6 +129,8 @@ class _Translation:
             self.lines.append(self._connection(c))
         setup = self.setup
         network = SpikingNetwork(self.populations, projections, setup.step, setup.unit)
+        if setup.tonic:
+            network = with_tonic_neurons(network, setup.neurons)
         return Translated(network, ImportReport("neuromorphic", name, self.lines), self._drive())
 
     # ---------------------------------------------------------------------------------------------- elements

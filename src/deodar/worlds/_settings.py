@@ -30,6 +30,19 @@ def number(name: str, given: Any, above: float | None = None) -> float:
     return float(value)
 
 
+def finite_rows(name: str, given: Any, size: int) -> np.ndarray:
+    """Return rows of `size` finite numbers, from one row or a row for each trial, or raise WorldError."""
+    try:
+        found = np.atleast_2d(np.asarray(given, float))
+    except (TypeError, ValueError):
+        found = np.zeros((0, 0))
+    if found.ndim != 2 or found.shape[1] != size or not len(found) or not np.isfinite(found).all():
+        raise WorldError(
+            f"is {show(given)}; expected {size} finite numbers, or a row of them for each trial", where=name
+        )
+    return found
+
+
 def named(pieces: Sequence[str], names: Collection[str], where: str) -> dict[str, str]:
     """Return the values of `NAME=VALUE` pieces of an argument by name, or raise WorldError.
 

@@ -104,6 +104,34 @@ def test_distractors_send_events_when_the_camera_moves() -> None:
     assert sense(world, "events").sum() > 0
 
 
+def test_a_rival_blinks_with_the_target_and_has_a_contrast_of_its_own() -> None:
+    world = begun(camera=QUIET, first=(41.5, 81.5), rival=(101.5, 25.5, 0.5))
+    counts = []
+    for _ in range(16):
+        turned(world, 1000, 1000, 1)
+        seen = sense(world, "events")
+        counts.append((seen[8:13, 18:23].sum(), seen[23:28, 4:9].sum(), seen.sum()))
+    target, rival, all_of_them = np.array(counts).T
+    assert target + rival == pytest.approx(all_of_them)
+    assert np.count_nonzero(rival) == 4 and np.array_equal(rival > 0, target > 0)
+    # a change by c is c / 0.2 - 1 events on average, whatever the pixels remember
+    assert rival.sum() / target.sum() == pytest.approx(1.5 / 4, rel=0.15)
+    marks = {mark.name: mark.center for mark in world.scene().marks}
+    turned(world, *marks["rival"], 60)
+    assert {mark.name: mark.center for mark in world.scene().marks} == marks
+
+
+def test_each_trial_has_its_own_rival() -> None:
+    rivals = [(101.5, 25.5, 0.5), (21.5, 61.5, 0.0)]
+    world = dd.Eye(endless=False, camera=QUIET, first=(41.5, 81.5), rival=rivals)
+    world.reset(0, [1, 0])
+    for _ in range(4):
+        world.act({}, 0.0)
+    one, other = world.sense("events", PLANE, 0.0)
+    assert one[23:28, 4:9].sum() == 0 and other[23:28, 4:9].sum() > 0
+    assert np.unravel_index(one.argmax(), one.shape) == (10, 20)
+
+
 def test_the_target_moves_at_its_speed_and_stays_on_the_screen() -> None:
     world = begun(speed=200.0, reach=100.0)
     places = []
@@ -192,6 +220,9 @@ def test_the_target_can_be_moved_by_hand() -> None:
         {"first": "here"},
         {"pose": (0, 2001)},
         {"blink": 0},
+        {"rival": (200, 10, 1)},
+        {"rival": (20, 10)},
+        {"rival": (20, 10, float("nan"))},
         {"roll": float("inf")},
     ],
 )
@@ -211,7 +242,10 @@ def test_it_opens_with_settings_and_opens_again_as_it_was_described() -> None:
     world = dd.Eye.open("distractors=2, gain=0.2, speed=50")
     assert (world.distractors, world.optics.gain, world.speed) == (2, 0.2, 50)
     assert dd.Eye.open("").distractors == 0
-    again = dd.Eye.again(world.describe())
+    for made in (world, dd.Eye(rival=(20, 30, 0.8))):
+        again = dd.Eye.again(made.describe())
+        assert again.describe() == made.describe() and again.structure() == made.structure()
+    again = dd.Eye.again({k: v for k, v in world.describe().items() if k != "rival"})
     assert again.describe() == world.describe() and again.structure() == world.structure()
     with pytest.raises(WorldError, match="no setting 'gian'"):
         dd.Eye.open("gian=3")

@@ -18,7 +18,7 @@ def write(model: Model, name: str, options: SpikingOptions | None = None) -> Exp
     Args:
         model: the model.
         name: name of the file, for the report.
-        options: neurons, step, chip and mismatch.
+        options: neurons, step, chip, mismatch and tonic neurons.
 
     Raises:
         MissingExtra: the package nir is not installed.

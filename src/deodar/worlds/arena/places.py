@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from deodar.errors import Problem, WorldError
-from deodar.parameters import show
+from deodar.worlds._settings import finite_rows
 from deodar.worlds.arena.layout import ArenaObject
 
 FAR = 2.0
@@ -18,16 +18,7 @@ FAR = 2.0
 
 def rows_of(what: str, given: npt.ArrayLike, scale: Sequence[float]) -> np.ndarray:
     """Convert a value to rows with one finite number per scale, multiplied by the scales."""
-    try:
-        rows = np.atleast_2d(np.asarray(given, float))
-    except (TypeError, ValueError):
-        rows = np.zeros((0, 0))
-    if rows.ndim != 2 or rows.shape[1] != len(scale) or not len(rows) or not np.isfinite(rows).all():
-        raise WorldError(
-            f"is {show(given)}; expected {len(scale)} finite numbers, or a row of them for each trial",
-            where=what,
-        )
-    return rows * np.asarray(scale)
+    return finite_rows(what, given, len(scale)) * np.asarray(scale)
 
 
 class Places:

@@ -22,7 +22,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody
-from deodar.worlds._settings import named, number, numeric, of
+from deodar.worlds._settings import finite_rows, named, number, numeric, of
 from deodar.worlds.eye import screen
 from deodar.worlds.eye.event_camera import EventCamera, rate
 from deodar.worlds.eye.event_picture import EventPicture
@@ -51,7 +51,7 @@ SETTINGS = (
 )
 """Numbers that an argument of the command line may state: `--world "eye:distractors=2, speed=50"`."""
 
-TARGET = "target"
+TARGET, RIVAL = "target", "rival"
 CAMERAS = {"pan": 0, "tilt": 1}
 EVENTS = {"events": ("on", "off"), "on": ("on",), "off": ("off",)}
 
@@ -60,7 +60,8 @@ EVENTS = {"events": ("on", "off"), "on": ("on",), "off": ("off",)}
 class Eye(PureWorld):
     r"""An event camera of 128 x 128 pixels on a pan-tilt unit, in front of a screen.
 
-    On the screen a disc, the target, blinks. Distractors are further discs. Each servo motor approaches the
+    On the screen a disc, the target, blinks; a second one, the rival, may blink with it, with a contrast of
+    its own. Distractors are further discs. Each servo motor approaches the
     position that its motor signal commands; a signal of exactly 0 is no signal, as is that of a motor that no
     element drives, and leaves it where it is. A direction d relative to the axis of the camera appears on the
     retina rotated by the roll R, with a gain that grows with its distance. After a gaze the screen shows the
@@ -87,6 +88,8 @@ class Eye(PureWorld):
             the screen ends at a limit of the servo motors.
         endless: whether the screen shows another target after a gaze, when the target is lost, and after 4 s.
         first: column and row of the first target on the retina, or a row for each trial; None: random.
+        rival: column and row of the rival on the retina at the start, and its contrast; or a row for each
+            trial; None: there is none. Its direction does not change.
         wait: time before the first target, ms.
         pose: pan and tilt at the start, or a row for each trial.
         period: ms between two exchanges with the model.
@@ -132,6 +135,7 @@ class Eye(PureWorld):
         reach: float = 600.0,
         endless: bool = True,
         first: Sequence[float] | Sequence[Sequence[float]] | np.ndarray | None = None,
+        rival: Sequence[float] | Sequence[Sequence[float]] | np.ndarray | None = None,
         wait: float = 0.0,
         pose: Sequence[float] | Sequence[Sequence[float]] | np.ndarray = (MIDDLE, MIDDLE),
         period: float = 10.0,
@@ -149,6 +153,9 @@ class Eye(PureWorld):
         self.reach, self.endless = number("reach", reach, above=0.0), bool(endless)
         self.wait = number("wait", wait)
         self.first = None if first is None else _rows("first", first, 0.0, PIXELS - 1.0)
+        self.rival = None if rival is None else finite_rows(RIVAL, rival, 3)
+        if self.rival is not None:
+            _within(RIVAL, self.rival[:, :2], 0.0, PIXELS - 1.0)
         self.poses = _rows("pose", pose, LOWEST, HIGHEST)
         self.carried, self.carries = np.full(2, MIDDLE), 0
         self._picture = EventPicture(PIXELS)
@@ -160,11 +167,15 @@ class Eye(PureWorld):
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         first = np.full((1, 2), np.nan) if self.first is None else self.first
-        return {"pose": of(trials, self.poses, "pose"), "first": of(trials, first, "first")}
+        found = {"pose": of(trials, self.poses, "pose"), "first": of(trials, first, "first")}
+        return found if self.rival is None else {**found, RIVAL: of(trials, self.rival, RIVAL)}
 
     def structure(self) -> Hashable:
         settings = (self.lag, self.radius, self.contrast, self.blink, self.speed, self.drift, self.reach)
-        return (self.camera, self.optics, settings, self.distractors, self.endless, self.wait, self.period)
+        return (
+            *(self.camera, self.optics, settings, self.distractors, self.rival is None),
+            *(self.endless, self.wait, self.period),
+        )
 
     # ----------------------------------------------------------------------------------------------- one copy
 
@@ -186,7 +197,7 @@ class Eye(PureWorld):
         }
         if self.wait == 0:
             state = self._show(own, state, tick)
-        dark = self._luminance(state, jnp.zeros((), bool))
+        dark = self._luminance(own, state, jnp.zeros((), bool))
         return {**state, **self.camera.start(dark, own["keys"]["pixels"])}
 
     def advance(self, shared: Arrays, own: PyTree, state: PyTree, motors: Arrays) -> PyTree:
@@ -213,9 +224,8 @@ class Eye(PureWorld):
         new = self._timed(new, moved)
         due = self._due(new, tick)
         new = lax.cond(any_copy(due), lambda: _where(due, self._show(own, new, tick), new), lambda: new)
-        pixels = self.camera.expose(
-            new, self._luminance(new, self._lit(tick)), self.step, own["keys"]["pixels"], tick + 1
-        )
+        luminance = self._luminance(own, new, self._lit(tick))
+        pixels = self.camera.expose(new, luminance, self.step, own["keys"]["pixels"], tick + 1)
         return {**new, **pixels}
 
     def read(self, shared: Arrays, own: PyTree, state: PyTree, sensor: str, axes: Axes) -> Array:
@@ -225,11 +235,22 @@ class Eye(PureWorld):
             return self.optics.to_retina(state["objects"][0] - state["pose"])
         return state["pose"] if sensor == "pose" else state["shown"]
 
-    def _luminance(self, state: PyTree, lit: Array) -> Array:
-        """Return the log luminance of the retina; the target is lit or dark, distractors are always lit."""
-        places, dtype = self.optics.to_retina(state["objects"] - state["pose"]), state["pose"].dtype
+    def _luminance(self, own: PyTree, state: PyTree, lit: Array) -> Array:
+        """Return the log luminance of the retina; the target and the rival are lit or dark, distractors are
+        always lit.
+        """
+        directions, dtype = state["objects"], state["pose"].dtype
         on = jnp.ones(1 + self.distractors, dtype).at[0].set(lit.astype(dtype)) * (state["shown"] > 0)
-        return screen.luminance(places, on, self.radius, self.contrast, dtype)
+        bright = on * (jnp.exp(jnp.asarray(self.contrast, dtype)) - 1)
+        if self.rival is not None:
+            directions = jnp.concatenate([directions, self._rival(own)[None]])
+            bright = jnp.append(bright, on[0] * (jnp.exp(own[RIVAL][2]) - 1))
+        places = self.optics.to_retina(directions - state["pose"])
+        return screen.luminance(places, bright, self.radius, dtype)
+
+    def _rival(self, own: PyTree) -> Array:
+        """Return the direction of the rival, pan and tilt."""
+        return own["pose"] + self.optics.to_direction(own[RIVAL][:2])
 
     def _lit(self, tick: Array) -> Array:
         half = max(1, round(self.blink / self.step))
@@ -319,6 +340,9 @@ class Eye(PureWorld):
         state = self._now()
         objects, pose = np.asarray(state["objects"], float)[0], np.asarray(state["pose"], float)[0]
         marks = [Mark(TARGET, (float(objects[0, 0]), float(objects[0, 1])))]
+        if self.rival is not None:
+            x, y = np.asarray(self._rival(self.own_values(self._trials[0])), float)
+            marks.append(Mark(RIVAL, (float(x), float(y)), True))
         marks += [Mark(f"distractor {k}", (float(x), float(y)), True) for k, (x, y) in enumerate(objects[1:])]
         shown = tuple(marks) if float(np.asarray(state["shown"])[0]) > 0 else ()
         gaze = SceneBody("gaze", (float(pose[0]), float(pose[1])), 0.0, CENTRED / self.optics.gain)
@@ -344,6 +368,7 @@ class Eye(PureWorld):
             **{name: getattr(self, name) for name in SETTINGS[3:]},
             "endless": self.endless,
             "first": None if self.first is None else self.first.tolist(),
+            RIVAL: None if self.rival is None else self.rival.tolist(),
             "pose": self.poses.tolist(),
             "camera": {f.name: getattr(camera, f.name) for f in dataclasses.fields(camera)},
         }
@@ -361,7 +386,8 @@ class Eye(PureWorld):
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Eye:
         settings = {name: described[name] for name in (*SETTINGS, "endless", "first", "pose")}
-        return cls(EventCamera(**described["camera"]), **settings)
+        # records of before have no rival
+        return cls(EventCamera(**described["camera"]), rival=described.get(RIVAL), **settings)
 
     @classmethod
     def example(cls) -> Eye:
@@ -383,15 +409,17 @@ def _finite(name: str, given: Any) -> float:
 
 def _rows(name: str, given: Any, low: float, high: float) -> np.ndarray:
     """Return rows of two numbers between two limits, or raise WorldError."""
-    try:
-        rows = np.atleast_2d(np.asarray(given, float))
-    except (TypeError, ValueError):
-        rows = np.zeros((0, 0))
-    pairs = rows.ndim == 2 and rows.shape[1] == 2 and len(rows) > 0
-    if not pairs or not ((rows >= low) & (rows <= high)).all():
-        wanted = f"two numbers from {low:g} to {high:g}, or a row of them for each trial"
-        raise WorldError(f"is {show(given)}; expected {wanted}", where=name)
-    return rows
+    found = finite_rows(name, given, 2)
+    _within(name, found, low, high)
+    return found
+
+
+def _within(name: str, given: np.ndarray, low: float, high: float) -> None:
+    """Refuse rows with a number beyond two limits."""
+    beyond = ((given < low) | (given > high)).any(1)
+    if beyond.any():
+        row = given[beyond.argmax()].tolist()
+        raise WorldError(f"has the row {show(row)}; expected numbers from {low:g} to {high:g}", where=name)
 
 
 def _where(condition: Array, one: PyTree, other: PyTree) -> PyTree:

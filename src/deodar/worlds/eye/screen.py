@@ -13,14 +13,13 @@ CANDIDATES = 32
 """Random places from which the place of a new object is taken: the first one within the screen."""
 
 
-def luminance(places: Array, on: Array, radius: float, contrast: float, dtype: DTypeLike) -> Array:
+def luminance(places: Array, bright: Array, radius: float, dtype: DTypeLike) -> Array:
     """Return the log luminance of the picture on the retina, shape (columns, rows); the ground is 0.
 
     Args:
         places: column and row of the middle of each disc, (objects, 2).
-        on: 1 for each disc that is lit, else 0.
+        bright: luminance of each disc above that of the ground, as a share of the latter; 0: it is dark.
         radius: radius of the discs, pixels; their edge is one pixel wide.
-        contrast: log luminance of a disc that is lit, above the ground.
         dtype: precision.
     """
     pixel = jnp.arange(PIXELS, dtype=dtype)
@@ -29,7 +28,7 @@ def luminance(places: Array, on: Array, radius: float, contrast: float, dtype: D
         x, y = pixel - places[k, 0], pixel - places[k, 1]
         away = jnp.sqrt((x * x)[:, None] + (y * y)[None, :])
         cover = jnp.clip(radius + 0.5 - away, 0.0, 1.0)
-        light = light + on[k] * cover * (jnp.exp(jnp.asarray(contrast, dtype)) - 1)
+        light = light + cover * bright[k]
     return jnp.log(light)
 
 
