@@ -102,8 +102,10 @@ LESSON = 4.0
 MATCHED = 0.5
 """Active samples of the match field above which the paper's mechanism is rewarded."""
 
-PRESHAPE = 4.0
-"""Width of the pre-shape of the match field, pixels."""
+PRESHAPE = {"correcting": 4.0, "paper": 6.0}
+"""Width of the pre-shape of the match field, pixels. The paper's mechanism learns from rewards alone, which a
+narrower pre-shape makes rare.
+"""
 
 MATCH_INHIBITS = 8.0
 """Inhibition of the correction field by each active sample of the match field, up to four of them."""
@@ -111,8 +113,11 @@ MATCH_INHIBITS = 8.0
 SHARE, LARGEST = 0.1, 0.15
 """Share of the connected weights at the start, and the largest of them."""
 
-QUADRATURE = "cell"
-"""Quadrature of all fields: their sigmoid is steep, so that with `point` peaks would stick to samples."""
+QUADRATURE = {"correcting": "cell", "paper": "point"}
+"""Quadrature of all fields. Their sigmoid is steep, so that with `point` peaks stick to samples, and
+corrections of less than a sample are lost. The paper's mechanism corrects nothing, and learns more with
+`point`, where the border of a peak is sharp: seen with the tuning seeds, not derived.
+"""
 
 
 def retina(samples: int = SAMPLES[0]) -> tuple[Axis, Axis]:
@@ -179,6 +184,7 @@ class _Looking:
         self.model, self.mechanism = model, mechanism
         self.plane, self.motions = list(plane), list(motions)
         self.both = [Axis("component", 0, 1, 2)]
+        self.quadrature = QUADRATURE[mechanism]
 
     # ------------------------------------------------------------------------------------------------ seeing
 
@@ -187,7 +193,7 @@ class _Looking:
         model = self.model
         camera = model.add(Sensor("events", self.plane, sensor="events"))
         trace = model.add(
-            Field("event rate", self.plane, tau=EVENTS_TAU, resting_level=0.0, quadrature=QUADRATURE)
+            Field("event rate", self.plane, tau=EVENTS_TAU, resting_level=0.0, quadrature=self.quadrature)
         )
         blur = model.add(Convolve([Gaussian(EVENTS_GAIN, 4.0, normalized=True)], name="blur"))
         limit = model.add(Envelope("lower", name="limit"))
@@ -229,7 +235,7 @@ class _Looking:
                 resting_level=0.0,
                 noise=float(noise),
                 noise_length=EXPLORATION_LENGTH,
-                quadrature=QUADRATURE,
+                quadrature=self.quadrature,
             )
         )
         level = model.add(Sum(name="level"))
@@ -331,7 +337,7 @@ class _Looking:
 
     def match(self) -> None:
         """Add the match field (eq. 15)."""
-        centre, width = (PIXELS - 1) / 2, PRESHAPE
+        centre, width = (PIXELS - 1) / 2, PRESHAPE[self.mechanism]
         self.matching = self.field("match", self.plane, 2.0, 4.0, 0.05)
         self.perceptual >> self.gain(4.0, "match input") >> self.matching
         bell = self.model.add(
@@ -460,7 +466,7 @@ class _Looking:
                 kernel=[Gaussian(excitation, width, normalized=True)] if excitation else [],
                 global_inhibition=inhibition / area,
                 noise=strength_of_noise(noise, TAU, axes),
-                quadrature=QUADRATURE,
+                quadrature=self.quadrature,
             )
         )
 
