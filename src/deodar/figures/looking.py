@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +16,9 @@ from deodar.figures._style import figure as sheet
 
 HEIGHT = 5.6
 CENTRE = (PIXELS - 1) / 2
+LINE = 0.07
+"""Least distance of two names beside the curves, as a share."""
+
 ARROWS = 4
 """Every fourth sample of the retina has an arrow."""
 
@@ -72,13 +76,14 @@ def looking_figure(
 
 
 def _draw_curves(place: Any, curves: Sequence[LearningCurve]) -> None:
+    heights = _apart([curve.mean[-1] for curve in curves], LINE)
     for k, curve in enumerate(curves):
         low, high = zip(*curve.span, strict=True)
         place.fill_between(curve.gazes, low, high, color=COLORS[k], alpha=0.18, linewidth=0)
         place.plot(curve.gazes, curve.mean, color=COLORS[k], linewidth=MEDIUM, marker="o", markersize=2.5)
         place.annotate(
             curve.name,
-            (curve.gazes[-1], curve.mean[-1]),
+            (curve.gazes[-1], heights[k]),
             xytext=(3, 0),
             textcoords="offset points",
             color=COLORS[k],
@@ -87,6 +92,15 @@ def _draw_curves(place: Any, curves: Sequence[LearningCurve]) -> None:
     last = max(curve.gazes[-1] for curve in curves)
     place.set(xlim=(0, 1.55 * last), ylim=(0, 1.02), xlabel="gazes", ylabel="gazes within 12 pixels")
     place.set_xticks([t for t in place.get_xticks() if 0 <= t <= last])
+
+
+def _apart(values: Sequence[float], least: float) -> list[float]:
+    """Return heights of labels that are at least so far apart, in the order of the values; the lowest stays."""
+    out = [float(v) for v in values]
+    order = sorted(range(len(out)), key=out.__getitem__)
+    for below, above in itertools.pairwise(order):
+        out[above] = max(out[above], out[below] + least)
+    return out
 
 
 def _draw_shifts(place: Any, shifts: np.ndarray) -> None:
@@ -99,7 +113,7 @@ def _draw_shifts(place: Any, shifts: np.ndarray) -> None:
     place.plot([CENTRE], [CENTRE], "+", color=COLOR.goal)
     place.set(
         xlim=(0, PIXELS),
-        ylim=(PIXELS, 0),
+        ylim=(0, PIXELS),
         aspect="equal",
         xlabel="column",
         ylabel="row",
