@@ -95,7 +95,7 @@ def _draw_curves(place: Any, curves: Sequence[LearningCurve]) -> None:
 
 
 def _apart(values: Sequence[float], least: float) -> list[float]:
-    """Return heights of labels that are at least so far apart, in the order of the values; the lowest stays."""
+    """Return heights of labels at least so far apart, in the order of the values; the lowest one stays."""
     out = [float(v) for v in values]
     order = sorted(range(len(out)), key=out.__getitem__)
     for below, above in itertools.pairwise(order):
