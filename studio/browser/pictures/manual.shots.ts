@@ -180,12 +180,6 @@ for (const colours of COLOURS) {
     const observer = await studio.observe();
     await openExample(page, "Looking");
     await observer.runs();
-    await observer.ask({
-      type: "watch",
-      element: observer.element("motor intention").id,
-      port: "output",
-      most: 64,
-    });
     // until the first peak has formed in the motor intention, and the gaze turns
     await observer.ask({ type: "speed", factor: 0.2 });
     await page.getByRole("button", { name: /^play/i }).click();

@@ -12,11 +12,11 @@ import { BlockPalette } from "./BlockPalette";
 import { AddCamera, CameraView, useCamera } from "./CameraView";
 import type { Ground } from "./ground";
 import { live } from "./live";
-import { PictureView } from "./PictureView";
 import { Plan } from "./Plan";
 import { objects, placeText } from "./plan";
 import { SolidScene } from "./solid/SolidScene";
 import { useHands } from "./useHands";
+import { WorldPicture } from "./WorldPicture";
 
 const HELP =
   "Drag an object, or a colour onto the plan. A click on a colour places a block in front of the robot, a " +
@@ -133,7 +133,7 @@ export function World() {
           )}
         </div>
         {camera !== null && <CameraView camera={camera} />}
-        {picture !== null && <PictureView picture={picture} />}
+        {picture !== null && <WorldPicture picture={picture} />}
       </div>
     </section>
   );

@@ -2,10 +2,10 @@
 
 import { useEffect, useRef } from "react";
 
-import type { PictureView as Picture } from "../protocol";
+import type { PictureView } from "../protocol";
 import { live } from "./live";
 
-export function PictureView({ picture }: { picture: Picture }) {
+export function WorldPicture({ picture }: { picture: PictureView }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { name, columns, rows } = picture;
 
