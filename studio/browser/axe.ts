@@ -9,9 +9,23 @@ const SOURCE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe
 
 const TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"];
 
+/** Wait until nothing fades or moves: half a transition has the contrast and the size of neither end. */
+async function stillness(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const ends = ({ effect }: Animation) => effect?.getComputedTiming().endTime !== Number.POSITIVE_INFINITY;
+    await Promise.allSettled(
+      document
+        .getAnimations()
+        .filter(ends)
+        .map(({ finished }) => finished),
+    );
+  });
+}
+
 /** One line for each finding: its rule and the element. `rules`: only these; none: all of levels A and AA. */
 export async function findings(page: Page, rules?: string[]): Promise<string[]> {
   if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(SOURCE);
+  await stillness(page);
   const options: RunOptions = {
     runOnly: rules === undefined ? { type: "tag", values: TAGS } : { type: "rule", values: rules },
     rules: { "target-size": { enabled: false } }, // `smallTargets` measures them
@@ -37,7 +51,8 @@ export async function findings(page: Page, rules?: string[]): Promise<string[]> 
  * The visible buttons, entries of menus and lists that are smaller than 24 by 24 pixels, with their size.
  * What lies on the canvas is left out: it has the size that its zoom gives it.
  */
-export function smallTargets(page: Page): Promise<string[]> {
+export async function smallTargets(page: Page): Promise<string[]> {
+  await stillness(page);
   return page.evaluate(() => {
     const targets = "button, [role=button], [role=menuitem], [role=option], select";
     return [...document.querySelectorAll<HTMLElement>(targets)].flatMap((target) => {
