@@ -47,7 +47,7 @@ from tests.neuromorphic.scenes import (  # noqa: E402
 
 import deodar as dd  # noqa: E402
 from deodar.analysis.statistics import wilson  # noqa: E402
-from deodar.architectures.event_selection import retina  # noqa: E402
+from deodar.architectures.looking import retina  # noqa: E402
 from deodar.neuromorphic.build import build  # noqa: E402
 from deodar.neuromorphic.chip_limits import chip_limits  # noqa: E402
 from deodar.neuromorphic.comparison import compare_spikes  # noqa: E402
@@ -238,7 +238,7 @@ def events(python: str) -> Rows:
 def event_share(given: Targets, seed: int) -> float:
     """Return the number of events of the other target, as a share of those of the target."""
     model = dd.Model("counts", dt=10)
-    plane = retina(128)
+    plane = list(retina(128))
     model.add(dd.Sensor("events", plane, sensor="events"))
     data = dd.simulate(
         model, 500, seed=seed, record="events.output", every=10, trials=10, world=given.world, progress=False

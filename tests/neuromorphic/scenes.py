@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import deodar as dd
-from deodar.architectures.event_selection import retina
+from deodar.architectures.looking import retina
 
 CELLS = 30
 X = dd.Axis("x", 0, CELLS - 1, samples=CELLS)

@@ -13,17 +13,14 @@ Reference:
 
 from __future__ import annotations
 
+from deodar.architectures.looking import retina
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.resample import Resample
 from deodar.elements.field import Field
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model
-from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.logistic import Logistic
-
-PIXELS = 128
-"""Columns and rows of the event camera."""
 
 COUNTED, SAMPLES = 32, 16
 """Cells in which events are counted, and samples of the field, along each axis. A field of 16 x 16 samples
@@ -40,12 +37,6 @@ EXCITATION, WIDTH, INHIBITION = 20.0, 8.0, 1.0 / 64
 """Integral and width (pixels) of the kernel, and global inhibition for each active square pixel."""
 
 
-def retina(samples: int) -> list[Axis]:
-    """Return columns and rows of the retina in pixels, samples in the middle of cells."""
-    edge = PIXELS / samples / 2 - 0.5
-    return [Axis(name, edge, PIXELS - 1 - edge, samples, unit="px") for name in ("column", "row")]
-
-
 def event_selection(samples: int = SAMPLES, inhibition: float = INHIBITION) -> Model:
     """Create the architecture: the sensor `events` of a world such as `dd.Eye`, and the field `perceptual`.
 
@@ -56,7 +47,7 @@ def event_selection(samples: int = SAMPLES, inhibition: float = INHIBITION) -> M
     """
     model = Model("event selection", dt=1.0)
     model.describe(notes="Sandamirskaya (2014), section 2.2: a field selects where most events are")
-    plane = retina(samples)
+    plane = list(retina(samples))
     field = Field(
         "perceptual",
         plane,
@@ -66,7 +57,7 @@ def event_selection(samples: int = SAMPLES, inhibition: float = INHIBITION) -> M
         kernel=[Gaussian(EXCITATION, WIDTH, normalized=True)],
         global_inhibition=inhibition,
     )
-    events = model.add(Sensor("events", retina(COUNTED), sensor="events"))
+    events = model.add(Sensor("events", list(retina(COUNTED)), sensor="events"))
     blur = model.add(Convolve([Gaussian(GAIN, BLUR, normalized=True)], name="blur"))
     events >> blur >> model.add(Resample(plane, name="cells")) >> model.add(field)
     return model
