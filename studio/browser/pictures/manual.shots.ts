@@ -11,6 +11,7 @@ import { expect, onTestFinished, test } from "vitest";
 
 import { frameOf, toPixels } from "../../src/world/plan";
 import { openExample } from "../hands";
+import type { Observer } from "../observer";
 import { python } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
 import { writeTwoTargets } from "../twoTargets";
@@ -24,10 +25,27 @@ async function open(colours: "light" | "dark", options: StudioOptions): Promise<
   return studio;
 }
 
+/** An example that runs in a studio, with an observer. */
+async function openRunning(
+  colours: "light" | "dark",
+  title: string,
+): Promise<{ page: Page; observer: Observer }> {
+  const studio = await open(colours, {});
+  const observer = await studio.observe();
+  await openExample(studio.page, title);
+  await observer.runs();
+  return { page: studio.page, observer };
+}
+
 /** Run until the clock shows this much document time, then pause. */
-async function run(page: Page, milliseconds: number): Promise<void> {
+const run = (page: Page, milliseconds: number): Promise<void> =>
+  runUntil(page, () =>
+    expect.poll(async () => tick(page), { ...PATIENCE, interval: 100 }).toBeGreaterThan(milliseconds),
+  );
+
+async function runUntil(page: Page, done: () => Promise<unknown>): Promise<void> {
   await page.getByRole("button", { name: /^play/i }).click();
-  await expect.poll(async () => tick(page), { ...PATIENCE, interval: 100 }).toBeGreaterThan(milliseconds);
+  await done();
   await page.getByRole("button", { name: /^pause/i }).click();
   await page.mouse.move(3, 400);
   await page.waitForTimeout(500); // until the last frames are drawn
@@ -151,11 +169,7 @@ for (const colours of COLOURS) {
   });
 
   test(`pointing, ${colours}`, async () => {
-    const studio = await open(colours, {});
-    const { page } = studio;
-    const observer = await studio.observe();
-    await openExample(page, "Pointing");
-    await observer.runs();
+    const { page, observer } = await openRunning(colours, "Pointing");
     const say = async (value: number) => {
       for (const name of ["say green", "say left"]) {
         const element = observer.element(name).id;
@@ -175,18 +189,10 @@ for (const colours of COLOURS) {
   });
 
   test(`eye, ${colours}`, async () => {
-    const studio = await open(colours, {});
-    const { page } = studio;
-    const observer = await studio.observe();
-    await openExample(page, "Looking");
-    await observer.runs();
+    const { page, observer } = await openRunning(colours, "Looking");
     // until the first peak has formed in the motor intention, and the gaze turns
     await observer.ask({ type: "speed", factor: 0.2 });
-    await page.getByRole("button", { name: /^play/i }).click();
-    await observer.until(() => observer.max("motor intention", "output") > 0.9);
-    await page.getByRole("button", { name: /^pause/i }).click();
-    await page.mouse.move(3, 400);
-    await page.waitForTimeout(1000); // until all is drawn
+    await runUntil(page, () => observer.until(() => observer.max("motor intention", "output") > 0.9));
     await shot(page, name("eye"));
   });
 
@@ -227,11 +233,7 @@ for (const colours of COLOURS) {
   });
 
   test(`lesson, ${colours}`, async () => {
-    const studio = await open(colours, {});
-    const { page } = studio;
-    await openExample(page, "Colour search");
-    const observer = await studio.observe();
-    await observer.runs();
+    const { page, observer } = await openRunning(colours, "Colour search");
     await page.getByRole("button", { name: /^play/i }).click();
     const world = page.getByRole("tabpanel", { name: "World", exact: true });
     const isOn = (item: number) => observer.max(`item ${item}.node`, "activation") > 0;

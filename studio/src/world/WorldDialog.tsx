@@ -12,6 +12,7 @@ import { base64, isTooLarge } from "../files/flows";
 import { lastPart } from "../files/paths";
 import { useFolder } from "../dialogs/useFolder";
 import { pageLook } from "../plots/colors/look";
+import { paintBytes } from "../plots/colors/paint";
 import type { Answer, Kind, ListedProblem, WorldPreview, WorldSettingView } from "../protocol";
 import { socket } from "../socket";
 import { useStudio } from "../store";
@@ -261,13 +262,7 @@ function Preview({ preview }: { preview: WorldPreview }) {
       const seen = { ...NOTHING_SEEN, scene };
       draw(ctx, frameOf(scene.border, w, h), seen, { hovered: null, selected: null, held: null }, pageLook());
     } else if (width > 0) {
-      Object.assign(canvas.current, { width, height });
-      const rgb = bytesOf(pixels);
-      const image = ctx.createImageData(width, height);
-      for (let i = 0; i < width * height; i++) {
-        image.data.set([rgb[3 * i] ?? 0, rgb[3 * i + 1] ?? 0, rgb[3 * i + 2] ?? 0, 255], 4 * i);
-      }
-      ctx.putImageData(image, 0, 0);
+      paintBytes(canvas.current, bytesOf(pixels), width, height);
     }
   }, [preview]);
   return (

@@ -2,6 +2,7 @@
 
 import { useEffect, useRef } from "react";
 
+import { paintBytes } from "../plots/colors/paint";
 import type { PictureView } from "../protocol";
 import { live } from "./live";
 
@@ -10,21 +11,11 @@ export function WorldPicture({ picture }: { picture: PictureView }) {
   const { name, columns, rows } = picture;
 
   useEffect(() => {
-    const ctx = canvas.current?.getContext("2d") ?? null;
-    if (ctx === null) {
-      return;
-    }
-    const image = ctx.createImageData(columns, rows);
     let due = 0;
     const paint = () => {
       due = 0;
-      const { pixels } = live.now;
-      if (pixels.length === 3 * columns * rows) {
-        for (let from = 0, to = 0; from < pixels.length; from += 3, to += 4) {
-          image.data.set(pixels.subarray(from, from + 3), to);
-          image.data[to + 3] = 255;
-        }
-        ctx.putImageData(image, 0, 0);
+      if (canvas.current !== null) {
+        paintBytes(canvas.current, live.now.pixels, columns, rows);
       }
     };
     const redraw = () => {
@@ -41,13 +32,7 @@ export function WorldPicture({ picture }: { picture: PictureView }) {
   return (
     <figure className="world-camera">
       <div className="world-picture">
-        <canvas
-          ref={canvas}
-          width={columns}
-          height={rows}
-          role="img"
-          aria-label={`Picture of the world, ${name}`}
-        />
+        <canvas ref={canvas} role="img" aria-label={`Picture of the world, ${name}`} />
       </div>
       <figcaption className="one-line">{name}</figcaption>
     </figure>

@@ -80,6 +80,28 @@ export function paintPicture(
   target.ctx.putImageData(target.image, 0, 0);
 }
 
+// A picture as the server sends it: a byte each for red, green and blue, row by row from the top. One of
+// another size is not drawn.
+export function paintBytes(
+  canvas: HTMLCanvasElement,
+  pixels: Uint8Array,
+  columns: number,
+  rows: number,
+): void {
+  const target = pixels.length === 3 * columns * rows ? imageOf(canvas, columns, rows) : null;
+  if (target === null) {
+    return;
+  }
+  const bytes = target.image.data;
+  for (let from = 0, to = 0; from < pixels.length; from += 3, to += 4) {
+    bytes[to] = pixels[from] as number;
+    bytes[to + 1] = pixels[from + 1] as number;
+    bytes[to + 2] = pixels[from + 2] as number;
+    bytes[to + 3] = 255;
+  }
+  target.ctx.putImageData(target.image, 0, 0);
+}
+
 // A curve over the whole width; samples that are not finite leave a gap. The caller clears.
 export function paintCurve(ctx: CanvasRenderingContext2D, values: ArrayLike<number>, how: Curve): void {
   const { width, height, lower, upper, color, zero, lineWidth = 1.5 } = how;
