@@ -190,6 +190,7 @@ from deodar.worlds.camera import Camera as Camera
 from deodar.worlds.combined import Combined as Combined
 from deodar.worlds.event_file.event_file import EventFile as EventFile
 from deodar.worlds.eye.eye import Eye as Eye
+from deodar.worlds.gymnasium.gymnasium import Gymnasium as Gymnasium
 from deodar.worlds.mujoco.mujoco import MuJoCo as MuJoCo
 from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording

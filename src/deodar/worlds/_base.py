@@ -67,6 +67,7 @@ class World:
             outside, as those of a camera.
         opens: endings of the files that `open` reads, in lower case with the dot, such as .png, the formats
             of this class before those that others open too; empty if its argument does not name a file.
+        short: another name of the class on the command line; empty: there is none.
 
     Attributes:
         period: ms between two exchanges; None: the world never changes, and a run reads each sensor once.
@@ -78,6 +79,7 @@ class World:
     stands_in: ClassVar[bool] = True
     repeatable: ClassVar[bool] = True
     opens: ClassVar[tuple[str, ...]] = ()
+    short: ClassVar[str] = ""
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         """Return the world to its initial state.

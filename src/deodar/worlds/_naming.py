@@ -11,13 +11,15 @@ def named_kind(text: str, where: str) -> tuple[type[World], str]:
     """Return the class of a world and the argument for its `open`; messages call the place of this text
     `where`.
 
-    Case and hyphens do not count: `event-file` is `EventFile`.
+    Case and hyphens do not count: `event-file` is `EventFile`. A class may have a short name besides.
 
     Raises:
         WorldError: there is no such class, or the text has no argument.
     """
     name, _, argument = text.partition(":")
-    kinds = {kind.casefold(): cls for kind, cls in registry.kinds("worlds").items()}
+    known = registry.kinds("worlds")
+    kinds = {cls.short: cls for cls in known.values() if cls.short}
+    kinds |= {kind.casefold(): cls for kind, cls in known.items()}
     found = kinds.get(name.casefold().replace("-", ""))
     if found is None:
         raise WorldError(f"there is no world {name!r}", where=where, fix=did_you_mean(name.casefold(), kinds))
