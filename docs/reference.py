@@ -63,6 +63,7 @@ SCRIPT = [
     "load_snapshot",
     "session_at",
     "Experiment",
+    "as_env",
     "save",
     "load",
     "save_record",

@@ -102,6 +102,7 @@ from deodar.elements.sensor import Sensor as Sensor
 from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll as SoftWinnerTakeAll
 from deodar.elements.time_series import TimeSeries as TimeSeries
 from deodar.elements.transient_detector import TransientDetector as TransientDetector
+from deodar.environments.as_env import as_env as as_env
 from deodar.experiments.actions import Action as Action
 from deodar.experiments.actions import End as End
 from deodar.experiments.actions import Move as Move

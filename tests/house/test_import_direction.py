@@ -34,7 +34,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "batch live",
         "analysis",
         "experiments",
-        "importers architectures",
+        "environments importers architectures",
         "neuromorphic",
         "exporters",
         "compat",

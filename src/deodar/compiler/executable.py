@@ -12,7 +12,7 @@ import functools
 import math
 import time
 from collections.abc import Callable, Generator, Hashable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 import jax
 import jax.numpy as jnp
@@ -75,6 +75,9 @@ RARELY: cache.CompilerOptions = {"xla_backend_optimization_level": 0}
 compile in half the time.
 """
 
+BEGUN = "begun"
+"""Key of the tick at which the time of a copy began, among the keys of noise."""
+
 BUFFER_BYTES = 16 * 2**20
 """Size of the recording buffer of a chunk."""
 
@@ -89,12 +92,14 @@ class Batch:
         sweep: the leaves that differ between points, for each entry of the sweep.
         begun: number of copies with which a batch began that has fewer now; 0: those that it has. The
             operations are those of that number, so that the state of the larger batch fits.
+        restarts: whether each copy has a tick of its own at which its time began, under `BEGUN` of the keys.
     """
 
     points: int | None = None
     trials: int | None = None
     sweep: tuple[tuple[Leaf, ...], ...] = ()
     begun: int = 0
+    restarts: bool = False
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -311,8 +316,13 @@ class Executable:
                 return one(values, seed, trial[0])
 
         if self.batch.points is None:
-            return many(_unswept(values), seed, trials)
-        return jax.vmap(many, in_axes=(self._swept_axes(values), None, None))(values, seed, trials)
+            state, keys = many(_unswept(values), seed, trials)
+        else:
+            each = jax.vmap(many, in_axes=(self._swept_axes(values), None, None))
+            state, keys = each(values, seed, trials)
+        if self.batch.restarts:
+            keys = {**keys, BEGUN: jnp.zeros(self.batch.shape, jnp.uint32)}
+        return state, keys
 
     def _chunk(self, ports: Sequence[Port], capacity: int, given: ProgramArguments) -> ChunkResult:
         clock = unpacked(given.whole, given.real)
@@ -346,6 +356,8 @@ class Executable:
         clock: ProgramClock,
     ) -> Chunk:
         """Return the values that are constant during a chunk of one copy."""
+        if BEGUN in keys:
+            clock = cast("ProgramClock", {**clock, "origin": keys[BEGUN]})
         constants = self.program.hoist(values, constants)
         still = self.program.steady(values, constants, sensed)
         return Chunk(values, constants, keys, sensed, clock, still)

@@ -105,6 +105,20 @@ class Observations:
                 self.measured[m][rows[i]] = np.array(seen[measure.view][i, when[i]])
         return np.where(running, np.minimum(ends + 1, n), 0)
 
+    def restart(self, rows: Sequence[int], seen: Mapping[Observable, np.ndarray]) -> None:
+        """Forget all samples of some trials, which begin again with other values; no event may name the time.
+
+        Args:
+            rows: numbers of these trials.
+            seen: for each view the values at the start, as `take` gets them.
+        """
+        for row in rows:
+            self.outcome[row] = ""
+        at = np.asarray(rows, int)
+        self.found[:, at], self._counts[:, at], self._been[:, at] = np.nan, 0, False
+        for view in self._first:
+            self._first[view][at] = seen[view][:, :1]
+
     def end(self, row: int, outcome: str, seen: Mapping[Observable, np.ndarray], copy: int) -> None:
         """End a trial with a given outcome, at the last of the samples of a copy."""
         self.outcome[row] = outcome

@@ -287,7 +287,9 @@ class Run:
 
     def _now(self, counts: Mapping[str, int] | None = None) -> tuple[np.ndarray, np.ndarray]:
         period = self._period() if self.exchange.inside else 1
-        about = {**self.clock.origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
+        # the origin of copies that begin again is their own
+        origin = {"start": self.clock.t0} if self.program.batch.restarts else self.clock.origin
+        about = {**origin, "tick": self.clock.tick % 2**32, "period": period, "dt": self.clock.dt}
         return packed(
             about | {k: min(v, 2**31 - 1) for k, v in (counts or {}).items()}, self.program.program.dtype
         )

@@ -1,0 +1,1 @@
+"""Closed loops of deodar as environments of Gymnasium."""
