@@ -196,5 +196,6 @@ from deodar.worlds.mujoco.mujoco import MuJoCo as MuJoCo
 from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording
 from deodar.worlds.video import Video as Video
+from deodar.worlds.zenoh.zenoh import Zenoh as Zenoh
 
 __version__: str

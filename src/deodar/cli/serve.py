@@ -1,0 +1,71 @@
+"""The command `deodar serve WORLD`."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+from types import FrameType
+
+from deodar import codec
+from deodar.cli import _options
+
+HELP = "put a world on the network, as a robot that another process moves"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument("world", metavar="KIND:ARGUMENT", help="the world, for example arena:blocks")
+    parser.add_argument(
+        "--at", metavar="ENDPOINT", help="where to listen (default tcp/127.0.0.1:7461, this machine alone)"
+    )
+    parser.add_argument(
+        "--name", metavar="NAME", help="name of the robot (default: the kind of the world and a number)"
+    )
+    parser.add_argument(
+        "--clock",
+        choices=("step", "live"),
+        help=(
+            "step: the world waits for the commands of each period; live: it follows the wall clock"
+            " (default: step, or live where its readings come from outside)"
+        ),
+    )
+    parser.add_argument(
+        "--trusted",
+        action="store_true",
+        help="allow an endpoint beyond this machine, in a network of your own: messages are not encrypted",
+    )
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Serve until Ctrl-C or SIGTERM, then print what became of the messages."""
+    # start-up time: these bring JAX
+    from deodar.worlds.zenoh import link
+    from deodar.worlds.zenoh.server import WorldServer, free_name
+
+    ended: list[int] = []
+
+    def end(number: int, frame: FrameType | None) -> None:
+        ended.append(number)
+
+    world = _options.world(args.world)
+    assert world is not None
+    clock = args.clock or ("step" if world.repeatable else "live")
+    server = WorldServer(world, args.name or free_name(world), args.at or link.HERE, clock, args.trusted)
+    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
+    name, at = server.about.name, server.endpoint
+    try:
+        if not args.json:
+            where = "" if at == link.HERE else f", at={at}"
+            print(f'{name} at {at}, clock {clock}. Move it with: --world "zenoh:{name}{where}"', flush=True)
+        server.serve(lambda: bool(ended))
+    finally:
+        server.close()
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    if args.json:
+        print(codec.text({"robot": name, "at": at, "messages": dict(server.counts), "late": server.late}))
+    else:
+        counts = ", ".join(f"{count} {what}" for what, count in sorted(server.counts.items())) or "none"
+        print(f"{name} has stopped. Messages: {counts}; {server.late} late periods")
+    return 0

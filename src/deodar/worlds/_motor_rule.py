@@ -1,0 +1,97 @@
+"""What a motor allows: limits, the largest rate of change, and its command at rest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from deodar.codec import JsonObject
+from deodar.errors import WorldError
+from deodar.parameters import real, show
+
+STOPS_AFTER = 200.0
+"""Time without a command after which a motor goes to rest, ms (a guess: two periods of a slow robot)."""
+
+
+@dataclass(frozen=True)
+class MotorRule:
+    """The commands that a motor allows; both the sender and the owner of the motor apply them.
+
+    Attributes:
+        limits: smallest and largest value of each sample, in the unit of the motor; None: any value.
+        slew: largest change of each sample, in the unit of the motor per second; None: any change.
+        rest: value of each sample at rest, in the unit of the motor. A stop is immediate, whatever the slew.
+        stops_after: time without a command after which the owner puts the motor to rest, ms.
+    """
+
+    limits: tuple[float, float] | None = None
+    slew: float | None = None
+    rest: float = 0.0
+    stops_after: float = STOPS_AFTER
+
+    def __post_init__(self) -> None:
+        low, high = self.limits or (-math.inf, math.inf)
+        if not low <= self.rest <= high:
+            raise WorldError(f"rest is {self.rest:g}; expected a value within the limits {low:g} to {high:g}")
+
+    def allowed(self, command: np.ndarray, before: np.ndarray | None, period: float) -> np.ndarray:
+        """Return the nearest command within the limits and the slew rate.
+
+        Args:
+            command: the wanted command; finite.
+            before: the command of the last period; None: the motor was at rest.
+            period: time since then, ms.
+        """
+        if self.slew is not None:
+            last = self.at_rest(command) if before is None else before
+            most = self.slew * period / 1000
+            command = np.clip(command, last - most, last + most).astype(command.dtype)
+        return command if self.limits is None else np.clip(command, *self.limits)
+
+    def at_rest(self, like: np.ndarray) -> np.ndarray:
+        """Return the command at rest, with the shape and type of another command."""
+        return np.full_like(like, self.rest)
+
+    def to_data(self) -> JsonObject:
+        """Return the rule as plain data, without what allows everything."""
+        data: JsonObject = {"rest": self.rest, "stops_after": self.stops_after}
+        if self.limits is not None:
+            data["limits"] = list(self.limits)
+        if self.slew is not None:
+            data["slew"] = self.slew
+        return data
+
+    @classmethod
+    def from_data(cls, data: Mapping[str, Any], where: str) -> MotorRule:
+        """Read a rule from plain data; other keys are ignored.
+
+        Raises:
+            WorldError: a value is not what the rule needs.
+        """
+        given = data.get("limits")
+        pair = (
+            [real(v) for v in given] if isinstance(given, (list, tuple)) else [] if given is None else [None]
+        )
+        if given is not None and (len(pair) != 2 or not _finite(*pair) or not pair[0] < pair[1]):  # type: ignore[operator]
+            raise WorldError(f"limits is {show(given)}; expected two finite numbers, the lower first", where)
+        numbers = {}
+        for name, lowest in (("slew", 0.0), ("rest", -math.inf), ("stops_after", 0.0)):
+            if data.get(name) is None:
+                continue
+            value = real(data[name])
+            if value is None or not math.isfinite(value) or value <= lowest:
+                above = "" if lowest < 0 else " above 0"
+                raise WorldError(f"{name} is {show(data[name])}; expected a finite number{above}", where)
+            numbers[name] = float(value)
+        try:
+            return cls((float(pair[0]), float(pair[1])) if pair else None, **numbers)  # type: ignore[arg-type]
+        except WorldError as error:
+            raise WorldError(error.problems[0].what, where) from None
+
+
+def _finite(*values: float | None) -> bool:
+    return all(value is not None and math.isfinite(value) for value in values)

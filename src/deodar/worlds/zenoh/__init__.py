@@ -1,0 +1,1 @@
+"""A robot, or a world of another process, over Zenoh."""

@@ -1,0 +1,201 @@
+"""What a robot says of itself: its clock, period, sensors and motors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, cast
+from urllib.parse import quote
+
+from deodar import codec
+from deodar.codec import Json, JsonObject
+from deodar.errors import DeodarError, WorldError, did_you_mean
+from deodar.numerics.axes import Axes, Axis
+from deodar.parameters import is_text, real, show
+from deodar.worlds._base import Signal, World
+from deodar.worlds._motor_rule import MotorRule
+
+RobotClock = Literal["step", "live"]
+CLOCKS: tuple[RobotClock, ...] = ("step", "live")
+VERSION = 1
+MOST_TEXT = 2**20
+"""Longest text about a robot, in characters."""
+
+Requests = Sequence[tuple[str, Axes]]
+"""Sensors that are read, each over the axes that the model states."""
+
+
+@dataclass(frozen=True)
+class About:
+    """Description of a robot on the network.
+
+    Attributes:
+        name: name of the robot, the first part of all its keys.
+        clock: step, where the robot waits for the command of each period, or live, where it does not wait.
+        period: ms between two exchanges; None: it never changes.
+        sensors, motors: signals by name.
+        rules: rules of motors by name; a motor without one allows any command.
+        repeatable: whether a restored state leads to the same readings again.
+        reads: whether the robot answers `read`, so that sensors can be read over any axes.
+        of: description of the world that is served.
+    """
+
+    name: str
+    clock: RobotClock
+    period: float | None
+    sensors: Mapping[str, Signal]
+    motors: Mapping[str, Signal]
+    rules: Mapping[str, MotorRule] = field(default_factory=dict[str, MotorRule])
+    repeatable: bool = False
+    reads: bool = False
+    of: Mapping[str, Json] = field(default_factory=dict[str, Json])
+
+    def rule(self, motor: str) -> MotorRule:
+        """Return the rule of a motor."""
+        return self.rules.get(motor, MotorRule())
+
+    @classmethod
+    def of_world(cls, world: World, name: str, clock: RobotClock) -> About:
+        """Return the description of a world that is served under a name."""
+        rules = cast("Mapping[str, MotorRule]", getattr(world, "rules", {}))
+        repeatable = clock == "step" and world.repeatable
+        signals = dict(world.sensors), dict(world.motors)
+        return cls(name, clock, world.period, *signals, dict(rules), repeatable, True, world.describe())
+
+    def to_text(self) -> str:
+        """Return the description as JSON."""
+        motors = {name: _signal(signal) | self.rule(name).to_data() for name, signal in self.motors.items()}
+        data: JsonObject = {
+            "robot": VERSION,
+            "name": self.name,
+            "kind": "zenoh",
+            "clock": self.clock,
+            "period": self.period,
+            "repeatable": self.repeatable,
+            "reads": self.reads,
+            "sensors": {name: _signal(signal) for name, signal in self.sensors.items()},
+            "motors": motors,
+            "of": dict(self.of),
+        }
+        return codec.line(data)
+
+    @classmethod
+    def from_text(cls, content: bytes) -> About:
+        """Read a description.
+
+        Raises:
+            WorldError: the text does not describe a robot.
+        """
+        if len(content) > MOST_TEXT:
+            raise WorldError(
+                f"a robot describes itself in {len(content)} bytes; at most {MOST_TEXT} are read"
+            )
+        try:
+            data = codec.read(content)
+        except DeodarError as error:
+            raise WorldError(f"what a robot says of itself {error.problems[0].what}") from None
+        if not isinstance(data, dict) or data.get("robot") != VERSION:
+            raise WorldError(f"what a robot says of itself is not version {VERSION} of a robot")
+        given = cast("dict[str, Any]", data)
+        name, clock, period = given.get("name"), given.get("clock", "live"), given.get("period")
+        if not isinstance(name, str) or not name or not is_text(name):
+            raise WorldError(f"the name of a robot is {show(name)}; expected text")
+        if clock not in CLOCKS:
+            raise WorldError(f"the clock is {show(clock)}; expected step or live", where=name)
+        step = None if period is None else real(period)
+        if period is not None and (step is None or not 0 < step < math.inf):
+            raise WorldError(f"the period is {show(period)}; expected ms above 0", where=name)
+        sensors, motors = (_signals(given.get(what), f"{name} {what}") for what in ("sensors", "motors"))
+        entries = cast("dict[str, dict[str, Any]]", given.get("motors") or {})
+        rules = {motor: MotorRule.from_data(entries[motor], f"{name} {motor}") for motor in motors}
+        flags = given.get("repeatable") is True, given.get("reads") is True
+        of = given.get("of")
+        return cls(name, clock, step, sensors, motors, rules, *flags, of if isinstance(of, dict) else {})
+
+
+def key(robot: str, *parts: str) -> str:
+    """Return the key of a robot and of what belongs to it; names may have any characters."""
+    return "/".join([quote(robot, safe=""), *(quote(part, safe="") for part in parts)])
+
+
+def reading_keys(robot: str, requests: Requests) -> list[str]:
+    """Return the key of each reading: that of the sensor, with a number from its second reading on."""
+    seen: dict[str, int] = {}
+    keys: list[str] = []
+    for sensor, _ in requests:
+        count = seen[sensor] = seen.get(sensor, -1) + 1
+        keys.append(key(robot, "sensor", sensor, *([str(count)] if count else [])))
+    return keys
+
+
+def requests_to_data(requests: Requests) -> list[Json]:
+    """Return requests as plain data."""
+    return [
+        [sensor, [[a.name, a.lower, a.upper, a.samples, a.periodic, a.unit] for a in axes]]
+        for sensor, axes in requests
+    ]
+
+
+def requests_from_data(data: Any, known: Mapping[str, Signal]) -> list[tuple[str, Axes]]:
+    """Read requests.
+
+    Raises:
+        WorldError: they are not requests, or the robot has no such sensor.
+    """
+    found: list[tuple[str, Axes]] = []
+    try:
+        for sensor, axes in data:
+            if sensor not in known:
+                raise WorldError(f"there is no sensor {show(sensor)}", fix=did_you_mean(str(sensor), known))
+            found.append((sensor, tuple(Axis(*values) for values in axes)))
+    except (TypeError, ValueError):
+        raise WorldError("is not a list of sensors and their axes") from None
+    return found
+
+
+def _signal(signal: Signal) -> JsonObject:
+    data: JsonObject = {"meaning": signal.meaning, "unit": signal.unit}
+    data["shape"] = None if signal.shape is None else list(signal.shape)
+    if signal.period is not None:
+        data["period"] = signal.period
+    if signal.each:
+        data["each"] = True
+    if signal.bounds is not None:
+        data["bounds"] = [list(pair) for pair in signal.bounds]
+    return data
+
+
+def _signals(data: Any, where: str) -> dict[str, Signal]:
+    if not isinstance(data or {}, dict):
+        raise WorldError(f"is {show(data)}; expected signals by name", where=where)
+    entries = cast("dict[str, Any]", data or {})
+    return {name: _read_signal(name, entry, where) for name, entry in entries.items()}
+
+
+def _read_signal(name: str, data: Any, where: str) -> Signal:
+    place = f"{where}.{name}"
+    if not isinstance(data, dict):
+        raise WorldError(f"is {show(data)}; expected the description of a signal", where=place)
+    given = cast("dict[str, Any]", data)
+    shape, period, bounds = given.get("shape"), given.get("period"), given.get("bounds")
+    sizes = shape if isinstance(shape, list) else []
+    if shape is not None and not (
+        isinstance(shape, list) and all(type(n) is int and 0 < n <= 10**6 for n in sizes) and len(sizes) < 8
+    ):
+        raise WorldError(f"shape is {show(shape)}; expected numbers of samples, or null", where=place)
+    step = None if period is None else real(period)
+    if period is not None and (step is None or not 0 < step < math.inf):
+        raise WorldError(f"period is {show(period)}; expected ms above 0", where=place)
+    pairs = None
+    if bounds is not None:
+        try:
+            pairs = tuple((float(low), float(high)) for low, high in bounds)
+        except (TypeError, ValueError):
+            raise WorldError(f"bounds is {show(bounds)}; expected pairs of numbers", where=place) from None
+    words = [given.get(what, "") for what in ("meaning", "unit")]
+    if not all(isinstance(word, str) and is_text(word) for word in words):
+        raise WorldError("its meaning and unit are text", where=place)
+    return Signal(
+        words[0], None if shape is None else tuple(sizes), words[1], step, given.get("each") is True, pairs
+    )
