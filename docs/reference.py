@@ -20,6 +20,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 import deodar as dd
 from deodar import cli, docstring, kinds, registry
 from deodar.parameters import Needed
@@ -198,6 +200,8 @@ def pages() -> dict[Path, str]:
     out[folder / "analysis.md"] = analysis_page()
     command_line = DOCS / "command-line.md"
     out[command_line] = fill(command_line.read_text(encoding="utf-8"))
+    robot_files = DOCS / "robots.md"
+    out[robot_files] = robots(robot_files.read_text(encoding="utf-8"))
     return out
 
 
@@ -470,6 +474,31 @@ def _unpacked(obj: Any, found: list[inspect.Parameter]) -> list[inspect.Paramete
     taken = [inspect.signature(f).parameters for f in module if inspect.isfunction(f)]
     takes = next(parameters for parameters in taken if keys.__annotations__.keys() <= parameters.keys())
     return [*found[:-1], *(takes[key] for key in keys.__annotations__)]
+
+
+# ------------------------------------------------------------------------------------------- files of robots
+
+
+def robots(text: str) -> str:
+    """Return the page of robot files with new tables of keys."""
+    file = importlib.import_module("deodar.worlds.robot.robot_file")
+    for declared in (file.RobotFile, file.RobotSensor, file.RobotMotor, file.RobotPlace):
+        begin, end = f"<!-- keys of {declared.__name__} -->\n", f"<!-- end of {declared.__name__} -->\n"
+        before, rest = text.split(begin, 1)
+        text = before + begin + keys(declared) + end + rest.split(end, 1)[1]
+    return text
+
+
+def keys(declared: type[Any]) -> str:
+    """The keys of an object in the file of a robot, with their defaults."""
+    hints = typing.get_type_hints(declared, include_extras=True)
+    rows: list[tuple[str, str, str]] = []
+    for f in msgspec.structs.fields(declared):
+        notes = [m.description for m in getattr(hints[f.name], "__metadata__", ()) if m.description]
+        given = "required" if f.required else f.default if f.default is not msgspec.NODEFAULT else {}
+        shown = given if given == "required" else "" if given in ("", None, {}) else f"`{given:g}`"
+        rows.append((f"`{f.encode_name}`", " ".join(notes), shown))
+    return f"\n{table(('key', 'meaning', 'default'), rows)}\n"
 
 
 # ------------------------------------------------------------------------------------------- the command line

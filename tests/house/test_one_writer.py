@@ -21,6 +21,7 @@ OTHERS = {
     "neuromorphic.norse": "the file for norse, in a temporary folder",
     "worlds.event_file.event_file": "an example in a temporary folder",
     "worlds.event_file.aedat4_process": "its output, a pipe",
+    "worlds.robot.schema": "the generated schema, in the package",
     "batch.workers": "the board that processes map, in a temporary folder",
 }
 """Modules that write files themselves, with the reason."""

@@ -19,14 +19,16 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--at", metavar="ENDPOINT", help="where to listen (default tcp/127.0.0.1:7461, this machine alone)"
     )
     parser.add_argument(
-        "--name", metavar="NAME", help="name of the robot (default: the kind of the world and a number)"
+        "--name",
+        metavar="NAME",
+        help="name of the robot (default: that of its file, or the kind of the world and a number)",
     )
     parser.add_argument(
         "--clock",
         choices=("step", "live"),
         help=(
             "step: the world waits for the commands of each period; live: it follows the wall clock"
-            " (default: step, or live where its readings come from outside)"
+            " (default: that of the robot file; step; live where the readings come from outside)"
         ),
     )
     parser.add_argument(
@@ -50,7 +52,8 @@ def run(args: argparse.Namespace) -> int:
 
     world = _options.world(args.world)
     assert world is not None
-    clock = args.clock or ("step" if world.repeatable else "live")
+    stated = getattr(getattr(world, "file", None), "clock", None)
+    clock = args.clock or stated or ("step" if world.repeatable else "live")
     server = WorldServer(world, args.name or free_name(world), args.at or link.HERE, clock, args.trusted)
     before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
     name, at = server.about.name, server.endpoint

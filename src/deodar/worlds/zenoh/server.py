@@ -79,6 +79,7 @@ class WorldServer:
         self._requests: list[tuple[str, Axes]] = []
         self._readings: list[np.ndarray] | None = None
         self._before: dict[str, np.ndarray] = {}
+        self._driven: dict[str, np.ndarray] = {}
         self._sequence, self._now = 0, 0.0
         self._copies = 1
         self._dtype = np.dtype(np.float32)
@@ -302,23 +303,26 @@ class WorldServer:
             raise
 
     def _live_period(self, now: float) -> None:
-        """Advance by a period with the newest commands; a motor without a fresh one is at rest."""
+        """Advance by a period with the newest commands; a motor without a fresh one is at rest.
+
+        A motor that was never commanded gets no command, as in a run in one process.
+        """
         self._sequence += 1
         commands: dict[str, np.ndarray] = {}
         newest, clock = self._inbox.commands(), time.monotonic()
-        for motor, signal in self.about.motors.items():
+        for motor in self.about.motors:
             command, rule = newest.get(motor), self.about.rule(motor)
             if command is not None and 1000 * (clock - command.arrived) <= rule.stops_after:
                 commands[motor] = self._allowed(motor, command.value)
-            elif command is not None or signal.shape is not None:
-                like = np.zeros((1, *(signal.shape or ())), np.float32) if command is None else command.value
-                commands[motor] = rule.at_rest(like)
+                self._driven[motor] = command.value
+            elif motor in self._driven:
+                commands[motor] = rule.at_rest(self._driven[motor])
                 self._before.pop(motor, None)
         self._now = after = now + (self.about.period or 0.0)
         self._publish_readings(self._advanced(commands, now, after), after)
 
     def _rest(self) -> None:
-        """Send the command at rest to all motors once."""
+        """Send the command at rest to all motors that were commanded."""
         self._inbox.begin(0)
         self._live_period(self._now)
 
@@ -358,8 +362,11 @@ class WorldServer:
 
 
 def free_name(world: World) -> str:
-    """Return the name of a robot that states none: the kind of its world and the number of this process."""
-    return f"{type(world).__name__.lower()}-{os.getpid()}"
+    """Return the name of a robot that states none: that of its file, or the kind of its world and the number
+    of this process.
+    """
+    stated = getattr(getattr(world, "file", None), "name", "")
+    return stated if isinstance(stated, str) and stated else f"{type(world).__name__.lower()}-{os.getpid()}"
 
 
 def _object(asked: Any) -> dict[str, Any]:

@@ -1,0 +1,206 @@
+"""Robot files: what they state is applied and compared with the world, and bad files are named."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.cli import main
+from deodar.errors import WorldError
+from deodar.numerics.axes import Axis
+from deodar.recording.opened import again, named
+from deodar.worlds._motor_rule import MotorRule
+from deodar.worlds.robot import robot_file, schema
+from deodar.worlds.robot.robot import Robot
+from deodar.worlds.zenoh.served_world import ServedWorld
+
+EPUCK = {"robot": 1, "name": "mine", "kind": "arena", "settings": {"layout": "blocks", "unit": "cm"}}
+
+
+@pytest.fixture
+def written(tmp_path: Path):
+    """Return a function that writes a robot file and opens it."""
+
+    def write(place: str = "", **keys) -> Robot:
+        file = tmp_path / "mine.json"
+        file.write_text(json.dumps(EPUCK | keys))
+        return Robot(file, place)
+
+    return write
+
+
+def numbers(*values: float) -> np.ndarray:
+    return np.array(values, np.float32)
+
+
+def test_every_shipped_robot_is_valid_and_reads_its_sensors():
+    validator = jsonschema.Draft202012Validator(json.loads(schema.SHIPPED.read_text()))
+    assert set(robot_file.shipped()) == {"arm", "epuck"}
+    for name, file in robot_file.shipped().items():
+        validator.validate(json.loads(file.read_text()))
+        robot = Robot(name)
+        robot.reset(0)
+        for sensor, signal in robot.sensors.items():
+            if signal.shape is not None:
+                axes = [Axis(f"a{k}", 0, n, n, periodic=True) for k, n in enumerate(signal.shape)]
+                assert np.isfinite(robot.sense(sensor, tuple(axes), 0.0)).all()
+        assert all(rule.limits for rule in robot.rules.values())
+
+
+def test_the_shipped_schema_is_up_to_date_and_refuses_what_is_refused():
+    assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), (
+        "write it again: python -m deodar.worlds.robot.schema"
+    )
+    validator = jsonschema.Draft202012Validator(json.loads(schema.SHIPPED.read_text()))
+    for wrong in ({"robot": 2}, {"strange": 1}, {"motors": {"left": {"slew": 0}}}, {"period": -1}):
+        assert list(validator.iter_errors(EPUCK | wrong)), wrong
+
+
+def test_commands_keep_limits_and_slew_and_are_scaled(written):
+    seen = []
+    robot = written(
+        motors={
+            "go": {"to": "left", "scale": 2.0, "offset": 1.0, "limits": [-10, 10], "slew": 62.5},
+            "right": {},
+        }
+    )
+    robot.reset(0)
+    robot.world.act = lambda motors, time: seen.append({n: v.tolist() for n, v in motors.items()})
+    for command in (3.0, 20.0, 20.0, 20.0, -20.0):
+        robot.act({"go": numbers(command), "right": numbers(command)}, 0.0)
+    # 62.5 per s are 4 in a period of 64 ms
+    assert [s["left"] for s in seen] == [[7.0], [15.0], [21.0], [21.0], [13.0]]
+    assert [s["right"] for s in seen] == [[3.0], [20.0], [20.0], [20.0], [-20.0]]
+    robot.reset(0)
+    robot.act({"go": numbers(20.0)}, 0.0)
+    assert seen[-1]["left"] == [9.0], "it starts at rest again"
+
+
+def test_readings_are_renamed_and_scaled(written):
+    robot = written(sensors={"bearing": {"from": "heading", "unit": "deg", "scale": 57.29578, "offset": 5}})
+    same = dd.Arena("blocks", unit="cm")
+    for world in (robot, same):
+        world.reset(0)
+    assert list(robot.sensors) == ["bearing"] and robot.sensors["bearing"].unit == "deg"
+    degrees = np.degrees(same.sense("heading", (), 0.0)) + 5
+    np.testing.assert_allclose(robot.sense("bearing", (), 0.0), degrees, rtol=1e-5)
+    model = dd.Model("lost")
+    model.add(dd.Sensor("eye", sensor="camera"))
+    with pytest.raises(WorldError, match=r"has no sensor 'camera'\. Valid names: bearing"):
+        dd.Session(model, world=robot)
+
+
+def test_a_place_changes_what_it_states(written):
+    places = {
+        "room": {},
+        "hall": {"settings": {"unit": "m"}, "period": 32, "motors": {"left": {"limits": [-5, 5]}}},
+        "table": {"kind": "mujoco", "settings": {"scene": "table"}, "motors": {}},
+    }
+    first, hall = written(places=places), written("hall", places=places)
+    assert first.world.unit == "cm" and first.period == 64 and first.rules["left"].limits is None
+    assert hall.world.unit == "m" and hall.period == 32 and hall.rules["left"].limits == (-5, 5)
+    assert "tool_plane" in written("table", places=places).motors
+    with pytest.raises(WorldError, match=r"'mine' has no place 'hal'\. Did you mean 'hall'"):
+        written("hal", places=places)
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ({"robot": 2}, r"is not the file of a robot: .*\$\.robot"),
+        ({"kind": "areno"}, "no kind 'areno' of robots. Did you mean 'arena'"),
+        ({"kind": "combined"}, "no kind 'combined' of robots"),
+        ({"kind": "robot"}, "no kind 'robot' of robots"),
+        ({"settings": {"layuot": "blocks"}}, "no setting 'layuot'. Did you mean 'layout'"),
+        ({"settings": {"period": "soon"}}, "period is 'soon'"),
+        ({"settings": {"layout": "../secret.json"}}, "outside the folder of the robot's file"),
+        ({"settings": {"layout": "/etc/passwd"}}, "outside the folder of the robot's file"),
+        ({"strange": 1}, "unknown field `strange`"),
+        ({"sensors": {"eye": {}}}, "mine.json: sensor eye: its world has no 'eye'"),
+        ({"sensors": {"infrared": {"shape": [9]}}}, r"has the shape \[9\]; its world has \[8\]"),
+        ({"sensors": {"heading": {"unit": "deg"}}}, "is in deg; its world has it in rad. State its scale"),
+        ({"motors": {"left": {"limits": [5, -5]}}}, r"left: limits is \[5\.0, -5\.0\]|left: limits is \(5"),
+        (
+            {"motors": {"left": {"limits": [1, 5]}}},
+            "left: rest is 0; expected a value within the limits 1 to 5",
+        ),
+        ({"motors": {"left": {"slew": -1}}}, r"motors\[\.\.\.\]\.slew"),
+        ({"places": {"lab": {"places": {}}}}, "unknown field `places`"),
+    ],
+)
+def test_a_bad_file_is_named_with_its_problem(written, keys, said):
+    with pytest.raises(WorldError, match=said):
+        written(**keys)
+
+
+def test_files_that_are_not_robots_are_refused(tmp_path: Path):
+    file = tmp_path / "mine.json"
+    for content, said in (
+        ("{", "is not JSON"),
+        ('{"robot": 1, "robot": 1}', "occurs twice"),
+        ("[" * 200 + "]" * 200, "nested deeper"),
+        ('{"robot": NaN}', "not finite"),
+    ):
+        file.write_text(content)
+        with pytest.raises(WorldError, match=said):
+            Robot(file)
+    with file.open("wb") as big:
+        big.truncate(100_000_000)
+    with pytest.raises(WorldError, match="has 100000000 bytes"):
+        Robot(file)
+    with pytest.raises(WorldError, match=r"no robot file 'epuk'\. Did you mean 'epuck'"):
+        Robot("epuk")
+    folder = tmp_path / "robots"
+    folder.mkdir()
+    (folder / "maze.json").symlink_to(file)
+    for layout in ("maze.json", ["blocks", "../mine.json"]):
+        inside = folder / "inside.json"
+        inside.write_text(json.dumps(EPUCK | {"settings": {"layout": layout}}))
+        with pytest.raises(WorldError, match="outside the folder"):
+            Robot(inside)
+
+
+def test_a_robot_is_named_on_the_command_line_and_opened_again_from_its_description():
+    robot = named("robot:epuck@simulated", "--world")
+    assert isinstance(robot, Robot)
+    described = robot.describe()
+    assert again(Robot, described).describe() == described
+
+
+def test_the_server_keeps_the_limits_whatever_the_model_sends(written):
+    robot = written(motors={"left": {"limits": [-100, 100]}, "right": {"limits": [-100, 100]}})
+    served = ServedWorld(robot, "mine")
+    world = dd.Zenoh(at=served.endpoint)
+    assert world.about.rules["left"] == MotorRule((-100.0, 100.0))
+    object.__setattr__(world.about, "rules", {})  # a sender that keeps no limits
+    world.reset(0)
+    count = (Axis("of", 0, 1, 2),)
+    for _ in range(5):
+        world.act({"left": numbers(900.0), "right": numbers(900.0)}, 0.0)
+    steps = world.sense("encoders", count, 0.0)
+    np.testing.assert_allclose(steps, [[32.0, 32.0]], rtol=0.1)
+    world.close()
+    served.close()
+
+
+def test_the_command_lists_robots_and_checks_one_without_moving_it(written, capsys, monkeypatch, tmp_path):
+    assert main(["robots"]) == 0
+    assert "epuck  arena; places: simulated, network" in capsys.readouterr().out
+    written(motors={"left": {"limits": [-100, 100], "slew": 50}, "right": {}})
+    monkeypatch.setattr(Robot, "act", lambda *args: pytest.fail("a motor was moved"))
+    assert main(["robots", "check", str(tmp_path / "mine.json")]) == 0
+    shown = capsys.readouterr().out
+    assert "mine is there: arena, repeatable" in shown
+    assert "sensor heading: heading; 0 along x, counter-clockwise; one number rad; 15.6 Hz" in shown
+    assert "step/s; -100 to 100, at most 50 per s; at rest 0 after 200 ms" in shown
+    assert main(["robots", "check", str(tmp_path / "mine.json"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["robot"] == "mine"
+    with pytest.raises(SystemExit):
+        main(["robots", "check"])
+    assert main(["robots", "check", "nowhere"]) == 1
+    assert "no robot file 'nowhere'" in capsys.readouterr().err
