@@ -1,20 +1,32 @@
-"""The command `deodar serve WORLD`."""
+"""The command `deodar serve WORLD` or `deodar serve --model FILE`."""
 
 from __future__ import annotations
 
 import argparse
 import signal
 from types import FrameType
+from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.cli import _options
 
-HELP = "put a world on the network, as a robot that another process moves"
+if TYPE_CHECKING:
+    from deodar.worlds._base import World
+
+HELP = "put a world or a model on the network, as a robot that another process moves"
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("world", metavar="KIND:ARGUMENT", help="the world, for example arena:blocks")
+    parser.add_argument(
+        "world", nargs="?", metavar="KIND:ARGUMENT", help="the world, for example arena:blocks"
+    )
+    parser.add_argument(
+        "--model",
+        type=_options.document,
+        metavar="FILE",
+        help="a model in place of a world: its motors are sensors of the other model, its sensors motors",
+    )
     parser.add_argument(
         "--at", metavar="ENDPOINT", help="where to listen (default tcp/127.0.0.1:7461, this machine alone)"
     )
@@ -37,6 +49,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="allow an endpoint beyond this machine, in a network of your own: messages are not encrypted",
     )
     _options.add_json(parser)
+    _options.wrong(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -50,9 +63,8 @@ def run(args: argparse.Namespace) -> int:
     def end(number: int, frame: FrameType | None) -> None:
         ended.append(number)
 
-    world = _options.world(args.world)
-    assert world is not None
-    stated = getattr(getattr(world, "file", None), "clock", None)
+    world = _opened(args)
+    stated = "step" if args.model else getattr(getattr(world, "file", None), "clock", None)
     clock = args.clock or stated or ("step" if world.repeatable else "live")
     server = WorldServer(world, args.name or free_name(world), args.at or link.HERE, clock, args.trusted)
     before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
@@ -72,3 +84,17 @@ def run(args: argparse.Namespace) -> int:
         counts = ", ".join(f"{count} {what}" for what, count in sorted(server.counts.items())) or "none"
         print(f"{name} has stopped. Messages: {counts}; {server.late} late periods")
     return 0
+
+
+def _opened(args: argparse.Namespace) -> World:
+    """Return what is served: a world or a model."""
+    if (args.world is None) == (args.model is None):
+        args.wrong("serve needs a KIND:ARGUMENT or a --model")
+    if args.model is not None:
+        # start-up time: this brings JAX
+        from deodar.session.model_world import ModelWorld
+
+        return ModelWorld.open(str(args.model))
+    world = _options.world(args.world)
+    assert world is not None
+    return world

@@ -362,10 +362,10 @@ class WorldServer:
 
 
 def free_name(world: World) -> str:
-    """Return the name of a robot that states none: that of its file, or the kind of its world and the number
-    of this process.
+    """Return the name of a robot that states none: that of its file or model, else the kind of its world and
+    the number of this process.
     """
-    stated = getattr(getattr(world, "file", None), "name", "")
+    stated = getattr(getattr(world, "file", world), "name", "")
     return stated if isinstance(stated, str) and stated else f"{type(world).__name__.lower()}-{os.getpid()}"
 
 
