@@ -110,7 +110,7 @@ def echo(at: str, seconds: float, pipe: Any) -> None:
     world.sense_all([("picture", axes)], 0.0)
     pipe.send("ready")
     end, count, began = time.monotonic() + seconds, 0, time.process_time()
-    before, last = world.state(), world._inbox.period()
+    before, last = world.link(), world._inbox.period()
     try:
         while time.monotonic() < end:
             if not world._inbox.wait(last + 1, 1.0):
@@ -122,7 +122,7 @@ def echo(at: str, seconds: float, pipe: Any) -> None:
     except Exception as error:  # the plant was killed
         pipe.send({"error": str(error), "at": time.monotonic()})
         return
-    after = world.state()
+    after = world.link()
     cpu = time.process_time() - began
     pipe.send({"cpu": cpu, "periods": count, "lost": after.lost - before.lost, "got": after.received})
     world.close()
@@ -147,9 +147,9 @@ def brain(at: str, seconds: float, pipe: Any) -> None:
     session = dd.Session(model, world=world)
     session.run_live(50 * (world.period or 10.0))  # everything is compiled
     pipe.send("ready")
-    before = world.state()
+    before = world.link()
     meter = session.run_live(1000 * seconds)
-    after = world.state()
+    after = world.link()
     pipe.send({"lost": after.lost - before.lost, "meter": str(meter)})
     world.close()
 

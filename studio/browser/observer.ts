@@ -200,6 +200,7 @@ export class Observer {
         this.late = true;
         break;
       case "scene":
+      case "robot_link":
       case "solids":
       case "bodies":
         this.world.take(message);

@@ -23,9 +23,11 @@ import { useShortcuts } from "./shortcuts";
 import { useStudio } from "./store";
 import { TourCard } from "./tour/TourCard";
 import { FailureBar } from "./transport/FailureBar";
+import { useRobotStop } from "./world/robotStop";
 import classes from "./App.module.css";
 
 export function App() {
+  useRobotStop();
   useShortcuts();
   useAskBeforeLeaving();
   useFreshStart();

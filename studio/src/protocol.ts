@@ -1197,6 +1197,20 @@ export type ReturnTo = {
   name: string;
 };
 
+// The link with a robot in another process, a few times a second.
+//
+// `robot`: its name; empty: the world is in this process. `age`: time since its last message, ms; `lost`:
+// periods that did not arrive; `refused`: messages that were not read; `round_trip`: time from a command to
+// the message that answers it, ms.
+export type RobotLink = {
+  type: "robot_link";
+  robot?: string;
+  age?: number;
+  lost?: number;
+  refused?: number;
+  round_trip?: number;
+};
+
 // Time and status of the run. Sent after the frames of the same number, and whenever something changes.
 //
 // `factor` is the measured ratio of document time to wall time; `speed` is the requested ratio (None: as fast
@@ -1475,6 +1489,7 @@ export type ToPage =
   | RunClock
   | Costs
   | WorldScene
+  | RobotLink
   | Bodies
   | WorldSolids
   | ExperimentView

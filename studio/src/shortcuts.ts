@@ -19,6 +19,7 @@ import { isPast, seekFirst, seekFrames, seekLast } from "./replay/replay";
 import { request } from "./socket";
 import { useStudio } from "./store";
 import { play, reset, step } from "./transport/run";
+import { stopRobot } from "./world/robotStop";
 
 export type Shortcut = {
   keys: readonly string[];
@@ -42,6 +43,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { keys: ["Space"], does: "Play or pause", run: play },
   { keys: ["."], does: "Step", run: step, repeats: true },
   { keys: ["Shift+R"], does: "Reset", run: reset },
+  { keys: ["Escape"], does: "Stop a robot in another process", run: stopRobot, event: true },
   {
     keys: ["ArrowLeft"],
     does: "Previous frame, of the past or of a record",

@@ -102,6 +102,7 @@ class Socket {
         this.fits.set(message.request, message);
         break;
       case "scene":
+      case "robot_link":
       case "solids":
       case "bodies":
         live.take(message);

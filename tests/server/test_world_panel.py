@@ -15,6 +15,7 @@ import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.zenoh.served_world import ServedWorld
 from tests.server.page import Page, page, play, studio
 
 LAYOUT: dict[str, Any] = {
@@ -290,4 +291,40 @@ def test_a_preview_shows_a_world_and_the_sensors_that_the_model_lacks(tmp_path: 
         assert one.clock["world"] == before, "a preview does not change the world"
 
     with studio(tmp_path, tmp_path / "seeing.json") as address:
+        play(address, story)
+
+
+def test_the_page_shows_the_link_with_a_robot_in_another_process_and_a_pause_stops_it(file: Path) -> None:
+    served = ServedWorld(Arena(LAYOUT), "epuck", "live")
+    world = dd.Zenoh(at=served.endpoint, patience=5.0)
+
+    async def story(one: Page) -> None:
+        await one.runs()
+        await one.until(lambda: one.said.get("robot_link", {}).get("robot") == "epuck")
+        await one.do("play")
+        await one.until(lambda: one.said["robot_link"]["round_trip"] > 0)
+        assert one.said["robot_link"]["lost"] == 0 and 0 <= one.said["robot_link"]["age"] < 5000
+        await one.until(lambda: served.server.counts["accepted"] > 10)
+        await one.do("pause")
+        await one.until(lambda: not one.clock["running"])
+        accepted = served.server.counts["accepted"]
+        sent = one.said["robot_link"]
+        await one.until(lambda: one.said["robot_link"] != sent)
+        assert served.server.counts["accepted"] == accepted, "no command comes while the run is paused"
+
+    try:
+        with studio(file.parent, file, world=world) as address:
+            play(address, story)
+    finally:
+        world.close()
+        served.close()
+
+
+def test_a_world_in_the_same_process_has_no_link(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        await one.do("step", n=5)
+        assert "robot_link" not in one.said
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
         play(address, story)

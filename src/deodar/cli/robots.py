@@ -114,5 +114,5 @@ def _axes(shape: Sequence[int]) -> Axes:
 
 def _received(robot: Robot) -> int:
     """Return the number of periods that came over the network."""
-    state: Any = getattr(robot.world, "state", None)
-    return 0 if state is None else int(state().received)
+    link = robot.link()
+    return 0 if link is None else link.received

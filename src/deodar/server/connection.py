@@ -11,6 +11,7 @@ import asyncio
 import contextlib
 import logging
 import math
+import time
 from collections import deque
 from typing import Any
 
@@ -38,6 +39,7 @@ from deodar.server.to_page import (
     Gallery,
     ImportReportView,
     ListedProblem,
+    RobotLink,
     RunClock,
     SavedFiles,
     TimelineView,
@@ -53,6 +55,9 @@ MOST_MALFORMED = 20
 IDLE = 0.25
 """Longest wall time between two checks for news, in seconds."""
 
+LINK_EVERY = 0.25
+"""Shortest wall time between two messages on the link with a robot, in seconds."""
+
 
 class PageConnection:
     """The socket of one page."""
@@ -66,7 +71,8 @@ class PageConnection:
         self._exchange = 0
         self._ready = True
         self._published = self._published_other = -1
-        self._known: dict[str, Any] = {}
+        self._known: dict[str, Any] = {"robot_link": RobotLink()}
+        self._link_sent = 0.0
         self._timeline: TimelineView | None = None
         self._session, self._version, self._experiment = -1, -1, -1
         self._rows = (0, 0)  # the run whose rows the page has, and how many
@@ -309,6 +315,10 @@ class PageConnection:
         session, note = self._hub.engine.session, self._hub.project.scene[1]
         world = None if session is None or self._hub.project.record is not None else session.world
         self._new("scene", scene.scene(state.scene, note, world), out)
+        now = time.monotonic()
+        if now - self._link_sent >= LINK_EVERY:
+            self._link_sent = now
+            self._new("robot_link", scene.robot_link(world), out)
         sent = self.page.sent_bodies
         return out if sent is None else [*out, *sent.news(state)]
 
@@ -324,7 +334,8 @@ class PageConnection:
         | Costs
         | Comparison
         | ExperimentView
-        | WorldScene,
+        | WorldScene
+        | RobotLink,
         out: list[Message],
     ) -> None:
         if self._known.get(what) != message:

@@ -12,6 +12,7 @@ from deodar.server.to_page import (
     BoxView,
     MarkView,
     PictureView,
+    RobotLink,
     SceneView,
     SolidView,
     WorldScene,
@@ -64,6 +65,15 @@ def scene(seen: _scene.Scene | None, note: str = "", world: World | None = None)
         can_place=world is not None and world.can_place,
         picture=picture,
     )
+
+
+def robot_link(world: World | None) -> RobotLink:
+    """Return the message with the link of a running world, rounded to what a page shows."""
+    link = None if world is None else world.link()
+    if link is None:
+        return RobotLink()
+    age, round_trip = round(link.age, -1), round(link.round_trip, 1)
+    return RobotLink(robot=link.robot, age=age, lost=link.lost, refused=link.refused, round_trip=round_trip)
 
 
 class SentBodies:

@@ -652,6 +652,22 @@ class WorldScene(Message, frozen=True, tag="scene"):
 
 
 @MESSAGES.register
+class RobotLink(Message, frozen=True, tag="robot_link"):
+    """The link with a robot in another process, a few times a second.
+
+    `robot`: its name; empty: the world is in this process. `age`: time since its last message, ms; `lost`:
+    periods that did not arrive; `refused`: messages that were not read; `round_trip`: time from a command to
+    the message that answers it, ms.
+    """
+
+    robot: str = ""
+    age: float = 0.0
+    lost: int = 0
+    refused: int = 0
+    round_trip: float = 0.0
+
+
+@MESSAGES.register
 class Bodies(Message, frozen=True, tag="bodies"):
     """The bodies now, and the new part of their path.
 

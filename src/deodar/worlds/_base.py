@@ -14,6 +14,7 @@ import numpy as np
 from deodar.codec import Json
 from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes, shape
+from deodar.worlds._link_state import LinkState
 from deodar.worlds._scene import Scene
 
 
@@ -122,6 +123,10 @@ class World:
 
     def scene(self) -> Scene | None:
         """Return the present view from above; None if the world has none."""
+        return None
+
+    def link(self) -> LinkState | None:
+        """Return how well the link with the robot works; None if the world is not in another process."""
         return None
 
     def preview(self) -> np.ndarray | None:

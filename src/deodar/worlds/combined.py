@@ -17,6 +17,7 @@ from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
+from deodar.worlds._link_state import LinkState
 from deodar.worlds._naming import named_kind
 from deodar.worlds._scene import Scene
 from deodar.worlds.arena.arena import Arena
@@ -115,6 +116,9 @@ class Combined(World):
 
     def scene(self) -> Scene | None:
         return self.world.scene()
+
+    def link(self) -> LinkState | None:
+        return self.world.link()
 
     @property
     def can_place(self) -> bool:

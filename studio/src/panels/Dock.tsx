@@ -106,8 +106,10 @@ export function Dock() {
   }, [api, session]);
 
   // What the page opens by itself is no arrangement of a person, and not stored.
-  // A world with a view from above is shown, unless the document stores an arrangement of panels.
-  const seen = useSyncExternalStore(live.listen, () => live.scene() !== null);
+  // A world with a view from above, or in another process, is shown, unless the document stores an
+  // arrangement of panels.
+  const shown = () => live.scene() !== null || live.link() !== null;
+  const seen = useSyncExternalStore(live.listen, shown);
   useEffect(() => {
     if (api !== null && seen && useStudio.getState().document?.layout["panels"] === undefined) {
       openFirstWorld();

@@ -11,6 +11,7 @@ import { useStudio } from "../store";
 import { BlockPalette } from "./BlockPalette";
 import { AddCamera, CameraView, useCamera } from "./CameraView";
 import type { Ground } from "./ground";
+import { LinkState } from "./LinkState";
 import { live } from "./live";
 import { Plan } from "./Plan";
 import { objects, placeText } from "./plan";
@@ -28,6 +29,7 @@ const SOLID_HELP =
 const NOTHING =
   "Nothing to see from above. Start the studio with a world that has a plan, for example: " +
   "deodar studio FILE --world arena:blocks";
+const REMOTE = "The robot is in another process, and has no view from above.";
 const VIEWS = [
   { value: "solid", label: "3-D" },
   { value: "plan", label: "From above" },
@@ -40,6 +42,7 @@ export function World() {
   const hasSolids = useSyncExternalStore(live.listen, live.solid);
   const canPlace = useSyncExternalStore(live.listen, live.canPlace);
   const picture = useSyncExternalStore(live.listen, live.picture);
+  const remote = useSyncExternalStore(live.listen, () => live.link() !== null);
   const record = useStudio((state) => state.document?.record != null);
   const open = useStudio((state) => state.connection === "open");
   const camera = useCamera();
@@ -58,9 +61,18 @@ export function World() {
 
   if (scene === null) {
     return (
-      <p className="world-none dim" role="status">
-        {note !== "" ? note : record ? "The world of this record has no view from above." : NOTHING}
-      </p>
+      <>
+        <LinkState />
+        <p className="world-none dim" role="status">
+          {note !== ""
+            ? note
+            : record
+              ? "The world of this record has no view from above."
+              : remote
+                ? REMOTE
+                : NOTHING}
+        </p>
+      </>
     );
   }
 
@@ -112,6 +124,7 @@ export function World() {
           {carried.refused === "" ? told : carried.refused}
         </span>
       </header>
+      <LinkState />
       {!record && canPlace && (
         <BlockPalette
           scene={scene}

@@ -5,6 +5,7 @@ import type {
   Bodies,
   BodyView,
   PictureView,
+  RobotLink,
   SceneView,
   SolidView,
   WorldScene,
@@ -28,6 +29,8 @@ export type Seen = {
   // The picture that a camera of the world sees, and its red, green and blue, row by row from the top.
   picture: PictureView | null;
   pixels: Uint8Array;
+  // The link with a robot in another process; null: the world is in that of the server.
+  link: RobotLink | null;
 };
 
 export const NOTHING_SEEN: Seen = {
@@ -42,6 +45,7 @@ export const NOTHING_SEEN: Seen = {
   poses: new Float32Array(),
   picture: null,
   pixels: new Uint8Array(),
+  link: null,
 };
 
 export class LiveWorld {
@@ -65,12 +69,14 @@ export class LiveWorld {
 
   readonly picture = (): PictureView | null => this.seen.picture;
 
+  readonly link = (): RobotLink | null => this.seen.link;
+
   readonly listen = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   };
 
-  take(message: WorldScene | WorldSolids | Bodies): void {
+  take(message: WorldScene | WorldSolids | Bodies | RobotLink): void {
     if (message.type === "scene") {
       this.seen = {
         ...this.seen,
@@ -81,6 +87,8 @@ export class LiveWorld {
         canPlace: message.can_place ?? false,
         picture: same(this.seen.picture, message.picture ?? null),
       };
+    } else if (message.type === "robot_link") {
+      this.seen = { ...this.seen, link: (message.robot ?? "") === "" ? null : message };
     } else if (message.type === "solids") {
       this.seen = { ...this.seen, solids: message.solids };
     } else {

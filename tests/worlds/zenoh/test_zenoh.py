@@ -75,7 +75,7 @@ def test_the_run_behind_the_network_has_the_bits_of_the_run_in_one_process(serve
     for _ in range(2):  # also after a reset
         assert np.array_equal(path(world, precision), expected)
     assert not np.array_equal(path(world, precision, seed=4), expected)
-    state = world.state()
+    state = world.link()
     assert (state.received, state.lost, state.refused) == (450, 0, 0) and state.round_trip > 0
     world.close()
 
@@ -200,7 +200,7 @@ def test_a_live_robot_shows_its_newest_reading_and_cannot_be_repeated(served):
     meter = session.run_live(600)
     assert meter.wall > 0.5
     assert 0.4 < float(session.read("see")) < 2.5, "about 2 rad/s for 0.6 s of the wall clock"
-    assert world.state().received > 10
+    assert world.link().received > 10
     world.close()
     angle = robot.server.world.angle
     time.sleep(0.15)
@@ -208,6 +208,21 @@ def test_a_live_robot_shows_its_newest_reading_and_cannot_be_repeated(served):
     angle = robot.server.world.angle
     time.sleep(0.1)
     assert robot.server.world.angle == angle
+
+
+def test_a_reset_during_a_period_leaves_no_message_of_the_run_before(served):
+    for clock in ("step", "live"):
+        world = Zenoh(at=served(Wheel(), clock=clock).endpoint)
+        world.reset(0)
+        for k in range(40):
+            for _ in range(k):
+                world.sense("angle", (), 0.0)
+                world.act({"speed": np.ones(1, np.float32)}, 0.0)
+            world.reset(0)
+            if clock == "step":
+                assert world.sense("angle", (), 0.0) == 0
+        assert world.link().refused == 0 and world.link().lost == 0
+        world.close()
 
 
 def test_a_robot_that_leaves_is_named_and_one_that_returns_is_connected_again(served):

@@ -20,6 +20,7 @@ from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
+from deodar.worlds._link_state import LinkState
 from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._scene import Scene
 from deodar.worlds.arena.arena import Arena
@@ -144,6 +145,9 @@ class Robot(World):
 
     def scene(self) -> Scene | None:
         return self.world.scene()
+
+    def link(self) -> LinkState | None:
+        return self.world.link()
 
     def preview(self) -> np.ndarray | None:
         return self.world.preview()

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from deodar.errors import WorldError
-from deodar.worlds.zenoh.link_state import LinkState
+from deodar.worlds._link_state import LinkState
 from deodar.worlds.zenoh.message import BadMessage, WireMessage
 
 
@@ -131,8 +131,13 @@ class ReadingInbox:
         """Return the number of the last period that ended."""
         return self._last
 
-    def state(self) -> LinkState:
-        """Return how well the link works."""
+    def age(self) -> float:
+        """Return the time since the last period of the robot, s."""
+        return time.monotonic() - self._heard
+
+    def state(self, robot: str) -> LinkState:
+        """Return how well the link with a robot works."""
         with self._changed:
-            age = 1000 * (time.monotonic() - self._heard)
-            return LinkState(age, self._received, self._lost, self._refused, self._round_trip)
+            return LinkState(
+                robot, 1000 * self.age(), self._received, self._lost, self._refused, self._round_trip
+            )

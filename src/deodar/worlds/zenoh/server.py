@@ -190,7 +190,8 @@ class WorldServer:
             with errors_of(self.world, "reset"):
                 self.world.reset(seed, cast("list[int]", trials), precision)
             copies = len(trials)
-        self._who, self._copies, self._sequence = who[:80], copies, 0
+            self._sequence = 0
+        self._who, self._copies = who[:80], copies
         self._requests, self._readings, self._deferred = [], None, None
         self._before.clear()
         self._inbox.begin(number, copies)

@@ -19,11 +19,11 @@ from deodar.errors import WorldError, did_you_mean
 from deodar.numerics.axes import Axes
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
+from deodar.worlds._link_state import LinkState
 from deodar.worlds._settings import named, number, numeric
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.zenoh import link
 from deodar.worlds.zenoh.about import About, Requests, key, reading_keys, requests_to_data
-from deodar.worlds.zenoh.link_state import LinkState
 from deodar.worlds.zenoh.message import WireMessage, bundle, unbundle
 from deodar.worlds.zenoh.reading_inbox import ReadingInbox
 from deodar.worlds.zenoh.served_world import ServedWorld
@@ -165,6 +165,7 @@ class Zenoh(World):
         asked: JsonObject = {"commander": self._commander, "who": _who(), "seed": int(seed)}
         asked |= {"trials": [int(t) for t in trials], "precision": str(precision)}
         self._ask("begin", codec.line(asked).encode())
+        self._inbox.begin()  # a message of the run before may have come meanwhile
         # a live robot is one, whatever the number of copies
         self._copies = len(trials) if self.about.clock == "step" else 1
         self._begun, self._sequence, self._read_at, self._requests = True, 0, 0, None
@@ -277,7 +278,7 @@ class Zenoh(World):
             self._require_there()
             about = self._session.get(key(self.robot, "about"), timeout=self.patience)
             if not any(reply.ok is not None for reply in about) or time.monotonic() > limit:
-                raise self._silent(self.state().age / 1000)
+                raise self._silent(self._inbox.age())
         self._require_there()
 
     def _require_there(self) -> None:
@@ -287,7 +288,7 @@ class Zenoh(World):
                 f"the world of the robot {self.robot!r} has not begun", fix="Type: world.reset(seed)"
             )
         if self._inbox.gone:
-            age = self.state().age / 1000
+            age = self._inbox.age()
             raise WorldError(
                 f"the robot {self.robot!r} has left the network; its last message came {age:.2f} s ago. Its"
                 " motors stop by themselves",
@@ -319,9 +320,8 @@ class Zenoh(World):
             raise WorldError(bytes(answers[0].err.payload).decode(errors="replace"), where=self.robot)
         return bytes(answers[0].ok.payload)
 
-    def state(self) -> LinkState:
-        """Return how well the link works."""
-        return self._inbox.state()
+    def link(self) -> LinkState:
+        return self._inbox.state(self.robot)
 
     # -------------------------------------------------------------------------------------- state and records
 

@@ -1,4 +1,4 @@
-"""How well the link with a robot works."""
+"""How well the link with a robot in another process works."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ class LinkState:
     """Measurements of a link.
 
     Attributes:
+        robot: name of the robot.
         age: time since the last message of the robot, ms.
         received: periods of the robot that arrived.
         lost: periods that did not arrive.
@@ -17,6 +18,7 @@ class LinkState:
         round_trip: time from the last command that the robot answered to its answer, ms; 0: none yet.
     """
 
+    robot: str
     age: float
     received: int
     lost: int
