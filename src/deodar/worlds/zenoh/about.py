@@ -37,7 +37,8 @@ class About:
         sensors, motors: signals by name.
         rules: rules of motors by name; a motor without one allows any command.
         repeatable: whether a restored state leads to the same readings again.
-        reads: whether the robot answers `read`, so that sensors can be read over any axes.
+        reads: whether the robot answers `begin` and `read`, so that sensors can be read over any axes; a
+            robot without deodar does not.
         of: description of the world that is served.
     """
 
@@ -106,6 +107,8 @@ class About:
         step = None if period is None else real(period)
         if period is not None and (step is None or not 0 < step < math.inf):
             raise WorldError(f"the period is {show(period)}; expected ms above 0", where=name)
+        if clock == "step" and given.get("reads") is not True:
+            raise WorldError("a robot with the clock step has to answer `begin` and `read`", where=name)
         sensors, motors = (_signals(given.get(what), f"{name} {what}") for what in ("sensors", "motors"))
         entries = cast("dict[str, dict[str, Any]]", given.get("motors") or {})
         rules = {motor: MotorRule.from_data(entries[motor], f"{name} {motor}") for motor in motors}

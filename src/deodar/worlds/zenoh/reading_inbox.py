@@ -64,7 +64,15 @@ class ReadingInbox:
                 self._refused += 1
                 return
             self._newest[where] = message, now
+            self._heard = now
             self._changed.notify_all()
+
+    def add(self, where: str, message: WireMessage) -> None:
+        """Take a reading that was asked for, unless a newer one has come meanwhile."""
+        with self._changed:
+            last = self._newest.get(where)
+            if message.finite and (last is None or last[0].sequence < message.sequence):
+                self._newest[where] = message, time.monotonic()
 
     def end(self, raw: bytes) -> None:
         """Take the message that ends the readings of a period."""
