@@ -58,7 +58,7 @@ def test_changed_bytes_are_refused_or_read_with_the_length_that_they_state(array
 
 
 def test_a_header_of_a_huge_array_is_refused_before_anything_is_allocated():
-    for shape in ((2**32 - 1,) * 8, (MOST_BYTES + 1,)):
+    for shape in ((2**32 - 1,) * 8, (MOST_BYTES + 1,), (0, 2**31, 2**31, 2**31)):
         header = HEADER.pack(MAGIC, 2, len(shape), 1, 0, 0.0, 0, 0, 0)
         with pytest.raises(BadMessage, match="bytes for the shape"):
             WireMessage.from_bytes(header + struct.pack(f"<{len(shape)}I", *shape))

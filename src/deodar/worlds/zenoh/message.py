@@ -88,7 +88,9 @@ class WireMessage:
             raise BadMessage("ends inside its shape")
         shape = struct.unpack_from(f"<{dimensions}I", raw, HEADER.size)
         size = math.prod(shape) * TYPES[code].itemsize
-        if size > MOST_BYTES or len(raw) - start != size:
+        # NumPy refuses a large shape without numbers, such as 0 x 2^32 x 2^32
+        largest = math.prod(max(n, 1) for n in shape) * TYPES[code].itemsize
+        if largest > MOST_BYTES or len(raw) - start != size:
             raise BadMessage(f"has {len(raw) - start} bytes for the shape {list(shape)}")
         array = np.frombuffer(raw, TYPES[code], offset=start).reshape(shape)
         return cls(array, sequence, time, stamp, answers, commander, parts)
