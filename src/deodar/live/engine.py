@@ -37,6 +37,7 @@ from deodar.session.run import require_step
 from deodar.session.session import Session
 from deodar.session.snapshot import SessionSnapshot
 from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
 
 T = TypeVar("T")
 FRAME = 0.022
@@ -90,6 +91,7 @@ class Engine:
         self._making: Future[Any] | None = None
         self._steps = 0
         self._uncompiled = False
+        self._moved: World | None = None
         self._compiler = ThreadPoolExecutor(2, "deodar-compiler")  # one to compile, one to measure
         self._thread = threading.Thread(target=self._loop, name="deodar-engine", daemon=True)
         self.session: Session | None = None
@@ -127,6 +129,7 @@ class Engine:
         self._closed = True
         self._wake.set()
         self._thread.join()
+        self._halt()
         self.stop_record()
         self._compiler.shutdown(cancel_futures=True)
 
@@ -135,6 +138,7 @@ class Engine:
     def load(self, session: Session | None) -> None:
         """Use another session. It is paused, unless `play` or `step` was called while there was none."""
         self.stop_record()
+        self._halt()
         waited = self.session is None and session is not None
         self.running, self._steps = self.running and waited, self._steps if waited else 0
         self.session, self.injection, self._target = session, None, None
@@ -285,6 +289,7 @@ class Engine:
 
     def see(self, world: World) -> None:
         """Use another world."""
+        self._halt()
         if self.session is not None:
             self.session.world = world
             self.states.note(self.session)
@@ -339,6 +344,7 @@ class Engine:
         """Take the steps that are due; return the wall time until the next one, in seconds."""
         session = self.session
         if session is None or not (self.running or self._steps):
+            self._halt()
             return 0.02 if self._stale and self._wanted else 0.5
         n = min(self._steps, self.pace.most(session)) if self._steps else self.pace.due(session)
         if n == 0:
@@ -356,7 +362,15 @@ class Engine:
         self._stale = True
         return 0.0
 
+    def _halt(self) -> None:
+        """Put the motors of a robot to rest, once after the last step of a run."""
+        moved, self._moved = self._moved, None
+        if moved is not None:
+            with errors_of(moved, "halt"):
+                moved.halt()
+
     def _advance(self, session: Session, n: int) -> None:
+        self._moved = session.world
         self.states.follow(session)
         injection = self.injection
         entry = session.document.by_id().get(injection.element) if injection is not None else None

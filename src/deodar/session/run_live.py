@@ -10,6 +10,7 @@ from deodar.session.interrupt import stoppable
 from deodar.session.meter import Meter
 from deodar.session.pace import Pace, Paced, require_longest, require_speed
 from deodar.session.run import require_duration, whole
+from deodar.worlds._failure import errors_of
 
 
 def run_live(
@@ -25,7 +26,8 @@ def run_live(
 
     A step is taken when the wall clock reaches its time; all steps that are due are taken together, for about
     10 ms at most. If the machine is too slow, the run falls behind, and the meter shows the lag; the run
-    catches up a lag of up to 0.25 s and drops the rest. Abstract time counts as milliseconds.
+    catches up a lag of up to 0.25 s and drops the rest. Abstract time counts as milliseconds. An error or
+    Ctrl-C puts the motors of a robot in another process to rest.
 
     Args:
         session: the session to run.
@@ -79,6 +81,11 @@ def run_live(
                     between()
                 if end - session.time > 4 * session.program.plan.ticks * (pace.longest or session.next_dt):
                     pace.lengthen(session)
+    except BaseException:
+        if session.world is not None:
+            with errors_of(session.world, "halt"):
+                session.world.halt()
+        raise
     finally:
         pace.shorten(session)
     return pace.meter(session)

@@ -125,6 +125,12 @@ class World:
         """Return the present view from above; None if the world has none."""
         return None
 
+    def halt(self) -> None:
+        """Put the motors to rest at once, until the next commands; called when a run pauses or fails.
+
+        Nothing by default: a simulated world stands still while its model pauses.
+        """
+
     def link(self) -> LinkState | None:
         """Return how well the link with the robot works; None if the world is not in another process."""
         return None

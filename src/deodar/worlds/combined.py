@@ -117,6 +117,9 @@ class Combined(World):
     def scene(self) -> Scene | None:
         return self.world.scene()
 
+    def halt(self) -> None:
+        self.world.halt()
+
     def link(self) -> LinkState | None:
         return self.world.link()
 

@@ -1,5 +1,5 @@
 // The stop of a robot in another process: a button of the panel of the world, and the key Escape everywhere.
-// The run pauses; the robot gets no more commands, and its motors go to rest by themselves.
+// The run pauses; the server then puts the motors to rest, and they get no more commands.
 
 import { useEffect } from "react";
 

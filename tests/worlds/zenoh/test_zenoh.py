@@ -12,6 +12,7 @@ import pytest
 import deodar as dd
 from deodar.errors import WorldError
 from deodar.worlds._base import Signal
+from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds.zenoh import link
 from deodar.worlds.zenoh.about import key
 from deodar.worlds.zenoh.message import WireMessage
@@ -208,6 +209,53 @@ def test_a_live_robot_shows_its_newest_reading_and_cannot_be_repeated(served):
     angle = robot.server.world.angle
     time.sleep(0.1)
     assert robot.server.world.angle == angle
+
+
+class SlowToStop(Wheel):
+    """A wheel whose owner would wait for a minute before it stops it."""
+
+    rules = {"speed": MotorRule(stops_after=60_000.0)}
+
+
+@pytest.mark.parametrize("ended", ["halt", "an error"])
+def test_a_robot_is_halted_at_once_and_moves_again_with_the_next_commands(served, ended):
+    wheel = SlowToStop()
+    world = Zenoh(at=served(wheel, clock="live").endpoint)
+    session = dd.Session(turning(), world=world)
+    session.run_live(200)
+    before = wheel.angle
+    until(lambda: wheel.angle > before + 0.1)
+    if ended == "halt":
+        world.halt()
+    else:
+        with pytest.raises(ZeroDivisionError):
+            session.run_live(100, between=lambda: 1 / 0)
+    until(lambda: still(wheel))
+    before = wheel.angle
+    session.run_live(100)
+    until(lambda: wheel.angle > before + 0.1)
+    world.close()
+
+
+def still(wheel: Wheel) -> bool:
+    """Return whether a wheel does not turn for four periods."""
+    before = wheel.angle
+    time.sleep(0.04)
+    return wheel.angle == before
+
+
+def test_a_stranger_cannot_halt_a_robot(served):
+    robot = served(SlowToStop(), clock="live")
+    world = Zenoh(at=robot.endpoint)
+    dd.Session(turning(), world=world).run_live(100)
+    stranger = link.connect(robot.endpoint, 2.0)
+    for raw in (WireMessage(np.float32(0), 99, commander=7).to_bytes(), b"DDR1"):
+        stranger.put(key("robot", "halt"), raw)
+    until(lambda: robot.server.counts["foreign"] == robot.server.counts["bad"] == 1)
+    before = robot.server.world.angle
+    until(lambda: robot.server.world.angle > before + 0.1)
+    stranger.close()
+    world.close()
 
 
 def test_a_reset_during_a_period_leaves_no_message_of_the_run_before(served):

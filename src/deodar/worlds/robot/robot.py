@@ -129,6 +129,10 @@ class Robot(World):
         with errors_of(self.world, "act"):
             self.world.act(commands, time)
 
+    def halt(self) -> None:
+        self._before.clear()
+        self.world.halt()
+
     def close(self) -> None:
         """Close the world, if it has something to close."""
         closes = getattr(self.world, "close", None)

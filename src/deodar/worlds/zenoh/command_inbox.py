@@ -58,7 +58,7 @@ class CommandInbox:
         self._commander = 0
         self._copies = 1
         self._newest: dict[str, Command] = {}
-        self._ended = 0
+        self._ended, self._halted = 0, -1
         self._waiting: tuple[int, int, float] | None = None
 
     @property
@@ -71,7 +71,7 @@ class CommandInbox:
         with self._lock:
             self._commander, self._copies = commander, copies
             self._newest.clear()
-            self._waiting, self._ended, self.stamp = None, 0, 0
+            self._waiting, self._ended, self._halted, self.stamp = None, 0, -1, 0
 
     def offer(self, motor: str, raw: bytes) -> None:
         """Take a message for a motor, or count why it is not taken."""
@@ -109,6 +109,20 @@ class CommandInbox:
             self._waiting = message.sequence, message.parts, message.time
         self._check()
 
+    def halt(self, raw: bytes) -> None:
+        """Take the message that puts all motors to rest: forget the commands up to its number."""
+        try:
+            message = WireMessage.from_bytes(raw)
+        except BadMessage:
+            self.counts["bad"] += 1
+            return
+        with self._lock:
+            if not self._commander or message.commander != self._commander:
+                self.counts["foreign"] += 1
+                return
+            self._halted = max(self._halted, message.sequence)
+            self._newest = {m: c for m, c in self._newest.items() if c.sequence > self._halted}
+
     def commands(self, sequence: int | None = None) -> dict[str, Command]:
         """Return the newest command of each motor, or those of one period."""
         with self._lock:
@@ -129,7 +143,8 @@ class CommandInbox:
         if message.array.dtype.kind != "f" or not message.finite:
             return "bad"
         last = self._newest.get(motor)
-        return "old" if last is not None and message.sequence <= last.sequence else ""
+        after = self._halted if last is None else max(last.sequence, self._halted)
+        return "old" if message.sequence <= after else ""
 
     def _check(self) -> None:
         with self._lock:

@@ -128,6 +128,9 @@ class WorldServer:
         def end(sample: Any) -> None:
             inbox.end(bytes(sample.payload))
 
+        def halt(sample: Any) -> None:
+            inbox.halt(bytes(sample.payload))
+
         def query(kind: str) -> Callable[[Any], None]:
             def put(asked: Any) -> None:
                 if events.qsize() < MOST_WAITING:
@@ -146,6 +149,7 @@ class WorldServer:
         self._kept = [
             session.declare_subscriber(key(robot, "motor") + "/*", link.callback(command)),
             session.declare_subscriber(key(robot, "step"), link.callback(end)),
+            session.declare_subscriber(key(robot, "halt"), link.callback(halt)),
             session.declare_queryable(about, link.callback(lambda asked: asked.reply(about, text))),
             *(session.declare_queryable(key(robot, kind), link.callback(query(kind))) for kind in QUERIES),
             session.liveliness().declare_subscriber(key(robot, "commander") + "/*", link.callback(gone)),

@@ -215,6 +215,11 @@ class Zenoh(World):
             self._send(where, value[0] if self._copies == 1 else value, time)
         self._send(key(self.robot, "step"), np.zeros(()), time, len(motors))
 
+    def halt(self) -> None:
+        if self._begun and self._close.alive and self.about.clock == "live":
+            self._before.clear()
+            self._send(key(self.robot, "halt"), np.zeros(()), 0.0)
+
     def _newest(self, wanted: Sequence[tuple[str, Axes]], now: float) -> list[np.ndarray]:
         """Return the newest readings of a live robot, none of them older than the patience."""
         self._require_there()
