@@ -10,6 +10,7 @@ import psutil
 import pytest
 
 import deodar as dd
+from deodar import codec
 from deodar.errors import WorldError
 from deodar.worlds._base import Signal
 from deodar.worlds._motor_rule import MotorRule
@@ -271,6 +272,54 @@ def test_a_reset_during_a_period_leaves_no_message_of_the_run_before(served):
                 assert world.sense("angle", (), 0.0) == 0
         assert world.link().refused == 0 and world.link().lost == 0
         world.close()
+
+
+@pytest.mark.parametrize("kind", ["text", "slew"])
+def test_the_state_of_any_world_is_restored_over_the_network(served, kind, tmp_path):
+    if kind == "text":  # Gymnasium keeps the actions of an episode as text
+        inner, model = dd.Gymnasium("Pendulum-v1"), dd.Model("swing", dt=20)
+        model.add(dd.Sensor("see", [dd.Axis("of", 0, 2, 3)], sensor="observation"))
+        model.add(dd.Boost("go", amplitude=1.0)) >> model.add(dd.Motor("push", motor="action"))
+    else:
+        file = tmp_path / "slow.json"
+        motors = {m: {"limits": [-400, 400], "slew": 300} for m in ("left", "right")}
+        file.write_text(codec.text({"robot": 1, "name": "slow", "kind": "arena", "motors": motors}))
+        inner, model = dd.Robot(file), dd.Model("driving", dt=16)
+        model.add(dd.Sensor("see", [dd.Axis("of", 0, 2, 3)], sensor="pose"))
+        for side in motors:
+            model.add(dd.Boost(f"go {side}", amplitude=400.0)) >> model.add(dd.Motor(side, motor=side))
+    world = Zenoh(at=served(inner).endpoint)
+    session = dd.Session(model, world=world)
+    start = session.snapshot()
+    seen = [shown(session) for _ in range(10)]
+    middle = session.snapshot()
+    after = [shown(session) for _ in range(10)]
+    session.restore(start)
+    assert [shown(session) for _ in range(10)] == seen
+    session.reset()
+    session.restore(middle)
+    assert [shown(session) for _ in range(10)] == after
+    world.close()
+
+
+def shown(session: dd.Session) -> list[float]:
+    """Advance by a period, and return what the model sees."""
+    session.run(session.world.period)
+    return session.read("see").tolist()
+
+
+def test_a_query_with_values_of_other_types_is_answered_and_the_robot_goes_on(served):
+    robot = served(Wheel())
+    world = Zenoh(at=robot.endpoint)
+    world.reset(0)
+    stranger = link.connect(robot.endpoint, 2.0)
+    for time_, said in (("x", "time is 'x'"), (None, "time is None"), ([1], "expected a finite number")):
+        asked = {"commander": world._commander, "requests": [["angle", []]], "time": time_}
+        (answer,) = stranger.get(key("robot", "read"), payload=codec.line(asked), timeout=5.0)
+        assert said in bytes(answer.err.payload).decode()
+    assert world.sense("angle", (), 0.0) == 0
+    stranger.close()
+    world.close()
 
 
 def test_a_robot_that_leaves_is_named_and_one_that_returns_is_connected_again(served):

@@ -21,6 +21,7 @@ from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._link_state import LinkState
+from deodar.worlds._motor_limiter import MotorLimiter
 from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._scene import Scene
 from deodar.worlds.arena.arena import Arena
@@ -90,7 +91,7 @@ class Robot(World):
         self.rules: Mapping[str, MotorRule] = {
             name: entry.rule(f"{where}: {name}") for name, (_, entry) in self._motors.items()
         }
-        self._before: dict[str, np.ndarray] = {}
+        self._limiter = MotorLimiter(self.motors, self.rules)
 
     @property
     def repeatable(self) -> bool:  # type: ignore[override]
@@ -100,7 +101,7 @@ class Robot(World):
     # ------------------------------------------------------------------------------------------- the exchange
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
-        self._before.clear()
+        self._limiter.begin(len(trials))
         with errors_of(self.world, "reset"):
             self.world.reset(seed, trials, precision)
 
@@ -122,15 +123,13 @@ class Robot(World):
         commands: dict[str, np.ndarray] = {}
         for name, command in motors.items():
             self.require_motor(name)
-            allowed = self.rules[name].allowed(command, self._before.get(name), self.period or 0.0)
-            self._before[name] = allowed
             target, entry = self._motors[name]
-            commands[target] = _scaled(allowed, entry)
+            commands[target] = _scaled(self._limiter.allowed(name, command, self.period or 0.0), entry)
         with errors_of(self.world, "act"):
             self.world.act(commands, time)
 
     def halt(self) -> None:
-        self._before.clear()
+        self._limiter.rest()
         self.world.halt()
 
     def close(self) -> None:
@@ -190,14 +189,13 @@ class Robot(World):
     # -------------------------------------------------------------------------------------- state and records
 
     def keep(self) -> Any:
-        kept = {"world": self.world.keep()}
-        return kept | {"before": dict(self._before)} if self._before else kept
+        return {"world": self.world.keep(), "commands": self._limiter.keep()}
 
     def put(self, kept: Any) -> None:
         if kept is None:
             return
         self.world.put(kept["world"])
-        self._before = {name: np.asarray(value) for name, value in kept.get("before", {}).items()}
+        self._limiter.put(kept["commands"])
 
     def describe(self) -> dict[str, Json]:
         said: JsonObject = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import queue
 import time
@@ -17,9 +18,10 @@ import numpy as np
 from deodar import codec
 from deodar.errors import DeodarError, WorldError
 from deodar.numerics.axes import Axes, shape
-from deodar.parameters import show
+from deodar.parameters import real, show
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
+from deodar.worlds._motor_limiter import MotorLimiter
 from deodar.worlds._pure import PureWorld
 from deodar.worlds.zenoh import link
 from deodar.worlds.zenoh.about import About, RobotClock, key, reading_keys, requests_from_data
@@ -78,7 +80,7 @@ class WorldServer:
         )
         self._requests: list[tuple[str, Axes]] = []
         self._readings: list[np.ndarray] | None = None
-        self._before: dict[str, np.ndarray] = {}
+        self._limiter = MotorLimiter(self.about.motors, self.about.rules)
         self._driven: dict[str, np.ndarray] = {}
         self._sequence, self._now = 0, 0.0
         self._copies = 1
@@ -197,7 +199,7 @@ class WorldServer:
             self._sequence = 0
         self._who, self._copies = who[:80], copies
         self._requests, self._readings, self._deferred = [], None, None
-        self._before.clear()
+        self._limiter.begin(copies)
         self._inbox.begin(number, copies)
         return codec.line({"clock": self.about.clock})
 
@@ -213,7 +215,9 @@ class WorldServer:
         requests = requests_from_data(given.get("requests"), self.world.sensors)
         if sum(8 * int(np.prod(shape(axes), dtype=float)) for _, axes in requests) > MOST_BYTES:
             raise WorldError("more is read than a message carries")
-        time = float(given.get("time", 0.0))
+        time = real(given.get("time", 0.0))
+        if time is None or not math.isfinite(time):
+            raise WorldError(f"time is {show(given['time'])}; expected a finite number")
         readings = self._sensed(requests, time)
         if given.get("watch", True):
             self._requests, self._readings = requests, readings
@@ -222,8 +226,8 @@ class WorldServer:
     def _keep(self, asked: Any) -> bytes:
         """Return the state of the world."""
         with errors_of(self.world, "keep"):
-            leaves = jax.tree.leaves(self.world.keep())
-        return bundle([WireMessage(np.asarray(leaf)) for leaf in leaves])
+            leaves = jax.tree.leaves([self.world.keep(), self._limiter.keep()])
+        return bundle([WireMessage(_numbers(leaf)) for leaf in leaves])
 
     def _put(self, asked: Any) -> str:
         """Restore a state that `_keep` returned."""
@@ -231,14 +235,17 @@ class WorldServer:
             raise WorldError("the state of a live robot cannot be restored")
         leaves = [message.array for message in unbundle(bytes(asked.payload or b""))]
         with errors_of(self.world, "keep"):
-            structure = self.world.keep()
+            structure = [self.world.keep(), self._limiter.keep()]
         old, form = jax.tree.flatten(structure)
-        if [np.shape(a) for a in old] != [a.shape for a in leaves]:
+        if len(old) != len(leaves) or not all(
+            isinstance(b, str) or np.shape(b) == a.shape for a, b in zip(leaves, old, strict=True)
+        ):
             raise WorldError("is not a state of this robot")
-        arrays = (np.ndarray, np.generic, jax.Array)
-        kept = [a if isinstance(b, arrays) else type(b)(a.item()) for a, b in zip(leaves, old, strict=True)]
+        kept = [_leaf(a, b) for a, b in zip(leaves, old, strict=True)]
         with errors_of(self.world, "put"):
-            self.world.put(jax.tree.unflatten(form, kept))
+            world, commands = jax.tree.unflatten(form, kept)
+            self.world.put(world)
+        self._limiter.put(commands)
         self._readings = None
         return ""
 
@@ -248,7 +255,7 @@ class WorldServer:
             self._publish("error", f"period {sequence} follows period {self._sequence}".encode())
             return
         commands = {
-            motor: self._allowed(motor, command.value)
+            motor: self._limiter.allowed(motor, command.value, self.about.period or 0.0)
             for motor, command in self._inbox.commands(sequence).items()
         }
         after = start + (self.about.period or 0.0)
@@ -282,12 +289,6 @@ class WorldServer:
         with errors_of(self.world, "sense"):
             return self.world.sense_all(requests, time)
 
-    def _allowed(self, motor: str, command: np.ndarray) -> np.ndarray:
-        rule, period = self.about.rule(motor), self.about.period or 0.0
-        value = rule.allowed(command, self._before.get(motor), period)
-        self._before[motor] = value
-        return value
-
     # -------------------------------------------------------------------------------------- the live clock
 
     def _serve_live(self, stopped: Callable[[], bool]) -> None:
@@ -318,11 +319,11 @@ class WorldServer:
         for motor in self.about.motors:
             command, rule = newest.get(motor), self.about.rule(motor)
             if command is not None and 1000 * (clock - command.arrived) <= rule.stops_after:
-                commands[motor] = self._allowed(motor, command.value)
+                commands[motor] = self._limiter.allowed(motor, command.value, self.about.period or 0.0)
                 self._driven[motor] = command.value
             elif motor in self._driven:
                 commands[motor] = rule.at_rest(self._driven[motor])
-                self._before.pop(motor, None)
+                self._limiter.rest(motor)
         self._now = after = now + (self.about.period or 0.0)
         self._publish_readings(self._advanced(commands, now, after), after)
 
@@ -364,6 +365,21 @@ class WorldServer:
                 where, congestion_control=control.BLOCK if waits else control.DROP
             )
         self._publishers[where].put(raw)
+
+
+def _numbers(leaf: Any) -> np.ndarray:
+    """Return a part of a state as an array; text as its bytes in UTF-8."""
+    return np.frombuffer(leaf.encode(), np.uint8) if isinstance(leaf, str) else np.asarray(leaf)
+
+
+def _leaf(numbers: np.ndarray, like: Any) -> Any:
+    """Return a part of a state from its array, of the type that it had."""
+    if isinstance(like, str):
+        try:
+            return numbers.astype(np.uint8).tobytes().decode()
+        except UnicodeDecodeError:
+            raise WorldError("is not a state of this robot") from None
+    return numbers if isinstance(like, (np.ndarray, np.generic, jax.Array)) else type(like)(numbers.item())
 
 
 def free_name(world: World) -> str:

@@ -20,6 +20,7 @@ from deodar.numerics.axes import Axes
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._link_state import LinkState
+from deodar.worlds._motor_limiter import MotorLimiter
 from deodar.worlds._settings import named, number, numeric
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.zenoh import link
@@ -80,7 +81,6 @@ class Zenoh(World):
         self._requests: Requests | None = None
         self._copies, self._sequence, self._begun = 1, 0, False
         self._read_at = 0
-        self._before: dict[str, np.ndarray] = {}
 
     @property
     def repeatable(self) -> bool:  # type: ignore[override]
@@ -96,6 +96,7 @@ class Zenoh(World):
         self._close = weakref.finalize(self, session.close)
         try:
             self.about = self._found(robot)
+            self._limiter = MotorLimiter(self.about.motors, self.about.rules)
             self._declare()
         except BaseException:
             self._close()
@@ -170,7 +171,7 @@ class Zenoh(World):
         # a live robot is one, whatever the number of copies
         self._copies = len(trials) if self.about.clock == "step" else 1
         self._begun, self._sequence, self._read_at, self._requests = True, 0, 0, None
-        self._before.clear()
+        self._limiter.begin(self._copies)
 
     def _again(self) -> None:
         """Connect again to a robot that was away; it has to have the same signals."""
@@ -208,16 +209,14 @@ class Zenoh(World):
         self._sequence += 1
         for motor, given in motors.items():
             self.require_motor(motor)
-            allowed = self.about.rule(motor).allowed(given, self._before.get(motor), self.period or 0.0)
-            self._before[motor] = allowed
-            value = np.asarray(allowed)
+            value = np.asarray(self._limiter.allowed(motor, given, self.period or 0.0))
             where = key(self.robot, "motor", motor)
             self._send(where, value[0] if self._copies == 1 else value, time)
         self._send(key(self.robot, "step"), np.zeros(()), time, len(motors))
 
     def halt(self) -> None:
         if self._begun and self._close.alive and self.about.clock == "live":
-            self._before.clear()
+            self._limiter.rest()
             self._send(key(self.robot, "halt"), np.zeros(()), 0.0)
 
     def _newest(self, wanted: Sequence[tuple[str, Axes]], now: float) -> list[np.ndarray]:
@@ -335,14 +334,16 @@ class Zenoh(World):
         if not self._begun or not self.about.repeatable:
             return None
         self._wait()
-        return [message.array for message in unbundle(self._ask("keep", b""))]
+        robot = [message.array for message in unbundle(self._ask("keep", b""))]
+        return {"robot": robot, "commands": self._limiter.keep()}
 
     def put(self, kept: Any) -> None:
         if kept is None:
             return
         self._require_there()
         self._wait()
-        self._ask("put", bundle([WireMessage(np.asarray(leaf)) for leaf in kept]))
+        self._ask("put", bundle([WireMessage(np.asarray(leaf)) for leaf in kept["robot"]]))
+        self._limiter.put(kept["commands"])
         self._requests = None
 
     def describe(self) -> dict[str, Json]:
