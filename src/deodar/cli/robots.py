@@ -75,7 +75,7 @@ def _check(robot: Robot) -> dict[str, Any]:
         (name, _axes(signal.shape)) for name, signal in robot.sensors.items() if signal.shape is not None
     ]
     robot.sense_all(shaped, 0.0)
-    live = not robot.repeatable
+    live = robot.wall_clock
     before, began = _received(robot), time.monotonic()
     if live:
         time.sleep(WATCHED)

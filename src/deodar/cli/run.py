@@ -170,7 +170,10 @@ def _simulate(args: argparse.Namespace) -> int:
     model = load(args.file, trust=args.trust)
     for path, value in args.set or ():
         model.set(path, value)
-    _show_warnings(model, args.file, _options.world(args.world))
+    world = _options.world(args.world)
+    if world is not None and world.wall_clock:
+        args.wrong(f"the world {args.world} follows the wall clock, so the run needs --live")
+    _show_warnings(model, args.file, world)
     place = _Place(args, model.name)
     step = model.document.step if args.dt is None else args.dt
 
@@ -185,7 +188,7 @@ def _simulate(args: argparse.Namespace) -> int:
             trials=args.trials,
             sweep=dict(args.sweep) if args.sweep else None,
             precision=args.precision or "float32",
-            world=_options.world(args.world),
+            world=world,
             progress=progress,
             workers=args.workers,
             device=args.device,

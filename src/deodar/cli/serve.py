@@ -65,7 +65,7 @@ def run(args: argparse.Namespace) -> int:
 
     world = _opened(args)
     stated = "step" if args.model else getattr(getattr(world, "file", None), "clock", None)
-    clock = args.clock or stated or ("step" if world.repeatable else "live")
+    clock = args.clock or stated or ("live" if world.wall_clock else "step")
     server = WorldServer(world, args.name or free_name(world), args.at or link.HERE, clock, args.trusted)
     before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
     name, at = server.about.name, server.endpoint

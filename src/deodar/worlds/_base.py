@@ -66,6 +66,7 @@ class World:
             class needs an extra or a device.
         repeatable: whether a restored state leads to the same readings again; False if they come from
             outside, as those of a camera.
+        wall_clock: whether it follows the wall clock whatever the model does, so that a run has to be paced.
         opens: endings of the files that `open` reads, in lower case with the dot, such as .png, the formats
             of this class before those that others open too; empty if its argument does not name a file.
         short: another name of the class on the command line; empty: there is none.
@@ -79,6 +80,7 @@ class World:
     period: float | None = None
     stands_in: ClassVar[bool] = True
     repeatable: ClassVar[bool] = True
+    wall_clock: ClassVar[bool] = False
     opens: ClassVar[tuple[str, ...]] = ()
     short: ClassVar[str] = ""
 

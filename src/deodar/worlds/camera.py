@@ -43,6 +43,7 @@ class Camera(World):
     sensors: Mapping[str, Signal] = {"picture": PICTURE}
     stands_in = False
     repeatable = False
+    wall_clock = True
 
     def __init__(self, number: int | str = 0, period: float = 40.0, patience: float = 3.0) -> None:
         known = isinstance(number, (int, np.integer)) and not isinstance(number, bool) and number >= 0

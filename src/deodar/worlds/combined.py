@@ -75,6 +75,11 @@ class Combined(World):
         """Whether a restored state leads to the same readings again."""
         return all(one.repeatable for one in (self.world, *self.others.values()))
 
+    @property
+    def wall_clock(self) -> bool:  # type: ignore[override]
+        """Whether it follows the wall clock."""
+        return any(one.wall_clock for one in (self.world, *self.others.values()))
+
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
         for one in (self.world, *self.others.values()):
             with errors_of(one, "reset"):

@@ -11,6 +11,7 @@ import pytest
 
 import deodar as dd
 from deodar import codec
+from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.worlds._base import Signal
 from deodar.worlds._motor_rule import MotorRule
@@ -257,6 +258,17 @@ def test_a_stranger_cannot_halt_a_robot(served):
     until(lambda: robot.server.world.angle > before + 0.1)
     stranger.close()
     world.close()
+
+
+def test_a_run_that_is_not_paced_is_refused_for_a_live_robot(served, tmp_path, capsys):
+    at = served(Wheel(), clock="live").endpoint
+    file = tmp_path / "turning.json"
+    dd.save(turning(), file)
+    asked = ["run", str(file), "--world", f"zenoh:*, at={at}", "--duration", "200", "--no-progress"]
+    with pytest.raises(SystemExit):
+        main(asked)
+    assert "follows the wall clock, so the run needs --live" in capsys.readouterr().err
+    assert main([*asked, "--live"]) == 0
 
 
 def test_a_reset_during_a_period_leaves_no_message_of_the_run_before(served):

@@ -98,6 +98,11 @@ class Robot(World):
         """Whether a restored state leads to the same readings again."""
         return self.world.repeatable
 
+    @property
+    def wall_clock(self) -> bool:  # type: ignore[override]
+        """Whether it follows the wall clock."""
+        return self.world.wall_clock
+
     # ------------------------------------------------------------------------------------------- the exchange
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:

@@ -87,6 +87,11 @@ class Zenoh(World):
         """Whether a restored state leads to the same readings again."""
         return self.about.repeatable
 
+    @property
+    def wall_clock(self) -> bool:  # type: ignore[override]
+        """Whether it follows the wall clock."""
+        return self.about.clock == "live"
+
     # ----------------------------------------------------------------------------------------- the connection
 
     def _connect(self, robot: str) -> None:
