@@ -3,9 +3,9 @@
 A plant shows a picture in each period and takes one command back, by the wall clock. `link` is the network
 alone: the other side answers each picture at once. `model` is a field of deodar that reads the picture and
 drives the motor by `run_live`. `step` compares the bits of an arena behind the network with those in one
-process. `kills` kills each side by SIGKILL at random moments. `--quick` is a short form of all of them, and
-`--only NAME` one of them. Judged only where the load is at most 1.5 times the cores; status 1 if a target is
-missed.
+process. `kills` kills each side by SIGKILL at random moments, and `reconnects` restarts the plant. `--quick`
+is a short form of all of them, and `--only NAME` one of them. Judged only where the load is at most 1.5 times
+the cores; status 1 if a target is missed.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ os.environ.setdefault("NPROC", "1")
 MOST_LOAD = 1.5
 STOPS_AFTER = 0.2
 PATIENCE = 0.5
+PARTS = ("link", "model", "step", "kills", "reconnects")
 CONTEXT = mp.get_context("spawn")
 
 
@@ -154,6 +155,32 @@ def brain(at: str, seconds: float, pipe: Any) -> None:
     world.close()
 
 
+def returning(at: str, pipe: Any) -> None:
+    """Turn a motor, and reset after each error until the robot is back; say when it moves, and the errors."""
+    import numpy as np
+
+    from deodar.errors import WorldError
+    from deodar.worlds.zenoh.zenoh import Zenoh
+
+    world = Zenoh(at=at, patience=PATIENCE)
+    pipe.send("ready")
+    while True:
+        try:
+            world.reset(0)
+            last = world._inbox.period()
+            for _ in range(5):
+                last = world._inbox.period()
+                world.act({"pan": np.ones(1, np.float32)}, 0.0)
+                world._inbox.wait(last + 1, PATIENCE)
+            pipe.send(("moves", time.monotonic()))
+            while True:
+                world._inbox.wait(world._inbox.period() + 1, PATIENCE)
+                world.act({"pan": np.ones(1, np.float32)}, 0.0)
+        except WorldError as error:
+            pipe.send(("error", str(error)))
+            time.sleep(0.02)
+
+
 def begun(target: Any, *arguments: Any) -> tuple[Any, Any]:
     """Start a process and return it with its pipe, when it is ready."""
     here, there = CONTEXT.Pipe()
@@ -248,6 +275,40 @@ def kills(count: int) -> list[tuple[str, float, float]]:
     ]
 
 
+def reconnects(count: int) -> list[tuple[str, float, float]]:
+    """Kill and start the plant again, while the model is one process; return what did not come back."""
+    draw, at, back = random.Random(1), free(), []
+    server, pipe = begun(plant, at, (160, 120), 100.0)
+    side, news = begun(returning, at)
+    heard(news, "moves")
+    for _ in range(count):
+        time.sleep(draw.uniform(0.1, 0.5))
+        server.kill()
+        server.join()
+        pipe.close()
+        heard(news, "error")
+        server, pipe = begun(plant, at, (160, 120), 100.0)
+        restarted = time.monotonic()
+        back.append(heard(news, "moves") - restarted)
+    side.kill()
+    side.join()
+    pipe.send("end")
+    server.join()
+    print(f"{count} restarts of the plant, one model: moved again after {spread(back)} ms", flush=True)
+    return [("restarts after which the model does not move the plant", float(sum(t > 9 for t in back)), 0.0)]
+
+
+def heard(news: Any, what: str, seconds: float = 10.0) -> Any:
+    """Return what a message of a kind says, or infinity if none comes in time."""
+    end = time.monotonic() + seconds
+    while (left := end - time.monotonic()) > 0:
+        if news.poll(left):
+            kind, said = news.recv()
+            if kind == what:
+                return said
+    return float("inf")
+
+
 def spread(times: list[float]) -> str:
     """Return median and maximum in ms."""
     ordered = sorted(1000 * t for t in times)
@@ -302,14 +363,14 @@ def main() -> int:
     """Measure, print, and judge where the machine is quiet."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--only", choices=("link", "model", "step", "kills"))
+    parser.add_argument("--only", choices=PARTS)
     args = parser.parse_args()
     seconds, count = (6.0, 5) if args.quick else (60.0, 50)
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
     cores = os.cpu_count() or 1
     print(f"{cores} cores, load {load:.1f}", flush=True)
     found: list[tuple[str, float, float]] = []
-    parts = (args.only,) if args.only else ("link", "model", "step", "kills")
+    parts = (args.only,) if args.only else PARTS
     if "link" in parts:
         for hz, size in ((50, (160, 120)), (100, (160, 120)), (30, (640, 480))):
             found += exchange(echo, hz, size, seconds)
@@ -320,6 +381,8 @@ def main() -> int:
         found += step()
     if "kills" in parts:
         found += kills(count)
+    if "reconnects" in parts:
+        found += reconnects(3 if args.quick else 10)
     after = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
     print(f"load {after:.1f}")
     if max(load, after) > MOST_LOAD * cores:

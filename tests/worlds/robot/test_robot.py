@@ -40,7 +40,7 @@ def numbers(*values: float) -> np.ndarray:
 
 def test_every_shipped_robot_is_valid_and_reads_its_sensors():
     validator = jsonschema.Draft202012Validator(json.loads(schema.SHIPPED.read_text()))
-    assert set(robot_file.shipped()) == {"arm", "epuck"}
+    assert set(robot_file.shipped()) == {"arm", "epuck", "head"}
     for name, file in robot_file.shipped().items():
         validator.validate(json.loads(file.read_text()))
         robot = Robot(name)

@@ -62,9 +62,9 @@ class MuJoCo(World):
         \frac{dq}{dt} = J^{+} v + (I - J^{+} J)\, k\, (q_0 - q),\quad J^{+} = J^T (J J^T + d^2 I)^{-1}
 
     Parameters:
-        scene: an MJCF file, or the name of a scene that comes with deodar (table).
+        scene: an MJCF file, or the name of a scene that comes with deodar (table, head).
         robot: an MJCF file of a robot that is attached at the site `robot` of the scene, or the name of one
-            that comes with deodar (lwr4, four, six); None: lwr4 on a scene of deodar, else none.
+            that comes with deodar (lwr4, four, six); None: lwr4 on the table of deodar, else none.
         period: ms between two exchanges with the model; a multiple of the time step of the scene.
         camera_every: number of periods for which a picture of a camera is kept.
         pixel_noise: standard deviation of each channel of each pixel; values stay between 0 and 1.

@@ -61,7 +61,7 @@ class SceneFile:
         """
         found = _found(scene, SCENES, "scene")
         own = found.parent == SCENES
-        if robot is None and own:
+        if robot is None and own and _read(found).site(MOUNT) is not None:
             robot = "lwr4"
         return cls(found, None if robot is None else _found(robot, ROBOTS, "robot"))
 

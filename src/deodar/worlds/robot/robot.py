@@ -49,7 +49,7 @@ class Robot(World):
         m_{\mathrm{world}} = \alpha\, \mathrm{limited}(m) + \beta
 
     Parameters:
-        file: path of the file, or the name of a robot that comes with deodar (epuck, arm).
+        file: path of the file, or the name of a robot that comes with deodar (arm, epuck, head).
         place: name of a place of the file; empty: the first one.
 
     Shapes:
