@@ -2,10 +2,10 @@
 
 A plant shows a picture in each period and takes one command back, by the wall clock. `link` is the network
 alone: the other side answers each picture at once. `model` is a field of deodar that reads the picture and
-drives the motor by `run_live`. `step` compares the bits of an arena behind the network with those in one
-process. `kills` kills each side by SIGKILL at random moments, and `reconnects` restarts the plant. `--quick`
-is a short form of all of them, and `--only NAME` one of them. Judged only where the load is at most 1.5 times
-the cores; status 1 if a target is missed.
+drives the motor by `run_live`. In `follow` a head follows a ball. `step` compares the bits of an arena behind
+the network with those in one process. `kills` kills each side by SIGKILL at random moments, and `reconnects`
+restarts the plant. `--quick` is a short form of all of them, and `--only NAME` one of them. Judged only where
+the load is at most 1.5 times the cores; status 1 if a target is missed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ os.environ.setdefault("NPROC", "1")
 MOST_LOAD = 1.5
 STOPS_AFTER = 0.2
 PATIENCE = 0.5
-PARTS = ("link", "model", "step", "kills", "reconnects")
+PARTS = ("link", "model", "follow", "step", "kills", "reconnects")
 CONTEXT = mp.get_context("spawn")
 
 
@@ -153,6 +153,57 @@ def brain(at: str, seconds: float, pipe: Any) -> None:
     after = world.link()
     pipe.send({"lost": after.lost - before.lost, "meter": str(meter)})
     world.close()
+
+
+def head(at: str, pipe: Any) -> None:
+    """Serve the robot `head`; send the errors of its direction at the end, in degrees."""
+    import numpy as np
+
+    import deodar as dd
+    from deodar.worlds.zenoh.server import WorldServer
+
+    errors: list[float] = []
+
+    class Watched(dd.Robot):
+        """The head, whose distance from the ball is noted in each period."""
+
+        def act(self, motors: Any, now: float) -> None:
+            super().act(motors, now)
+            ball, pan = (float(np.ravel(self.sense(name, (), now))[0]) for name in ("ball", "pan"))
+            errors.append(float(np.degrees(ball - pan)))
+
+    server = WorldServer(Watched("head"), "head", at, "live")
+    pipe.send("ready")
+    server.serve(lambda: bool(pipe.poll()))
+    server.close()
+    pipe.recv()
+    pipe.send(errors)
+
+
+def follower(at: str, seconds: float, pipe: Any) -> None:
+    """Turn the head to the ball by the model of `following.py`."""
+    import deodar as dd
+    import following
+
+    session = dd.Session(following.following(), world=dd.Zenoh(at=at, patience=2.0))
+    session.run_live(1000)
+    pipe.send("ready")
+    pipe.send(str(session.run_live(1000 * seconds)))
+
+
+def follow(seconds: float) -> list[tuple[str, float, float]]:
+    """Follow the ball over the network; the ball leaves the picture at 28 degrees."""
+    import numpy as np
+
+    at = free()
+    server, pipe = begun(head, at)
+    _, news = begun(follower, at, seconds)
+    meter = news.recv()
+    errors = np.abs(np.array(told(pipe, "end"))[250:])
+    server.join()
+    rms, largest = float(np.sqrt(np.mean(errors**2))), float(errors.max())
+    print(f"a head follows a ball at 50 Hz: rms {rms:.1f} deg, at most {largest:.1f}; {meter}", flush=True)
+    return [("head, largest error, deg", largest, 28.0)]
 
 
 def returning(at: str, pipe: Any) -> None:
@@ -377,6 +428,8 @@ def main() -> int:
     if "model" in parts:
         for hz in (50, 100):
             found += exchange(brain, hz, (160, 120), seconds)
+    if "follow" in parts:
+        found += follow(max(10.0, seconds / 2))
     if "step" in parts:
         found += step()
     if "kills" in parts:
