@@ -11,7 +11,7 @@ import numpy as np
 
 from deodar.batch.driven import driven
 from deodar.compiler.executable import BEGUN, RARELY, Batch, executable
-from deodar.environments.loop import Loop
+from deodar.environments.loop import ClosedLoop
 from deodar.experiments.observable import Observable
 from deodar.experiments.reader import ReadPlace, with_readers
 from deodar.model import find
@@ -22,18 +22,18 @@ from deodar.session.port_reader import port_reader
 from deodar.session.run import Run
 from deodar.session.session import Session
 
-Values = Mapping[ReadPlace, np.ndarray]
+PortValues = Mapping[ReadPlace, np.ndarray]
 """The values of ports, with copies first."""
 
 
-class Copies(Protocol):
+class LoopCopies(Protocol):
     """Copies of a loop, each in an episode of its own."""
 
-    def begin(self, seed: int, trials: Sequence[int]) -> Values:
+    def begin(self, seed: int, trials: Sequence[int]) -> PortValues:
         """Begin an episode in each copy, at time 0, and return the values of its start."""
         ...
 
-    def restart(self, ended: np.ndarray, trials: Sequence[int]) -> Values:
+    def restart(self, ended: np.ndarray, trials: Sequence[int]) -> PortValues:
         """Begin another episode in some copies, and return the values of all.
 
         Args:
@@ -42,11 +42,11 @@ class Copies(Protocol):
         """
         ...
 
-    def step(self, actions: np.ndarray) -> Values:
+    def step(self, actions: np.ndarray) -> PortValues:
         """Set the parameters, (copies, parameters), advance by a period, and return the values after it."""
         ...
 
-    def views(self, values: Values) -> dict[Observable, np.ndarray]:
+    def views(self, values: PortValues) -> dict[Observable, np.ndarray]:
         """Return what the events look at, (copies, 1, ...)."""
         ...
 
@@ -68,7 +68,7 @@ class StepCopies:
     that of a run of the trial.
     """
 
-    def __init__(self, loop: Loop, copies: int) -> None:
+    def __init__(self, loop: ClosedLoop, copies: int) -> None:
         self.loop, self.count = loop, copies
         model = loop.model
         self._doc, self._at = with_readers(model.document, loop.views)
@@ -90,7 +90,7 @@ class StepCopies:
         self._swept = self._first
         self._starts = _Starts((), {}, {})
 
-    def begin(self, seed: int, trials: Sequence[int]) -> Values:
+    def begin(self, seed: int, trials: Sequence[int]) -> PortValues:
         run = self._run
         run.seed = seed
         run.reset()
@@ -101,7 +101,7 @@ class StepCopies:
         run.state, run.keys = begun.state, begun.keys
         return self._read()
 
-    def restart(self, ended: np.ndarray, trials: Sequence[int]) -> Values:
+    def restart(self, ended: np.ndarray, trials: Sequence[int]) -> PortValues:
         run, rows = self._run, np.flatnonzero(ended)
         for now, first in zip(self._swept, self._first, strict=True):
             now[rows] = first[rows]
@@ -120,7 +120,7 @@ class StepCopies:
         run.state, run.keys = jax.tree.map(taken, (run.state, run.keys), (begun.state, begun.keys))
         return self._read()
 
-    def step(self, actions: np.ndarray) -> Values:
+    def step(self, actions: np.ndarray) -> PortValues:
         self._swept = [np.array(column, float) for column in actions.T]
         self._put()
         found: list[np.ndarray] = []
@@ -132,7 +132,7 @@ class StepCopies:
         self._run.record(steps, self._ports, steps, 1, take, most=1)
         return dict(zip(self._places, found, strict=True))
 
-    def views(self, values: Values) -> dict[Observable, np.ndarray]:
+    def views(self, values: PortValues) -> dict[Observable, np.ndarray]:
         out: dict[Observable, np.ndarray] = {}
         for view in self.loop.views:
             place = self._at.get(view) or _place(self.loop, view)
@@ -145,7 +145,7 @@ class StepCopies:
         values["swept"] = self._run.program.layout.points(self._swept)
         self._run.values = values
 
-    def _read(self) -> Values:
+    def _read(self) -> PortValues:
         return dict(zip(self._places, map(np.array, self._run.read(self._ports)), strict=True))
 
     def _start(self, trials: Sequence[int]) -> _Starts:
@@ -167,7 +167,7 @@ class HostCopy:
 
     count = 1
 
-    def __init__(self, loop: Loop) -> None:
+    def __init__(self, loop: ClosedLoop) -> None:
         self.loop = loop
         self._places = _places(loop, loop.model.document, {})
         self._session = self._begun(loop.seed, 0)
@@ -176,19 +176,19 @@ class HostCopy:
             place: self._session.program.axes(self._session.program.port(*place)) for place in self._places
         }
 
-    def begin(self, seed: int, trials: Sequence[int]) -> Values:
+    def begin(self, seed: int, trials: Sequence[int]) -> PortValues:
         self._session = self._begun(seed, trials[0])
         return self._read()
 
-    def restart(self, ended: np.ndarray, trials: Sequence[int]) -> Values:
+    def restart(self, ended: np.ndarray, trials: Sequence[int]) -> PortValues:
         return self.begin(self._session.seed, trials) if ended[0] else self._read()
 
-    def step(self, actions: np.ndarray) -> Values:
+    def step(self, actions: np.ndarray) -> PortValues:
         self._session.set(dict(zip(self.loop.act, actions[0].tolist(), strict=True)))
         self._session.step(self.loop.steps)
         return self._read()
 
-    def views(self, values: Values) -> dict[Observable, np.ndarray]:
+    def views(self, values: PortValues) -> dict[Observable, np.ndarray]:
         places = {view: _place(self.loop, view) for view in self.loop.views}
         return {v: v.seen(values[place][:, None], self._axes[place], 2) for v, place in places.items()}
 
@@ -196,20 +196,20 @@ class HostCopy:
         of = self.loop
         return Session(of.model, of.dt, seed, of.precision, of.world, trial)
 
-    def _read(self) -> Values:
+    def _read(self) -> PortValues:
         if self._reader.program is not self._session.program:
             self._reader = port_reader(self._session.program, self._places)
         arrays = self._session.read_ports(self._reader, self._places)
         return {place: np.array(arrays[place])[None] for place in self._places}
 
 
-def _places(loop: Loop, doc: Any, at: Mapping[Observable, ReadPlace]) -> list[ReadPlace]:
+def _places(loop: ClosedLoop, doc: Any, at: Mapping[Observable, ReadPlace]) -> list[ReadPlace]:
     """Return all ports to read, each once."""
     seen = [(ident, port) for ident, port, _ in loop.see.values()]
     rewarded = [] if loop.rewarded is None else [loop.rewarded]
     return list(dict.fromkeys([*seen, *rewarded, *(at.get(v) or _place(loop, v) for v in loop.views)]))
 
 
-def _place(loop: Loop, view: Observable) -> ReadPlace:
+def _place(loop: ClosedLoop, view: Observable) -> ReadPlace:
     entry, port = view.place(loop.model.document)
     return entry.id, port

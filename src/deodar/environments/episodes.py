@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.environments.copies import Copies, HostCopy, StepCopies, Values
-from deodar.environments.loop import Loop
+from deodar.environments.copies import HostCopy, LoopCopies, PortValues, StepCopies
+from deodar.environments.loop import ClosedLoop
 from deodar.errors import ParameterError
 from deodar.experiments.observations import Observations
 from deodar.parameters import show
@@ -21,9 +21,9 @@ class Episodes:
         outcomes: for each copy the event that ended its episode; empty while it runs, or if it was truncated.
     """
 
-    def __init__(self, loop: Loop, copies: int) -> None:
+    def __init__(self, loop: ClosedLoop, copies: int) -> None:
         self.loop, self.count = loop, copies
-        self._copies: Copies = StepCopies(loop, copies) if loop.pure else HostCopy(loop)
+        self._copies: LoopCopies = StepCopies(loop, copies) if loop.pure else HostCopy(loop)
         self._observed = Observations(loop.until, (), copies)
         self._periods = np.zeros(copies, int)
         self._episode = np.arange(copies)
@@ -92,17 +92,17 @@ class Episodes:
             )
         return np.clip(given, self._low, self._high)
 
-    def _keep(self, values: Values) -> None:
+    def _keep(self, values: PortValues) -> None:
         self.seen = {path: values[ident, port] for path, (ident, port, _) in self.loop.see.items()}
 
-    def _take(self, values: Values, rows: np.ndarray) -> None:
+    def _take(self, values: PortValues, rows: np.ndarray) -> None:
         """Evaluate the events of some copies."""
         if self.loop.until:
             seen = {view: found[rows] for view, found in self._copies.views(values).items()}
             self._observed.take(rows.tolist(), np.zeros(1), seen, last=False)
         self.outcomes = list(self._observed.outcome)
 
-    def _rewards(self, before: dict[str, np.ndarray], values: Values) -> np.ndarray:
+    def _rewards(self, before: dict[str, np.ndarray], values: PortValues) -> np.ndarray:
         reward, place = self.loop.reward, self.loop.rewarded
         if place is not None:
             return np.asarray(values[place], float)

@@ -37,7 +37,7 @@ Bounds = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Loop:
+class ClosedLoop:
     """A closed loop as an environment.
 
     Attributes:
@@ -99,7 +99,7 @@ def loop(
     see: Sequence[str],
     reward: str | RewardFunction | None,
     until: Event | Sequence[Event],
-) -> Loop:
+) -> ClosedLoop:
     """Return the loop of an experiment, or of a model in a world.
 
     Raises:
@@ -135,7 +135,7 @@ def loop(
         raise ParameterError("the period of the environment is 0; expected at least one step")
     _require_period(model, world, steps, dt)
     _require_ends(ends)
-    found = Loop(
+    found = ClosedLoop(
         *(model, world, _bounds(model, act), _seen(model, see), reward, ends, steps, limit, dt),
         *(require_seed(seed), trials, precision),
     )
@@ -238,7 +238,7 @@ def _shape(model: Model, ident: str, port: str) -> tuple[int, ...]:
     return shape(node.outs[port] if port in node.outs else node.ins[port])
 
 
-def require_copies(of: Loop, copies: int) -> int:
+def require_copies(of: ClosedLoop, copies: int) -> int:
     """Return a number of copies; raise an error for a world that cannot be part of a compiled step."""
     if isinstance(copies, bool) or not isinstance(copies, (int, np.integer)) or copies < 1:
         raise ParameterError(f"copies is {show(copies)}; expected a whole number, at least 1")

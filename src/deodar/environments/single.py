@@ -8,7 +8,7 @@ import gymnasium
 import numpy as np
 
 from deodar.environments.episodes import Episodes
-from deodar.environments.loop import Loop
+from deodar.environments.loop import ClosedLoop
 from deodar.environments.spaces import action_space, element, observation_space
 from deodar.session.session import require_seed
 
@@ -20,7 +20,7 @@ class LoopEnv(gymnasium.Env[Any, Any]):
         loop: the closed loop.
     """
 
-    def __init__(self, loop: Loop) -> None:
+    def __init__(self, loop: ClosedLoop) -> None:
         self.loop = loop
         self.action_space = action_space(loop)
         self.observation_space = observation_space(loop)

@@ -7,16 +7,16 @@ from collections.abc import Mapping
 import numpy as np
 from gymnasium import spaces
 
-from deodar.environments.loop import Loop
+from deodar.environments.loop import ClosedLoop
 
 
-def action_space(loop: Loop) -> spaces.Box:
+def action_space(loop: ClosedLoop) -> spaces.Box:
     """Return the space of actions: a number for each parameter."""
     low, high = np.array(list(loop.act.values()), np.float32).T
     return spaces.Box(low, high, dtype=np.float32)
 
 
-def observation_space(loop: Loop) -> spaces.Box | spaces.Dict:
+def observation_space(loop: ClosedLoop) -> spaces.Box | spaces.Dict:
     """Return the space of observations: that of the port, or a dictionary by path if there are several."""
     boxes = {
         path: spaces.Box(-np.inf, np.inf, shape, np.dtype(loop.precision).type)

@@ -9,7 +9,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from deodar.environments.episodes import Episodes
-from deodar.environments.loop import Loop
+from deodar.environments.loop import ClosedLoop
 from deodar.environments.spaces import action_space, element, observation_space
 from deodar.errors import ParameterError
 from deodar.parameters import show
@@ -28,7 +28,7 @@ class LoopVectorEnv(VectorEnv[Any, Any, Any]):
 
     metadata: dict[str, Any] = {"autoreset_mode": AutoresetMode.SAME_STEP}
 
-    def __init__(self, loop: Loop, copies: int) -> None:
+    def __init__(self, loop: ClosedLoop, copies: int) -> None:
         self.loop, self.num_envs = loop, copies
         self.single_action_space = action_space(loop)
         self.single_observation_space = observation_space(loop)

@@ -130,7 +130,7 @@ class World:
     def halt(self) -> None:
         """Put the motors to rest at once, until the next commands; called when a run pauses or fails.
 
-        Nothing by default: a simulated world stands still while its model pauses.
+        Nothing by default: a simulated world does not move while its model pauses.
         """
 
     def link(self) -> LinkState | None:

@@ -18,7 +18,7 @@ MOST_BYTES = 2**20
 
 VERSION = 1
 Positive = Annotated[float, Meta(gt=0)]
-Shape = Annotated[list[Annotated[int, Meta(gt=0, le=10**6)]], Meta(max_length=8)]
+SignalShape = Annotated[list[Annotated[int, Meta(gt=0, le=10**6)]], Meta(max_length=8)]
 
 
 class RobotSensor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -26,7 +26,8 @@ class RobotSensor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     meaning: Annotated[str, Meta(description="what it reads; by default what the world says")] = ""
     shape: Annotated[
-        Shape | None, Meta(description="samples along each axis, as in the world; null: what the world has")
+        SignalShape | None,
+        Meta(description="samples along each axis, as in the world; null: what the world has"),
     ] = None
     unit: Annotated[str, Meta(description="unit of the readings; by default that of the world")] = ""
     source: Annotated[str, Meta(description="name of the sensor in the world; by default the same")] = (
@@ -41,7 +42,8 @@ class RobotMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
 
     meaning: Annotated[str, Meta(description="what it moves; by default what the world says")] = ""
     shape: Annotated[
-        Shape | None, Meta(description="samples along each axis, as in the world; null: what the world has")
+        SignalShape | None,
+        Meta(description="samples along each axis, as in the world; null: what the world has"),
     ] = None
     unit: Annotated[str, Meta(description="unit of the commands; by default that of the world")] = ""
     target: Annotated[str, Meta(description="name of the motor in the world; by default the same")] = (
