@@ -23,6 +23,7 @@ Reference:
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -54,7 +55,36 @@ from deodar.numerics.sigmoids.absolute import Absolute
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.parameters import ArrayLike
 
-MECHANISMS = ("correcting", "paper")
+
+@dataclass(frozen=True)
+class Mechanism:
+    """The parameters of a mechanism of learning that differ between them.
+
+    Attributes:
+        reward: rate of learning for each active sample of the match field; `correcting` weights them by a
+            Gaussian.
+        preshape: width of the pre-shape of the match field, pixels.
+        vision: integral and width (pixels) of the kernel of the visual intention.
+        wandering: correlation length of the noise that explores, servo units.
+        quadrature: quadrature of all fields.
+    """
+
+    reward: float
+    preshape: float
+    vision: tuple[float, float]
+    wandering: float
+    quadrature: str
+
+
+MECHANISMS = {
+    "correcting": Mechanism(0.6, 4.0, (40.0, 8.0), 64.0, "cell"),
+    "paper": Mechanism(0.15, 6.0, (30.0, 6.0), 40.0, "point"),
+}
+"""Both mechanisms. With `point` the peaks of steep sigmoids stick to samples, and corrections of less than a
+sample are lost. The paper's mechanism learns from rewards alone, and keeps what was rewarded once. Its
+pre-shape is wide, so that rewards are frequent, and its visual peak small and sharp, so that fewer neighbours
+of a place learn what belongs to it: found with tuning seeds, not derived.
+"""
 
 PIXELS = 128
 """Columns and rows of the event camera."""
@@ -82,9 +112,9 @@ DRIVE, CORRECTION, HALF_DRIVE = 6.0, 12.0, 0.2
 which the input is half of that.
 """
 
-BOOST, EXPLORATION, EXPLORATION_TAU, EXPLORATION_LENGTH = 4.3, 0.6, 300.0, 64.0
-"""Boost of the motor field by a visual intention; standard deviation, time constant (ms) and correlation
-length (servo units) of the noise that explores.
+BOOST, EXPLORATION, EXPLORATION_TAU = 4.3, 0.6, 300.0
+"""Boost of the motor field by a visual intention; standard deviation and time constant (ms) of the noise that
+explores.
 """
 
 APPROACH, MEMORY_OF_POSE = 900.0, 60.0
@@ -93,31 +123,17 @@ APPROACH, MEMORY_OF_POSE = 900.0, 60.0
 LEARNING_TAU = 400.0
 """Time constant of learning for a reward or lesson of 1, ms."""
 
-REWARD = {"correcting": 0.6, "paper": 0.15}
-"""Rate of learning for each active sample of the match field; `correcting` weights them by a Gaussian."""
-
 LESSON = 4.0
 """Rate of learning from a lesson."""
 
 MATCHED = 0.5
 """Active samples of the match field above which the paper's mechanism is rewarded."""
 
-PRESHAPE = {"correcting": 4.0, "paper": 6.0}
-"""Width of the pre-shape of the match field, pixels. The paper's mechanism learns from rewards alone, which a
-narrower pre-shape makes rare.
-"""
-
 MATCH_INHIBITS = 8.0
 """Inhibition of the correction field by each active sample of the match field, up to four of them."""
 
 SHARE, LARGEST = 0.1, 0.15
 """Share of the connected weights at the start, and the largest of them."""
-
-QUADRATURE = {"correcting": "cell", "paper": "point"}
-"""Quadrature of all fields. Their sigmoid is steep, so that with `point` peaks stick to samples, and
-corrections of less than a sample are lost. The paper's mechanism corrects nothing, and learns more with
-`point`, where the border of a peak is sharp: seen with the tuning seeds, not derived.
-"""
 
 
 def retina(samples: int = SAMPLES[0]) -> tuple[Axis, Axis]:
@@ -184,7 +200,7 @@ class _Looking:
         self.model, self.mechanism = model, mechanism
         self.plane, self.motions = list(plane), list(motions)
         self.both = [Axis("component", 0, 1, 2)]
-        self.quadrature = QUADRATURE[mechanism]
+        self.own = MECHANISMS[mechanism]
 
     # ------------------------------------------------------------------------------------------------ seeing
 
@@ -193,7 +209,7 @@ class _Looking:
         model = self.model
         camera = model.add(Sensor("events", self.plane, sensor="events"))
         trace = model.add(
-            Field("event rate", self.plane, tau=EVENTS_TAU, resting_level=0.0, quadrature=self.quadrature)
+            Field("event rate", self.plane, tau=EVENTS_TAU, resting_level=0.0, quadrature=self.own.quadrature)
         )
         blur = model.add(Convolve([Gaussian(EVENTS_GAIN, 4.0, normalized=True)], name="blur"))
         limit = model.add(Envelope("lower", name="limit"))
@@ -201,7 +217,7 @@ class _Looking:
         camera >> trace
         trace["activation"] >> blur >> limit >> self.perceptual
         model.add(Boost("most input", [], MOST_INPUT)) >> limit["other"]
-        self.vision = self.field("visual intention", self.plane, 40.0, 8.0, 0.40)
+        self.vision = self.field("visual intention", self.plane, *self.own.vision, 0.40)
         self.seen = self.size("visual peak", self.vision, PIXEL_AREA, 6.0, 1.0)
 
     # ------------------------------------------------------------------------------------------------ moving
@@ -234,8 +250,8 @@ class _Looking:
                 tau=EXPLORATION_TAU,
                 resting_level=0.0,
                 noise=float(noise),
-                noise_length=EXPLORATION_LENGTH,
-                quadrature=self.quadrature,
+                noise_length=self.own.wandering,
+                quadrature=self.own.quadrature,
             )
         )
         level = model.add(Sum(name="level"))
@@ -337,7 +353,7 @@ class _Looking:
 
     def match(self) -> None:
         """Add the match field (eq. 15)."""
-        centre, width = (PIXELS - 1) / 2, PRESHAPE[self.mechanism]
+        centre, width = (PIXELS - 1) / 2, self.own.preshape
         self.matching = self.field("match", self.plane, 2.0, 4.0, 0.05)
         self.perceptual >> self.gain(4.0, "match input") >> self.matching
         bell = self.model.add(
@@ -359,7 +375,7 @@ class _Looking:
         gate = model.add(
             RewardGate(
                 threshold=MATCHED * PIXEL_AREA,
-                strength=REWARD["paper"] / PIXEL_AREA,
+                strength=self.own.reward / PIXEL_AREA,
                 graded=True,
                 gated=True,
                 name="reward",
@@ -428,7 +444,7 @@ class _Looking:
 
         gate = model.add(Product(name="learning"))
         corrects >> self.gain(LESSON, "lesson strength") >> gate
-        amount >> self.gain(REWARD["correcting"], "reward strength") >> gate
+        amount >> self.gain(self.own.reward, "reward strength") >> gate
         after >> gate["factor"]
         for coupling in (self.transformation, again):
             lesson >> coupling["post"]
@@ -466,7 +482,7 @@ class _Looking:
                 kernel=[Gaussian(excitation, width, normalized=True)] if excitation else [],
                 global_inhibition=inhibition / area,
                 noise=strength_of_noise(noise, TAU, axes),
-                quadrature=self.quadrature,
+                quadrature=self.own.quadrature,
             )
         )
 

@@ -52,7 +52,7 @@ def test_a_summary_counts_a_missing_gaze_as_a_miss() -> None:
 
 def test_the_design_has_other_seeds_than_tuning() -> None:
     seeds = {job.arguments["seed"] for job in looking.jobs(False)}
-    assert seeds == set(range(11, 21))
+    assert seeds == set(range(11, 31)), "tuning used 1 to 8"
     of = [job for job in looking.jobs(False) if job.arguments["condition"] == "correcting"]
     assert len(of) == 10 and len(of[0].keys) == 4 + 3 * 2
 

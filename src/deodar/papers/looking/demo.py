@@ -30,7 +30,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     from deodar.model.files import save
     from deodar.papers.looking import figures, narrative
 
-    mechanism = args.mechanism or MECHANISMS[0]
+    mechanism = args.mechanism or next(iter(MECHANISMS))
     if mechanism not in MECHANISMS:
         raise ParameterError(f"--mechanism is {mechanism!r}", fix=f"One of {', '.join(MECHANISMS)}")
     gazes = narrative.GAZES if args.gazes is None else args.gazes
