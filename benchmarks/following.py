@@ -4,9 +4,10 @@
 The robot `head` shows its picture every 20 ms; a field selects the red ball, and its peak turns the head with
 a speed of GAIN times the bearing of the peak. Pictures and commands are each delayed by half of the delay and
 lost at random; a motor without a command for 200 ms rests. Time is that of the model, so that the table does
-not depend on the machine. For each cell 20 runs of 30 s, which differ in the losses and in the noise of the
-field: the rms error of the direction after 5 s, and in how many runs the ball left the picture (28 deg) after
-that. `--quick` takes 5 runs. `--out FILE` writes the rows as CSV.
+not depend on the machine. benchmarks/following.csv has the rows of the last run. For each cell 20 runs of 30
+s, which differ in the losses and in the noise of the field: the rms error of the direction after 5 s, and in
+how many runs the ball left the picture (28 deg) after that. `--quick` takes 5 runs. `--out FILE` writes the
+rows as CSV.
 
 A head that turns with a speed of GAIN times an error that is known a time T late is stable as long as
 GAIN T < pi / 2. T is the delay and the lag of the loop itself, LAG. The benchmark asserts that the ball never
