@@ -15,6 +15,9 @@ from hypothesis import HealthCheck, settings
 
 from tests import durations
 
+# small matrices: more threads of BLAS would only wait for each other beside other tests
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 settings.register_profile(
     "quick",
     max_examples=5,

@@ -8,6 +8,8 @@ from deodar import errors as errors
 from deodar import figures as figures
 from deodar import papers as papers
 from deodar import worlds as worlds
+from deodar.analysis.continuation.continuation import continuation as continuation
+from deodar.analysis.continuation.dynamics import dynamics as dynamics
 from deodar.analysis.isolated import isolate as isolate
 from deodar.analysis.memory import forgetting as forgetting
 from deodar.analysis.memory import outlives as outlives

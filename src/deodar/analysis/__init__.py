@@ -8,6 +8,9 @@ other names from the module.
 from typing import TYPE_CHECKING
 
 from deodar import renamed
+from deodar.analysis.continuation.bifurcation import Bifurcation
+from deodar.analysis.continuation.branch import SteadyBranch
+from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.memory import Memory, forgetting, outlives
 from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
@@ -22,7 +25,9 @@ from deodar.analysis.statistics import anova, mean_interval, median_interval, wi
 from deodar.analysis.thresholds import Thresholds, Transition, descend, thresholds
 
 __all__ = [
+    "Bifurcation",
     "Branch",
+    "Dynamics",
     "FixedPoint",
     "Grid",
     "Isolated",
@@ -34,6 +39,7 @@ __all__ = [
     "Selection",
     "Settled",
     "SettledRamp",
+    "SteadyBranch",
     "Thresholds",
     "Transition",
     "anova",

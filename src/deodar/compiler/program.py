@@ -168,6 +168,10 @@ class Program:
                 out.append(self._prepared(g, {**values, "swept": ()}))
         return out
 
+    def prepare_one(self, values: ProgramValues) -> list[Constants]:
+        """Constants of every group of one copy, for one value of each sweep."""
+        return [self._prepared(g, values) for g in range(len(self.plan.groups))]
+
     def init(self, values: ProgramValues, seed: Array, trial: Array) -> tuple[ProgramState, NoiseKeys]:
         """Return the state at the start, and the noise keys of a trial."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]

@@ -1,0 +1,117 @@
+"""A branch of steady states over one parameter, with its bifurcations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from deodar.analysis.continuation import switching
+from deodar.analysis.continuation.bifurcation import Bifurcation
+from deodar.analysis.continuation.line import Line
+from deodar.analysis.continuation.naming import named
+from deodar.analysis.continuation.walk import NEUTRAL, Walk, with_step_values
+from deodar.codec import JsonObject
+from deodar.errors import AnalysisError
+
+
+@dataclass(frozen=True)
+class SteadyBranch:
+    """Steady states of a model, stable or not, in the order in which they were found.
+
+    Attributes:
+        parameter: path of the parameter.
+        values: its value at each state.
+        states: the states x, one row each; `read` and `state` give their parts.
+        rates: the growth rate of the fastest mode of each, per document time; below 0: stable.
+        growing: the number of growing modes of each.
+        bifurcations: what lies between them.
+        ended: why each end is one: `span`, `closed`, `points` or `lost`; the start first.
+        line: the model along its parameter.
+        not_refined: why it was not followed on a grid twice as fine; empty if it was, or was not to be.
+    """
+
+    parameter: str
+    values: np.ndarray
+    states: np.ndarray
+    rates: np.ndarray
+    growing: np.ndarray
+    bifurcations: tuple[Bifurcation, ...]
+    ended: tuple[str, str]
+    line: Line = field(repr=False)
+    not_refined: str = ""
+
+    @property
+    def stable(self) -> np.ndarray:
+        """Whether each state is stable; a neutral mode does not count."""
+        return self.growing == 0
+
+    def read(self, path: str) -> np.ndarray:
+        """Return a port in every state, such as `u.activation`; states first."""
+        line = self.line
+        points = [line.point(x, value) for x, value in zip(self.states, self.values, strict=True)]
+        return np.stack([line.dynamics.read(path, line.state(z), line.all_parameters(z)) for z in points])
+
+    def state(self, number: int) -> dict[str, np.ndarray]:
+        """Return the arrays of one state by element and name, such as `u.activation`."""
+        return self.line.dynamics.state(self.states[number])
+
+    def switch(
+        self, at: Bifurcation, span: tuple[float, float] | None = None, points: int = 400
+    ) -> list[SteadyBranch]:
+        """Return the branches that leave a branch point, in both directions of its mode.
+
+        Args:
+            at: a branch point of this branch.
+            span: values of the parameter; None: those of this branch.
+            points: largest number of states of each.
+
+        Raises:
+            AnalysisError: it is not a branch point, or no other branch was found there.
+        """
+        if at.kind != "branch point":
+            raise AnalysisError(f"no branch leaves a {at.kind}", fix="Give one of the branch points")
+        limits = span or (float(self.values.min()), float(self.values.max()))
+        found = [branch(self.parameter, walked) for walked in switching.switched(at, limits, points)]
+        if not found:
+            raise AnalysisError(f"no other branch was found at {at!r}")
+        return found
+
+    def data(self) -> JsonObject:
+        """Return what was found as plain data, without the states."""
+        return {
+            "parameter": self.parameter,
+            "from": float(self.values[0]),
+            "to": float(self.values[-1]),
+            "states": len(self.values),
+            "stable": int(self.stable.sum()),
+            "ended": list(self.ended),
+            "bifurcations": [found.data() for found in self.bifurcations],
+        }
+
+    def __repr__(self) -> str:
+        low, high = self.values.min(), self.values.max()
+        found = "".join(f"\n  {b!r}" for b in self.bifurcations)
+        return f"<{len(self.values)} steady states over {self.parameter} from {low:.4g} to {high:.4g}{found}>"
+
+
+def branch(parameter: str, walked: tuple[Line, Walk], begin: str = "start") -> SteadyBranch:
+    """Return a walk as a branch, its bifurcations with their names."""
+    line, walk = walked
+    rates = np.array([float(p.rates.real.max(initial=-np.inf)) for p in walk.points])
+    growing = np.array([int((p.rates.real * line.slowest > NEUTRAL).sum()) for p in walk.points])
+    found: list[Bifurcation] = []
+    for b in with_step_values(line, walk):
+        # a state that is unstable on both sides is never seen
+        seen = min(growing[b.index], growing[b.index + 1]) == 0
+        found.append(named(b, walk.points) if seen else b)
+    return SteadyBranch(
+        parameter,
+        np.array([line.value(p.z) for p in walk.points]),
+        np.array([line.state(p.z) for p in walk.points]),
+        rates,
+        growing,
+        tuple(found),
+        (begin, walk.ended),
+        line,
+    )

@@ -1,0 +1,128 @@
+"""Continuation: the steady states of a model as a function of one parameter."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from deodar.analysis.continuation.bifurcation import Bifurcation
+from deodar.analysis.continuation.branch import SteadyBranch, branch
+from deodar.analysis.continuation.dynamics import Dynamics, dynamics
+from deodar.analysis.continuation.line import Line
+from deodar.analysis.continuation.refinement import checked
+from deodar.analysis.continuation.walk import begun, walk
+from deodar.errors import AnalysisError, ParameterError
+from deodar.model.model import Model
+from deodar.parameters import show
+
+MOST = 1000
+"""Largest number of states of a branch."""
+
+SETTLING = 200.0
+"""Time constants for which the model runs before Newton's method begins."""
+
+
+def continuation(
+    model: Model,
+    parameter: str,
+    span: tuple[float, float],
+    induced_by: Mapping[str, float] | None = None,
+    at: float = 0.0,
+    hold: Sequence[str] = (),
+    even: Sequence[str] = (),
+    finer: bool = True,
+) -> SteadyBranch:
+    """Follow the steady states of a model, stable and unstable, as one parameter changes.
+
+    The branch begins with the state to which the model settles at the first value of the span, and turns at
+    folds. Bifurcations on it are located, and named where peaks appear, vanish, or lose.
+
+    Args:
+        model: the model; noise is off.
+        parameter: path of the parameter, a live number or one that rebuilds.
+        span: first and last value; the branch ends where it leaves the interval between them.
+        induced_by: values of other parameters at which the model settles first, before it settles with its
+            own: the input of a peak that outlives it.
+        at: document time at which stimuli are evaluated.
+        hold: paths of elements whose state is constant, such as what learns.
+        even: names of axes about whose middle states are mirror images of themselves; keeps a peak without
+            input from being found at every sample.
+        finer: whether the branch is followed on a grid twice as fine as well, for the error of each value and
+            to recognise what only the grid makes.
+
+    Raises:
+        AnalysisError: an element has no steady state, or the model has none at the start of the span.
+        ParameterError: a path is unknown, changing the parameter needs another program, or the span is not an
+            interval.
+
+    Reference:
+        Keller (1977), Numerical solution of bifurcation and nonlinear eigenvalue problems (pseudo-arclength
+        continuation). Laing (2014), J. Math. Neurosci. 4:13 (of neural fields).
+    """
+    ends = _span(span)
+    made = dict(induced_by or {})
+    if parameter in made:
+        raise ParameterError(
+            "is the parameter of the span", where=parameter, fix="Leave it out of induced_by"
+        )
+
+    def follow(of: Model) -> SteadyBranch:
+        return _followed(dynamics(of, [parameter, *made], at, hold, even), parameter, ends, made)
+
+    found = follow(model)
+    if not finer:
+        return found
+
+    def fine(of: Model) -> tuple[Sequence[Bifurcation], bool]:
+        there = follow(of)
+        return there.bifurcations, there.ended[1] in ("span", "closed")
+
+    checks, why = checked(model, found.bifurcations, abs(ends[1] - ends[0]), fine)
+    return dc.replace(found, bifurcations=checks, not_refined=why)
+
+
+def _followed(
+    own: Dynamics, parameter: str, ends: tuple[float, float], made: Mapping[str, float]
+) -> SteadyBranch:
+    """Return the branch that begins where the model settles at the first value."""
+    first, last = ends
+    length = abs(last - first) / 10
+    values = own.values.copy()
+    values[0] = first
+    line = Line(own, 0, values, length)
+    x = own.start
+    if made:
+        strong = values.copy()
+        strong[1:] = list(made.values())
+        x = own.settle(x, strong, SETTLING)
+    x = own.settle(x, values, SETTLING)
+    start = begun(line, x, first, math.copysign(1.0, last - first))
+    if start is None:
+        raise AnalysisError(*_unsettled(own, x, values, parameter, first))
+    low, high = sorted((first, last))
+    return branch(parameter, (line, walk(line, start, (low, high), MOST)))
+
+
+def _span(span: tuple[float, float]) -> tuple[float, float]:
+    try:
+        first, last = (float(value) for value in span)
+    except (TypeError, ValueError):
+        raise ParameterError(f"the span is {show(span)}; expected two numbers") from None
+    if not (math.isfinite(first) and math.isfinite(last)) or first == last:
+        raise ParameterError(f"the span is {show(span)}; expected two different, finite numbers")
+    return first, last
+
+
+def _unsettled(own: Dynamics, x: np.ndarray, values: np.ndarray, parameter: str, first: float) -> tuple[str]:
+    """Return a message that says where the model still moves."""
+    if not np.isfinite(x).all():
+        return (f"the model does not stay finite at {parameter} = {first:g}",)
+    state = own.state(np.abs(own.rates(x, values)))
+    fastest = max(state, key=lambda name: float(np.abs(state[name]).max(initial=0.0)))
+    return (
+        f"the model has no steady state near the one it reaches at {parameter} = {first:g}: {fastest} still"
+        f" changes by {float(np.abs(state[fastest]).max()):.2g} per time constant",
+    )

@@ -1,0 +1,296 @@
+"""Pseudo-arclength continuation: following steady states around folds, and locating what happens between."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses as dc
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy import optimize
+
+from deodar.analysis.continuation.bifurcation import Bifurcation, BifurcationKind
+from deodar.analysis.continuation.line import Line, Linearisation, Rates
+
+ACCURACY = 1e-9
+"""Largest residual of a steady state, in units of activation."""
+
+NEUTRAL = 1e-7
+"""Growth rate times the longest time constant below which a mode counts as neutral."""
+
+STRAY = 0.3
+"""Largest distance of a corrected point from its predictor, as a share of the step.
+
+Beyond it the point may lie on another branch: without this bound the lower branch of a 2-D field was left for
+the upper one without a fold.
+"""
+
+TURN = 0.9
+"""Smallest cosine between the directions of two successive points."""
+
+SHORTEST, LONGEST = 1e-7, 0.5
+"""Steps along the branch, in root mean square of activation."""
+
+
+@dataclass(frozen=True)
+class WalkPoint:
+    """A steady state on the way: its point, the direction of the branch, and its growth rates."""
+
+    z: np.ndarray
+    direction: np.ndarray
+    rates: Rates
+
+
+@dataclass
+class Walk:
+    """What was found on the way.
+
+    Attributes:
+        points: the steady states.
+        bifurcations: what lies between them.
+        ended: why it ended: `span`, `closed`, `points`, or `lost`.
+    """
+
+    points: list[WalkPoint]
+    bifurcations: list[Bifurcation] = field(default_factory=list[Bifurcation])
+    ended: str = ""
+
+
+def walk(
+    line: Line,
+    start: WalkPoint,
+    span: tuple[float, float],
+    most: int,
+    step: float = 0.1,
+    told: Callable[[float], object] = lambda value: None,
+) -> Walk:
+    """Follow a branch from a point until it leaves the span, closes, or has `most` points."""
+    found, size = Walk([start]), step
+    while len(found.points) < most:
+        now = found.points[-1]
+        ahead = _advanced(line, now, size)
+        if ahead is None or (abs(growing(line, ahead[0]) - growing(line, now)) > 2 and size > 1e-3):
+            size /= 2
+            if size < SHORTEST:
+                found.ended = "lost"
+                return found
+            continue
+        after, effort = ahead
+        found.bifurcations += _between(line, now, after, size, len(found.points) - 1)
+        found.points.append(after)
+        told(line.value(after.z))
+        if not span[0] <= line.value(after.z) <= span[1]:
+            found.points[-1] = _at_end(line, now, after, span)
+            found.bifurcations = [b for b in found.bifurcations if span[0] <= b.value <= span[1]]
+            found.ended = "span"
+            return found
+        if _closed(found.points, size):
+            found.ended = "closed"
+            return found
+        size = min(1.5 * size, LONGEST) if effort <= 3 else size / 1.5 if effort >= 6 else size
+    found.ended = "points"
+    return found
+
+
+def with_step_values(line: Line, found: Walk) -> list[Bifurcation]:
+    """Return the bifurcations; Hopf points with the nearest value at which Euler's step begins to oscillate.
+
+    A mode with the growth rate r changes by 1 + dt r in a step, so that it grows if |1 + dt r| > 1.
+    """
+    dt = line.dynamics.dt
+    factors = [_turning(point, dt) for point in found.points]
+    crossings = [k for k in range(len(factors) - 1) if factors[k] * factors[k + 1] < 0]
+    out: list[Bifurcation] = []
+    for bifurcation in found.bifurcations:
+        if bifurcation.kind == "Hopf" and crossings:
+            k = min(crossings, key=lambda k: abs(k - bifurcation.index))
+            value = _crossing(line, found.points[k], found.points[k + 1], dt)
+            bifurcation = dc.replace(bifurcation, step_value=value)
+        out.append(bifurcation)
+    return out
+
+
+def _turning(point: WalkPoint, dt: float) -> float:
+    """Return |1 + dt r| - 1 of the fastest mode that oscillates; -1 without one."""
+    turning = point.rates[np.abs(point.rates.imag) > 1e-9]
+    return float(np.abs(1 + dt * turning).max(initial=0.0)) - 1
+
+
+def _crossing(line: Line, before: WalkPoint, after: WalkPoint, dt: float) -> float | None:
+    """Return the value at which an oscillation of Euler's step begins to grow, between two points."""
+    chord = after.z - before.z
+    row = chord / np.linalg.norm(chord)
+    reached: dict[float, np.ndarray] = {}
+
+    def at(share: float) -> float:
+        found = corrected(line, before.z + share * chord, row)
+        if found is None:
+            raise _Lost
+        reached[share] = found[0]
+        return _turning(WalkPoint(found[0], row, found[1].rates()), dt)
+
+    try:
+        return line.value(reached[_zero(at)])
+    except (_Lost, ValueError, KeyError):
+        return None
+
+
+def begun(line: Line, x: np.ndarray, value: float, direction: float) -> WalkPoint | None:
+    """Return the steady state near x as the first point of a branch towards larger or smaller values; None if
+    Newton's method does not find it.
+    """
+    row = np.zeros(x.size + 1)
+    row[-1] = 1.0
+    z = line.point(x, value)
+    at = line.at(z)
+    for _ in range(30):
+        size = np.abs(at.residual).max(initial=0.0)
+        if size < ACCURACY:
+            return WalkPoint(z, tangent(at, direction * row), at.rates())
+        move = at.solve(row, np.append(-at.residual, 0.0), 1e-6)
+        share = 1.0
+        while True:
+            new = line.at(z + share * move)
+            if np.abs(new.residual).max() < (1 - 1e-4 * share) * size or share < 1e-3:
+                break
+            share /= 2
+        z, at = z + share * move, new
+    return None
+
+
+def tangent(at: Linearisation, before: np.ndarray) -> np.ndarray:
+    """Return the unit direction of the branch that continues the one before."""
+    right = np.zeros(before.size)
+    right[-1] = 1.0
+    found = at.solve(before, right, 1e-8)
+    return found / np.linalg.norm(found)
+
+
+def corrected(line: Line, guess: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, Linearisation, int] | None:
+    """Return the steady state in the plane through a guess, across a direction.
+
+    The equations there and the number of Newton steps follow; None if Newton's method does not converge.
+    """
+    z, before = guess, np.inf
+    for effort in range(9):
+        at = line.at(z)
+        size = np.abs(at.residual).max(initial=0.0)
+        if size < ACCURACY and effort > 0:
+            return z, at, effort
+        if not np.isfinite(size) or size > max(1e4, 100 * before):
+            return None
+        before = size
+        z = z + at.solve(row, -np.append(at.residual, row @ (z - guess)), 1e-5)
+    return None
+
+
+def growing(line: Line, point: WalkPoint) -> int:
+    """Return the number of growing modes."""
+    return int((point.rates.real * line.slowest > NEUTRAL).sum())
+
+
+def _advanced(line: Line, now: WalkPoint, size: float) -> tuple[WalkPoint, int] | None:
+    """Return the next point of the branch, and how many Newton steps it took; None if it may be another
+    branch.
+    """
+    guess = now.z + size * now.direction
+    found = corrected(line, guess, now.direction)
+    if found is None:
+        return None
+    z, at, effort = found
+    if np.linalg.norm(z - guess) > STRAY * size:
+        return None
+    ahead = tangent(at, now.direction)
+    if ahead @ now.direction < TURN:
+        return None
+    return WalkPoint(z, ahead, at.rates()), effort
+
+
+def _at_end(line: Line, now: WalkPoint, after: WalkPoint, span: tuple[float, float]) -> WalkPoint:
+    """Return the steady state at the end of the span, between a point inside and one outside."""
+    end = min(max(line.value(after.z), span[0]), span[1]) / line.length
+    guess = now.z + (after.z - now.z) * (end - now.z[-1]) / (after.z[-1] - now.z[-1])
+    row = np.zeros(guess.size)
+    row[-1] = 1.0
+    found = corrected(line, guess, row)
+    if found is None:
+        return after
+    z, at, _ = found
+    return WalkPoint(z, tangent(at, now.direction), at.rates())
+
+
+def _closed(points: list[WalkPoint], size: float) -> bool:
+    """Return whether the branch has come back to its start."""
+    first, last = points[0], points[-1]
+    near = float(np.linalg.norm(last.z - first.z)) < 0.75 * size
+    return len(points) > 6 and near and abs(float(last.direction @ first.direction)) > TURN
+
+
+# ----------------------------------------------------------------------------------- what lies between points
+
+
+def _between(line: Line, now: WalkPoint, after: WalkPoint, size: float, index: int) -> list[Bifurcation]:
+    """Return the bifurcations between two points."""
+    found: list[Bifurcation] = []
+    turns = now.direction[-1] * after.direction[-1] < 0
+    if turns:
+        found.append(_located(line, now, size, index, "fold", lambda ahead, _: ahead[-1]))
+    few, many = sorted((growing(line, now), growing(line, after)))
+    left = many - few - (1 if turns else 0)
+    if left <= 0:
+        return found
+    more = after if growing(line, after) > growing(line, now) else now
+    crossing = more.rates[few:many]
+    if many - few >= 2 and np.abs(crossing.imag).max() > 1e-6 / line.slowest:
+        found.append(_located(line, now, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real))
+    else:
+        mode = few + (1 if turns and more is after else 0)
+        found.append(_located(line, now, size, index, "branch point", lambda _, at: at.rates()[mode].real))
+    return found
+
+
+class _Lost(Exception):
+    """Raised inside a search where the branch is not found."""
+
+
+def _zero(of: Callable[[float], float]) -> float:
+    """Return a zero between 0 and 1; raise ValueError if both ends have one sign."""
+    search: Any = optimize.brentq
+    return float(search(of, 0.0, 1.0, xtol=1e-13, rtol=1e-12, maxiter=60))
+
+
+def _located(
+    line: Line,
+    now: WalkPoint,
+    size: float,
+    index: int,
+    kind: BifurcationKind,
+    test: Callable[[np.ndarray, Linearisation], float],
+) -> Bifurcation:
+    """Return a bifurcation at the zero of a test along the branch after a point.
+
+    The test is a function of the direction of the branch and of the equations there.
+    """
+    seen: list[tuple[float, np.ndarray]] = []
+
+    def at(share: float) -> float:
+        found = corrected(line, now.z + share * size * now.direction, now.direction)
+        if found is None:
+            raise _Lost
+        z, linear, _ = found
+        value = float(test(tangent(linear, now.direction), linear))
+        seen.append((abs(value), z))
+        return value
+
+    # a failed search leaves the nearest point to the zero that was reached
+    with contextlib.suppress(_Lost, ValueError):
+        _zero(at)
+    z = min(seen, key=lambda point: point[0])[1] if seen else now.z
+    linear = line.at(z)
+    rates = linear.rates()
+    nearest = complex(rates[np.argmin(np.abs(rates.real if kind == "Hopf" else rates))])
+    frequency = abs(nearest.imag) if kind == "Hopf" else 0.0
+    vector = linear.mode(nearest)
+    return Bifurcation(kind, line.value(z), line.state(z), vector, nearest.real, frequency, index, line)
