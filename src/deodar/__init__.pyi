@@ -137,6 +137,7 @@ from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.run import run_trial as run_trial
 from deodar.exporters.exporting import export as export
 from deodar.figures._files import save_figure as save_figure
+from deodar.figures.bifurcation import bifurcation_diagram as bifurcation_diagram
 from deodar.figures.path import animate_path as animate_path
 from deodar.figures.path import path_figure as path_figure
 from deodar.figures.projection import projection as projection

@@ -198,6 +198,16 @@ def world(text: str | None) -> World | None:
     return None if text is None else named(text, f"--world {text}")
 
 
+def figure(out: Path | None, stem: str) -> Path:
+    """Return the path of a figure: the requested one, else the first free number in the working folder."""
+    if out is not None:
+        return out
+    number = 1
+    while (path := Path(f"{stem}-{number:03d}.png")).exists() or path.is_symlink():
+        number += 1
+    return path
+
+
 def shown(path: Path) -> str:
     """Return a path for a shell: relative inside the working folder, quoted if a shell would split it."""
     try:

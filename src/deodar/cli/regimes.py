@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
 
     _options.use_cores(args.cores)
     model = load(args.file)
-    target = _target(args)
+    target = _options.figure(args.out, f"{args.file.stem}-regimes")
     # start-up time: these bring JAX
     from rich.console import Console
 
@@ -91,16 +91,6 @@ def run(args: argparse.Namespace) -> int:
         print(_table(found))
         print(f"\nFigure: {target}")
     return 0
-
-
-def _target(args: argparse.Namespace) -> Path:
-    """Return the path of the figure: the requested one, else the first free number in the working folder."""
-    if args.out is not None:
-        return args.out
-    number = 1
-    while (path := Path(f"{args.file.stem}-regimes-{number:03d}.png")).exists() or path.is_symlink():
-        number += 1
-    return path
 
 
 def _table(found: Regimes) -> str:

@@ -1,0 +1,128 @@
+"""The command `deodar continuation FILE PARAMETER FIRST LAST`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar import codec
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    from deodar.analysis.continuation.branch import SteadyBranch
+
+HELP = "follow the steady states of a model over one parameter, and locate its instabilities"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    _options.add_document(parser)
+    parser.add_argument("parameter", metavar="PARAMETER", help="path of the parameter, as s.amplitude")
+    parser.add_argument("first", type=float, metavar="FIRST", help="its first value")
+    parser.add_argument("last", type=float, metavar="LAST", help="its last value")
+    parser.add_argument(
+        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
+    )
+    parser.add_argument(
+        "--induced-by",
+        type=_options.setting,
+        action="append",
+        metavar="PATH=VALUE",
+        help="value of another parameter at which the model settles first: the input of a peak that remains",
+    )
+    parser.add_argument("--hold", nargs="+", default=[], metavar="PATH", help="elements that are constant")
+    parser.add_argument(
+        "--even",
+        nargs="+",
+        default=[],
+        metavar="AXIS",
+        help="axes whose two sides are mirror images",
+    )
+    parser.add_argument("--at", type=float, default=0.0, metavar="T", help="time of the stimuli")
+    parser.add_argument("--show", default="", metavar="PORT", help="port to draw (default: the first field)")
+    parser.add_argument(
+        "--switch", action="store_true", help="follow the branches that leave branch points as well"
+    )
+    parser.add_argument(
+        "--one-grid", action="store_true", help="do not repeat on a grid twice as fine, for the errors"
+    )
+    parser.add_argument(
+        "-o",
+        "--out",
+        type=Path,
+        metavar="FIGURE",
+        help="the figure, .png or .svg (default: FILE-continuation-001.png, -002, ...)",
+    )
+    parser.add_argument("--force", action="store_true", help="replace the figure if it exists")
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the bifurcations, and write the figure."""
+    # matrices are small: more threads of BLAS would wait for each other. Read when NumPy is imported
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # start-up time: these bring JAX
+    from rich.console import Console
+
+    from deodar.analysis.continuation.continuation import continuation
+    from deodar.figures import _files
+    from deodar.figures.bifurcation import bifurcation_diagram
+    from deodar.importers.opening import load
+
+    model = load(args.file)
+    for path, value in args.set or ():
+        model.set(path, value)
+    target = _options.figure(args.out, f"{args.file.stem}-continuation")
+    _files.claim(target, args.force)
+    with Console(stderr=True).status("following steady states"):
+        found = continuation(
+            model,
+            args.parameter,
+            (args.first, args.last),
+            {path: float(value) for path, value in args.induced_by or ()},
+            args.at,
+            args.hold,
+            args.even,
+            finer=not args.one_grid,
+        )
+        points = [b for b in found.bifurcations if b.kind == "branch point"] if args.switch else []
+        others = [other for b in points for other in found.switch(b)]
+        figure = bifurcation_diagram(found, *others, shown=args.show)
+    _files.save_figure(figure, target, args.force)
+    if args.json:
+        answer = found.data() | {"switched": [other.data() for other in others], "figure": str(target)}
+        print(codec.text(answer))
+        return 0
+    print(_table(found))
+    for other in others:
+        print(f"\nA branch that leaves a branch point:\n{_table(other)}")
+    print(f"\nFigure: {target}")
+    return 0
+
+
+def _table(found: SteadyBranch) -> str:
+    """Return the bifurcations in words, one per line."""
+    low, high = float(found.values.min()), float(found.values.max())
+    lines = [
+        f"{len(found.values)} steady states over {found.parameter} from {low:.4g} to {high:.4g},"
+        f" {int(found.stable.sum())} of them stable"
+    ]
+    for b in found.bifurcations:
+        lines.append(f"  {b.value:<12.8g} {b.words}")
+        if b.step_value is not None:
+            lines.append(f"{'':15}with the Euler step {found.line.dynamics.dt:g} at {b.step_value:.6g}")
+        if b.fine_value is not None:
+            lines.append(f"{'':15}on a grid twice as fine {b.fine_value:.8g}")
+        if b.kind == "fold" and b.instability:
+            strongest = sorted(b.sensitivity.items(), key=lambda pair: -abs(pair[1]))[:3]
+            text = ", ".join(f"{slope:+.3g} per {path}" for path, slope in strongest)
+            lines.append(f"{'':15}moves by {text}")
+    if not found.bifurcations:
+        lines.append("  no bifurcation")
+    if found.not_refined:
+        lines.append(f"Not followed on a finer grid: {found.not_refined}.")
+    if found.ended[1] in ("points", "lost"):
+        lines.append(f"The branch ends inside the span, at {found.values[-1]:.6g}.")
+    return "\n".join(lines)
