@@ -175,6 +175,14 @@ def test_a_model_without_a_steady_state_says_what_still_changes():
         dd.continuation(model, "s.amplitude", (0, 8))
 
 
+def test_a_stimulus_outside_of_its_windows_is_named():
+    model = line(31)
+    model.set("s.windows", [(100.0, 200.0)])
+    with pytest.raises(AnalysisError, match=r"s.amplitude: changes nothing .*, at time 0.*--at 200"):
+        dd.continuation(model, "s.amplitude", (0, 8))
+    assert dd.continuation(model, "s.amplitude", (0, 8), at=150, finer=False).bifurcations
+
+
 def test_the_parameter_of_the_span_cannot_induce_the_state():
     with pytest.raises(ParameterError, match="Leave it out of induced_by"):
         dd.continuation(node(), "s.amplitude", (0, 8), induced_by={"s.amplitude": 3})

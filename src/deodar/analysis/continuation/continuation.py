@@ -13,7 +13,7 @@ from deodar.analysis.continuation.branch import SteadyBranch, branch
 from deodar.analysis.continuation.dynamics import Dynamics, dynamics
 from deodar.analysis.continuation.line import Line
 from deodar.analysis.continuation.refinement import checked
-from deodar.analysis.continuation.walk import begun, walk
+from deodar.analysis.continuation.walk import WalkPoint, begun, walk
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model.model import Model
 from deodar.parameters import show
@@ -102,8 +102,23 @@ def _followed(
     start = begun(line, x, first, math.copysign(1.0, last - first))
     if start is None:
         raise AnalysisError(*_unsettled(own, x, values, parameter, first))
+    _require_effect(line, start, parameter, last)
     low, high = sorted((first, last))
     return branch(parameter, (line, walk(line, start, (low, high), MOST)))
+
+
+def _require_effect(line: Line, start: WalkPoint, parameter: str, last: float) -> None:
+    """Raise an error if the parameter changes nothing in the first state."""
+    own, x, here = line.dynamics, line.state(start.z), line.all_parameters(start.z)
+    there, unit = here.copy(), np.zeros(here.size)
+    there[line.index], unit[line.index] = last, 1.0
+    if own.along(x, here, np.zeros(x.size), unit).any() or (own.rates(x, there) != own.rates(x, here)).any():
+        return
+    raise AnalysisError(
+        f"changes nothing in the steady state, at time {own.at:g}",
+        where=parameter,
+        fix="If it belongs to a stimulus with windows, name a time inside of them: at=200, or --at 200",
+    )
 
 
 def _span(span: tuple[float, float]) -> tuple[float, float]:
