@@ -20,7 +20,7 @@ HELP = "list installed packages, devices, the cache of compiled programs, and wh
 EXTRAS = {
     "docs": "zensical",
     "events": "aedat",
-    "network": "eclipse-zenoh",
+    "network": "rosbags",
     "test": "pytest",
     "video": "imageio-ffmpeg",
     "vision": "opencv-python-headless",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -77,16 +77,20 @@ def _check(robot: Robot) -> dict[str, Any]:
     robot.sense_all(shaped, 0.0)
     live = robot.wall_clock
     before, began = _received(robot), time.monotonic()
+    each = dict(_by_sensor(robot))
     if live:
         time.sleep(WATCHED)
         robot.sense_all(shaped, 0.0)
-    rate = (_received(robot) - before) / (time.monotonic() - began) if live else None
+    seconds = time.monotonic() - began
+    rate = (_received(robot) - before) / seconds if live else None
+    rates = {name: (n - each.get(name, 0)) / seconds for name, n in _by_sensor(robot).items()}
     sensors: JsonObject = {}
     for name, signal in robot.sensors.items():
         period = signal.period or robot.period
         text = "constant" if period is None else f"{1000 / period:.3g} Hz"
-        if rate is not None and _received(robot):
-            text += f", {rate:.3g} Hz counted"
+        counted = rates.get(robot.source_of(name), rate)
+        if counted is not None and _received(robot):
+            text += f", {counted:.3g} Hz counted"
         sensors[name] = f"{signal}; {text}"
     motors: JsonObject = {}
     for name, signal in robot.motors.items():
@@ -116,3 +120,9 @@ def _received(robot: Robot) -> int:
     """Return the number of periods that came over the network."""
     link = robot.link()
     return 0 if link is None else link.received
+
+
+def _by_sensor(robot: Robot) -> Mapping[str, int]:
+    """Return the number of messages of each sensor of the world, where they come one by one."""
+    link = robot.link()
+    return {} if link is None else link.by_sensor

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
@@ -12,10 +13,11 @@ class LinkState:
     Attributes:
         robot: name of the robot.
         age: time since the last message of the robot, ms.
-        received: periods of the robot that arrived.
+        received: periods of the robot that arrived; messages, where its sensors come one by one.
         lost: periods that did not arrive.
         refused: messages that were not read: short, foreign, not finite, or with a number that goes back.
         round_trip: time from the last command that the robot answered to its answer, ms; 0: none yet.
+        by_sensor: messages of each sensor, where they come one by one.
     """
 
     robot: str
@@ -24,3 +26,4 @@ class LinkState:
     lost: int
     refused: int
     round_trip: float
+    by_sensor: Mapping[str, int] = field(default_factory=dict[str, int])

@@ -31,7 +31,7 @@ from deodar.worlds.robot.robot_file import RobotFile, RobotMotor, RobotSensor
 NOT_DATA = ("combined", "recording", "robot")
 """Kinds of worlds whose arguments are not plain data."""
 
-ENDPOINTS = ("at",)
+ENDPOINTS = ("at", "topic", "type")
 """Settings that contain slashes and are not paths."""
 
 
@@ -88,8 +88,9 @@ class Robot(World):
             name: _signal(name, self.world.motors, target, entry, f"{where}: motor {name}")
             for name, (target, entry) in self._motors.items()
         }
+        own: Mapping[str, MotorRule] = getattr(self.world, "rules", {}) if not self.file.motors else {}
         self.rules: Mapping[str, MotorRule] = {
-            name: entry.rule(f"{where}: {name}") for name, (_, entry) in self._motors.items()
+            name: own.get(name) or entry.rule(f"{where}: {name}") for name, (_, entry) in self._motors.items()
         }
         self._limiter = MotorLimiter(self.motors, self.rules)
 
@@ -136,6 +137,10 @@ class Robot(World):
     def halt(self) -> None:
         self._limiter.rest()
         self.world.halt()
+
+    def source_of(self, sensor: str) -> str:
+        """Return the name of a sensor in the world."""
+        return self._sensors[sensor][0]
 
     def close(self) -> None:
         """Close the world, if it has something to close."""
@@ -269,7 +274,7 @@ def _inside(name: str, value: Any, path: Path) -> Any:
     if isinstance(value, list):
         return [_inside(name, each, path) for each in value]
     if isinstance(value, dict):
-        return {key: _inside(name, each, path) for key, each in value.items()}
+        return {key: _inside(str(key), each, path) for key, each in value.items()}
     if not isinstance(value, str) or name in ENDPOINTS:
         return value
     folder = path.resolve().parent

@@ -88,7 +88,7 @@ class RobotFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     robot: Annotated[int, Meta(ge=VERSION, le=VERSION, description="version of this form of file")]
     name: Annotated[str, Meta(min_length=1, max_length=100, description="name of the robot")]
     kind: Annotated[
-        str, Meta(min_length=1, description="kind of the world, for example arena, mujoco or zenoh")
+        str, Meta(min_length=1, description="kind of the world, for example arena, mujoco, zenoh or ros2")
     ]
     settings: Annotated[
         dict[str, Any], Meta(description="settings of the world; files are named relative to this file")

@@ -47,8 +47,13 @@ def require_endpoint(text: str, trusted: bool = False) -> str:
     return text
 
 
-def connect(endpoint: str, patience: float) -> Any:
+def connect(endpoint: str, patience: float, router: bool = False) -> Any:
     """Return a session of Zenoh that is connected to an endpoint and listens nowhere.
+
+    Args:
+        endpoint: the endpoint.
+        patience: time after which a program that does not answer is given up, s.
+        router: whether a router of ROS 2 listens there, through which all messages go, or the robot itself.
 
     Raises:
         WorldError: no program listens there within `patience` seconds.
@@ -56,6 +61,7 @@ def connect(endpoint: str, patience: float) -> Any:
     zenoh = library()
     config = _config(
         {
+            "mode": "client" if router else "peer",
             "listen/endpoints": [],
             "connect/endpoints": [endpoint],
             "connect/timeout_ms": max(1, round(1000 * patience)),
@@ -65,21 +71,26 @@ def connect(endpoint: str, patience: float) -> Any:
     try:
         return zenoh.open(config)
     except zenoh.ZError:
-        raise WorldError(
-            f"no robot answers at {endpoint} within {patience:g} s",
-            fix="Start the robot, for example: deodar serve arena:blocks",
-        ) from None
+        who, start = ("robot", "Start the robot, for example: deodar serve arena:blocks")
+        if router:
+            who, start = "router of ROS 2", "Start it: ros2 run rmw_zenoh_cpp rmw_zenohd"
+        raise WorldError(f"no {who} answers at {endpoint} within {patience:g} s", fix=start) from None
 
 
-def listen(endpoint: str) -> Any:
+def listen(endpoint: str, router: bool = False) -> Any:
     """Return a session of Zenoh that listens at an endpoint, and nowhere else.
+
+    Args:
+        endpoint: the endpoint.
+        router: whether messages between others go through this session.
 
     Raises:
         WorldError: the endpoint is taken, or is not one of this machine.
     """
     zenoh = library()
     try:
-        return zenoh.open(_config({"listen/endpoints": [endpoint]}))
+        mode = "router" if router else "peer"
+        return zenoh.open(_config({"mode": mode, "listen/endpoints": [endpoint]}))
     except zenoh.ZError as error:
         taken = "in use" in str(error)
         raise WorldError(

@@ -1,0 +1,38 @@
+"""The types of messages that sensors read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from deodar.worlds.ros2.distances import RangeReading, ScanReading
+from deodar.worlds.ros2.message_types import full_name
+from deodar.worlds.ros2.pictures import CompressedReading, PictureReading
+from deodar.worlds.ros2.reading import Reading
+from deodar.worlds.ros2.states import ImuReading, JointReading, OdometryReading
+from deodar.worlds.ros2.topic_sensor import TopicSensor, entries
+from deodar.worlds.ros2.wire import require_topic
+
+SENSOR_TYPES: Mapping[str, type[Reading]] = {
+    "nav_msgs/msg/Odometry": OdometryReading,
+    "sensor_msgs/msg/CompressedImage": CompressedReading,
+    "sensor_msgs/msg/Image": PictureReading,
+    "sensor_msgs/msg/Imu": ImuReading,
+    "sensor_msgs/msg/JointState": JointReading,
+    "sensor_msgs/msg/LaserScan": ScanReading,
+    "sensor_msgs/msg/Range": RangeReading,
+}
+
+
+def readings(data: Any) -> dict[str, tuple[str, str, Reading]]:
+    """Return topic, type and reading of each sensor, from a setting as plain data.
+
+    Raises:
+        WorldError: an entry is not what its type needs.
+    """
+    found: dict[str, tuple[str, str, Reading]] = {}
+    for name, entry in entries(data, TopicSensor, "sensors").items():
+        where = f"sensors {name}"
+        topic, type = require_topic(entry.topic, where), full_name(entry.type, tuple(SENSOR_TYPES), where)
+        found[name] = topic, type, SENSOR_TYPES[type](entry, where)
+    return found

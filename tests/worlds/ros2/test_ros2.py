@@ -1,0 +1,329 @@
+"""A robot that uses ROS 2 as a world, against a node that is written from the specification."""
+
+from __future__ import annotations
+
+import gc
+import json
+import re
+import struct
+import threading
+import time
+import weakref
+
+import numpy as np
+import psutil
+import pytest
+
+import deodar as dd
+from deodar.errors import WorldError
+from deodar.worlds.ros2.motor_types import MOTOR_TYPES
+from deodar.worlds.ros2.ros2 import ROS2
+from deodar.worlds.ros2.sensor_types import SENSOR_TYPES
+from tests.house.source import ROOT
+from tests.worlds.ros2.fake import GID, HASHES, distance, key, scan
+
+SCAN = {"topic": "/scan", "type": "sensor_msgs/LaserScan", "shape": [4]}
+BEAMS = [dd.Axis("beam", 0, 3, 4)]
+DRIVE = {
+    "forward": {
+        "topic": "/cmd_vel",
+        "type": "geometry_msgs/Twist",
+        "fields": "linear.x",
+        "limits": [-0.3, 0.3],
+    },
+    "turn": {"topic": "/cmd_vel", "type": "geometry_msgs/Twist", "fields": "angular.z", "limits": [-1, 1]},
+}
+
+
+def begun(robot, sensors=None, motors=None, **settings) -> ROS2:
+    world = ROS2(sensors or {}, motors or {}, robot.at, **{"period": 10.0, **settings})
+    world.reset(0)
+    return world
+
+
+def wait_for(condition, seconds: float = 20.0) -> None:
+    limit = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < limit
+        time.sleep(0.01)
+
+
+def driving() -> dd.Model:
+    model = dd.Model("driving", dt=10)
+    model.add(dd.Sensor("see", BEAMS, sensor="scan"))
+    model.add(dd.Boost("go", amplitude=0.2)) >> model.add(dd.Motor("ahead", motor="forward"))
+    model.add(dd.Boost("left", amplitude=5.0)) >> model.add(dd.Motor("round", motor="turn"))
+    return model
+
+
+def test_a_model_sees_a_scan_and_drives_within_its_limits(robot):
+    world = ROS2({"scan": SCAN}, DRIVE, robot.at, period=10.0, patience=2.0)
+    session = dd.Session(driving(), world=world)
+    session.run_live(300)
+    assert session.read("see").tolist() == [1, 2, 3, 4]
+    robot.ranges = [4.0, 3.0, 2.0, 1.0]
+    session.run_live(200)
+    assert session.read("see").tolist() == [4, 3, 2, 1]
+    wait_for(lambda: len(robot.commands) > 5)
+    assert np.allclose(robot.commands[-1], [0.2, 0, 0, 0, 0, 1.0])
+    world.close()
+    assert robot.commands[-1] == (0,) * 6
+
+
+def test_commands_have_the_key_and_the_attachment_of_rmw_zenoh(robot):
+    world = begun(robot, motors=DRIVE)
+    for _ in range(3):
+        world.act({"forward": np.array([0.1])}, 0.0)
+    wait_for(lambda: len(robot.heard) >= 3)
+    numbers, publishers = [], set()
+    for _, where, attached in robot.heard[:3]:
+        assert where == key("/cmd_vel", "Twist")
+        sequence, sent, length = struct.unpack("<qqB", attached[:17])
+        assert len(attached) == 33 and length == 16 and abs(sent / 1e9 - time.time()) < 60
+        numbers.append(sequence)
+        publishers.add(attached[17:])
+    assert numbers == [1, 2, 3] and len(publishers) == 1
+    world.close()
+
+
+def test_nodes_of_ros_see_the_node_its_publisher_and_its_subscription(robot):
+    world = begun(robot, {"scan": SCAN}, DRIVE)
+    mine = [t for t in robot.tokens() if "/deodar" in t]
+    found = {t.split("/")[5]: t.split("/") for t in mine}
+    assert set(found) == {"NN", "MP", "MS"} and len(mine) == 3
+    assert found["NN"][:2] == ["@ros2_lv", "0"] and found["NN"][3:] == ["0", "0", "NN", "%", "%", "deodar"]
+    twist, laser = "geometry_msgs::msg::dds_::Twist_", "sensor_msgs::msg::dds_::LaserScan_"
+    assert found["MP"][6:12] == ["%", "%", "deodar", "%cmd_vel", twist, HASHES["Twist"]]
+    assert found["MS"][6:12] == ["%", "%", "deodar", "%scan", laser, HASHES["LaserScan"]]
+    assert found["MP"][12] == "::,10:,:,:,,"
+    assert len({tuple(parts[2:5]) for parts in found.values()}) == 3, "each has a number of its own"
+    world.close()
+    wait_for(lambda: not any("/deodar" in t for t in robot.tokens()))
+
+
+def test_motors_go_to_rest_when_no_command_follows(robot):
+    world = begun(robot, motors=DRIVE)
+    world.act({"forward": np.array([0.2]), "turn": np.array([0.5])}, 0.0)
+    wait_for(lambda: robot.commands and robot.commands[-1] == (0,) * 6)
+    assert len(robot.commands) == 2 and robot.heard[1][0] - robot.heard[0][0] > 0.15
+    world.act({"forward": np.array([0.2])}, 0.0)
+    wait_for(lambda: robot.commands[-1][0] == 0.2)
+    world.reset(0)
+    wait_for(lambda: robot.commands[-1] == (0,) * 6)
+    world.close()
+
+
+def test_a_rate_of_change_is_kept(robot):
+    entry = {**DRIVE["forward"], "slew": 1.0}
+    world = begun(robot, motors={"forward": entry})
+    for _ in range(3):
+        world.act({"forward": np.array([9.0])}, 0.0)
+    wait_for(lambda: len(robot.commands) >= 3)
+    assert np.allclose([c[0] for c in robot.commands[:3]], [0.01, 0.02, 0.03])
+    world.close()
+
+
+def test_a_command_that_is_not_finite_is_not_sent(robot):
+    world = begun(robot, motors=DRIVE)
+    with pytest.raises(WorldError, match="motor 'forward': a command for /cmd_vel"):
+        world.act({"forward": np.array([np.nan])}, 0.0)
+    world.close()
+    assert not robot.commands
+
+
+def test_a_topic_that_falls_silent_is_named(robot):
+    world = begun(robot, {"scan": SCAN}, patience=0.2)
+    assert world.sense("scan", BEAMS, 0.0).tolist() == [1, 2, 3, 4]
+    robot.ranges = None
+    time.sleep(0.5)
+    with pytest.raises(
+        WorldError, match=r"sensor 'scan': the newest reading is .* of the topic /scan at tcp"
+    ):
+        world.sense("scan", BEAMS, 0.0)
+    world.close()
+
+
+def test_a_topic_without_a_publisher_is_named_with_the_nearest_one(robot, monkeypatch):
+    monkeypatch.setattr("deodar.worlds.ros2.ros2.FIRST", 0.5)
+    world = begun(robot, {"scan": {**SCAN, "topic": "/scam"}}, patience=0.2)
+    with pytest.raises(WorldError, match=r"nothing was read of the topic /scam.*/scan"):
+        world.sense("scan", BEAMS, 0.0)
+    world.close()
+
+
+NAN = float("nan")
+BAD = {
+    "short": (dict(raw=scan([1, 2, 3, 4])[:30]), "is not a sensor_msgs/msg/LaserScan"),
+    "empty": (dict(raw=b""), "is not a sensor_msgs/msg/LaserScan"),
+    "long": (dict(raw=scan([1, 2, 3, 4]) + b"12345678"), "is not a sensor_msgs/msg/LaserScan"),
+    "huge": (dict(raw=scan([1, 2, 3, 4])[:52] + b"\xff\xff\xff\x7f"), "is not a sensor_msgs/msg/LaserScan"),
+    "not a number": (dict(raw=scan([1, NAN, 3, 4])), '1 of its distances are undefined.*"undefined": 10'),
+    "shape": (dict(raw=scan([1, 2, 3])), r'it has 3 ranges, not 4.*"shape": \[3\]'),
+    "limits": (dict(raw=scan([1, 2, 3, 4], 5, 3)), "its distances are between 5 and 3 m"),
+    "type": (
+        dict(raw=b"\0\1\0\0\2\0\0\0a\0", key=f"0/scan/std_msgs::msg::dds_::String_/{HASHES['String']}"),
+        "it is a std_msgs/msg/String",
+    ),
+    "version": (
+        dict(raw=scan([1, 2, 3, 4]), key="0/scan/sensor_msgs::msg::dds_::LaserScan_/RIHS01_00"),
+        "of another version",
+    ),
+    "no attachment": (dict(raw=scan([1, 2, 3, 4]), attachment=None), "it has no attachment"),
+    "attachment": (dict(raw=scan([1, 2, 3, 4]), attachment=b"12"), "its attachment has 2 bytes, not 33"),
+    "old": (
+        dict(raw=scan([1, 2, 3, 4]), attachment=struct.pack("<qqB", 0, 0, 16) + GID),
+        "its sequence number goes back",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", BAD)
+def test_a_bad_message_is_counted_named_and_never_read(robot, what):
+    changes, said = BAD[what]
+    world = begun(robot, {"scan": SCAN}, patience=0.2)
+    world.sense("scan", BEAMS, 0.0)
+    robot.ranges = None
+    time.sleep(0.05)
+    before = world.link()
+    robot.send("/scan", "LaserScan", **changes)
+    wait_for(lambda: world.link().refused > before.refused)
+    assert world.link().received == before.received
+    time.sleep(0.3)
+    with pytest.raises(
+        WorldError, match=re.compile(f"the last message of /scan was refused: .*{said}", re.S)
+    ):
+        world.sense("scan", BEAMS, 0.0)
+    world.close()
+
+
+def test_beams_without_an_echo_have_the_largest_distance(robot):
+    world = begun(robot, {"scan": SCAN, "filled": {**SCAN, "undefined": 9.0}}, patience=5.0)
+    robot.ranges = [np.inf, -np.inf, 0.1, 10.0]
+    wait_for(lambda: world.sense("scan", BEAMS, 0.0)[1] == np.float32(0.1))
+    assert np.allclose(world.sense("scan", BEAMS, 0.0), [10, 0.1, 0.1, 10])
+    robot.ranges = [NAN, 0.0, 11.0, 5.0]
+    wait_for(lambda: world.sense("filled", BEAMS, 0.0).tolist() == [9, 9, 9, 5])
+    world.close()
+
+
+def test_a_range_is_one_number(robot):
+    world = begun(robot, {"near": {"topic": "/ir/left", "type": "sensor_msgs/msg/Range"}}, patience=5.0)
+    robot.until("%ir%left")
+    robot.send("/ir/left", "Range", distance(0.75))
+    assert world.sense("near", [], 0.0) == np.float32(0.75) and world.sensors["near"].unit == "m"
+    world.close()
+
+
+def test_messages_that_are_lost_are_counted(robot):
+    robot.ranges = None
+    world = begun(robot, {"near": {"topic": "/ir", "type": "sensor_msgs/Range"}}, patience=5.0)
+    robot.until("%ir")
+    robot.send("/ir", "Range", distance(1.0))
+    robot.sequence += 3
+    robot.send("/ir", "Range", distance(2.0))
+    wait_for(lambda: world.link().received == 2)
+    assert world.link().lost == 3 and world.link().by_sensor == {"near": 2}
+    world.close()
+
+
+def test_another_domain_hears_nothing(robot, monkeypatch):
+    monkeypatch.setattr("deodar.worlds.ros2.ros2.FIRST", 0.3)
+    world = begun(robot, {"scan": SCAN}, domain=7, patience=0.2)
+    with pytest.raises(WorldError, match=r"No node publishes there\. Type: ros2 topic list"):
+        world.sense("scan", BEAMS, 0.0)
+    world.close()
+
+
+def test_a_router_that_is_missing_is_named(monkeypatch):
+    monkeypatch.setattr("deodar.worlds.ros2.ros2.FIRST", 0.2)
+    world = ROS2({"scan": SCAN}, at="tcp/127.0.0.1:1", patience=0.2)
+    with pytest.raises(
+        WorldError, match=r"no router of ROS 2 answers at .*ros2 run rmw_zenoh_cpp rmw_zenohd"
+    ):
+        world.reset(0)
+
+
+def test_another_host_needs_trust():
+    with pytest.raises(WorldError, match="beyond this machine"):
+        ROS2({"scan": SCAN}, at="tcp/10.0.0.2:7447")
+
+
+def test_nothing_is_left_after_close(robot):
+    threads, sockets = threading.active_count(), used()
+    world = begun(robot, {"scan": SCAN}, DRIVE)
+    world.act({"forward": np.array([0.1])}, 0.0)
+    world.close()
+    wait_for(lambda: threading.active_count() == threads and used() == sockets)
+    world.reset(0)
+    assert world.sense("scan", BEAMS, 0.0).tolist() == [1, 2, 3, 4], "it connects again"
+    gone = weakref.ref(world)
+    del world
+    gc.collect()
+    assert gone() is None
+    wait_for(lambda: threading.active_count() == threads and used() == sockets)
+
+
+def used() -> int:
+    """Return the number of the connections of this process."""
+    return sum(c.status == psutil.CONN_ESTABLISHED for c in psutil.Process().net_connections("inet"))
+
+
+def test_the_robot_file_of_the_manual_is_one(tmp_path):
+    page = (ROOT / "docs" / "ros2.md").read_text(encoding="utf-8")
+    file = tmp_path / "turtle.json"
+    file.write_text(page.split("```json\n")[1].split("```")[0])
+    robot = dd.Robot(file)
+    assert list(robot.sensors) == ["scan", "pose", "camera"] and list(robot.motors) == ["forward", "turn"]
+    assert robot.rules["turn"].slew == 4 and not robot.repeatable
+    types = [*SENSOR_TYPES, *MOTOR_TYPES]
+    assert all(f"| `{name.replace('/msg', '')}`" in page for name in types)
+
+
+def test_a_robot_file_names_the_topics_and_is_checked(robot, tmp_path, capsys):
+    from deodar.cli import main
+
+    file = tmp_path / "mine.json"
+    settings = {"sensors": {"scan": SCAN}, "motors": DRIVE, "at": robot.at, "period": 10, "patience": 5}
+    lab = {"kind": "ros2", "settings": settings}
+    data = {"robot": 1, "name": "mine", "kind": "arena", "settings": {"layout": "blocks"}}
+    file.write_text(json.dumps(data | {"places": {"simulated": {}, "lab": lab}}))
+    assert main(["robots", "check", f"{file}@lab"]) == 0
+    shown = capsys.readouterr().out
+    assert "mine is there: ros2, live" in shown and "sensor scan: ranges of /scan by angle" in shown
+    assert re.search(r"motor forward: .*; -0.3 to 0.3; at rest 0 after 200 ms", shown)
+    assert float(re.search(r"([\d.]+) Hz counted", shown)[1]) > 5
+    assert not robot.commands, "nothing moved"
+
+
+@pytest.mark.parametrize(
+    ("sensors", "motors", "said"),
+    [
+        ({}, {}, "names no topic"),
+        ({"a": 3}, {}, "sensors a: Expected `object`"),
+        ({"a": {**SCAN, "shape": None}}, {}, r'needs its shape.*"shape": \[360\]'),
+        ({"a": {**SCAN, "joints": ["x"]}}, {}, "has no setting 'joints'"),
+        ({"a": {**SCAN, "topic": "/a b"}}, {}, "'/a b' is not the name of a topic"),
+        ({"a": {**SCAN, "type": "sensor_msgs/LaserScam"}}, {}, "LaserScan"),
+        ({"a": {**SCAN, "fields": "range"}}, {}, "there is no field 'range'.*ranges"),
+        ({"a": {**SCAN, "shapes": 1}}, {}, "unknown field `shapes`"),
+        ({}, {"m": {**DRIVE["turn"], "fields": ["linear.w"]}}, "there is no field 'linear.w'"),
+        ({}, {"m": {**DRIVE["turn"], "limits": [1, -1]}}, r"motors m: limits is \(1"),
+        ({}, {"m": DRIVE["turn"], "n": DRIVE["turn"]}, "angular.z of /cmd_vel is commanded by the motor 'm'"),
+        (
+            {},
+            {"m": DRIVE["turn"], "n": {**DRIVE["forward"], "type": "geometry_msgs/TwistStamped"}},
+            "has the type geometry_msgs/msg/Twist for another motor",
+        ),
+        ({}, {"m": {"topic": "/a", "type": "std_msgs/Float64MultiArray"}}, "needs its shape"),
+        ({}, {"m": {"topic": "/a", "type": "std_msgs/Float64MultiArray", "shape": [2]}}, '"rest": null'),
+        ({}, {"m": {"topic": "/a", "type": "trajectory_msgs/JointTrajectory"}}, "names no joints"),
+        (
+            {},
+            {"m": {"topic": "/a", "type": "trajectory_msgs/JointTrajectory", "joints": ["a"], "slew": 1}},
+            "begins at the command at rest",
+        ),
+    ],
+)
+def test_settings_are_checked(sensors, motors, said):
+    with pytest.raises(WorldError, match=said):
+        ROS2(sensors, motors)
