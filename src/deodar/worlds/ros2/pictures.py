@@ -12,7 +12,7 @@ from deodar.numerics.axes import Axes
 from deodar.worlds._base import Signal
 from deodar.worlds._image import PICTURE, sampled
 from deodar.worlds.ros2.message_types import MOST_BYTES, Unreadable
-from deodar.worlds.ros2.reading import Reading
+from deodar.worlds.ros2.reading import Reading, finite
 
 COLOURS = {
     "rgb8": (3, (0, 1, 2)),
@@ -73,7 +73,7 @@ class PictureReading(Reading):
                 raise Unreadable(what, 'State a depth in their place, in m: "undefined": 10')
             found[strange] = self.entry.undefined
         cells = found.reshape(down, message.height // down, across, message.width // across)
-        return np.ascontiguousarray(cells.mean((1, 3)).T)
+        return np.ascontiguousarray(finite(cells.mean((1, 3), float).T, "mean depth"))
 
 
 class CompressedReading(Reading):

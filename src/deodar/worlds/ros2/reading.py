@@ -75,7 +75,8 @@ def finite(values: Any, what: str) -> np.ndarray:
     Raises:
         Unreadable: one of them is not finite.
     """
-    array = np.asarray(values, np.float32)
+    with np.errstate(over="ignore"):  # what is too large for float32 is infinite
+        array = np.asarray(values, np.float32)
     if not np.isfinite(array).all():
         raise Unreadable(f"its {what} is not finite")
     return array
