@@ -200,6 +200,7 @@ from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording
 from deodar.worlds.robot.robot import Robot as Robot
 from deodar.worlds.ros2.ros2 import ROS2 as ROS2
+from deodar.worlds.ros_bag.ros_bag import ROSBag as ROSBag
 from deodar.worlds.video import Video as Video
 from deodar.worlds.zenoh.zenoh import Zenoh as Zenoh
 

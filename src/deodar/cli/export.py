@@ -18,14 +18,15 @@ HELP = (
 )
 EPILOG = """\
 netcdf, csv and zarr hold the values; cedar is a folder with one CSV file for each variable, as cedar's
-recorder writes it, and mat a file of MATLAB. gif, mp4 (extra video) and png (a folder of numbered files) show
+recorder writes it, mat a file of MATLAB, and rosbag a bag of ROS 2 with a topic for each variable (extra
+network). gif, mp4 (extra video) and png (a folder of numbered files) show
 what deodar plot draws, frame by frame: a line moves over panels of time, and snapshots, projections and paths
 show each time.
 cosivina and nir write a model instead of a record, with a report of what was carried, approximated or
 dropped; `deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. nir is a network of spiking
 neurons (extra neuromorphic). Status 1 with --strict if anything was not carried."""
 
-DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr", "cedar": "", "mat": ".mat"}
+DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr", "cedar": "", "mat": ".mat", "rosbag": ""}
 TOOLS = {"cosivina": ".json", "nir": ".nir"}
 VIDEOS = {"gif": ".gif", "mp4": ".mp4", "png": ""}
 """Formats, and the endings of their names; the others are folders."""
@@ -44,8 +45,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         choices=(*DATA, *VIDEOS, *TOOLS),
         metavar="FORMAT",
         help=(
-            "netcdf, csv, zarr, cedar, mat, gif, mp4, png, cosivina or nir (default: given by the ending of"
-            " --out)"
+            "netcdf, csv, zarr, cedar, mat, rosbag, gif, mp4, png, cosivina or nir (default: given by the"
+            " ending of --out)"
         ),
     )
     parser.add_argument(
@@ -184,7 +185,7 @@ def _shown(bar: Bar) -> Callable[[int, int], None]:
 def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
     """Write the values of the selected part of a record; return the names of its variables."""
     # start-up time: these bring JAX
-    from deodar.recording import cedar, files, mat
+    from deodar.recording import cedar, files, mat, rosbag
 
     if args.record.suffix.lower() == ".toml":
         args.wrong(f"{args.record} describes a figure, and --to {format} writes the values of a record")
@@ -198,6 +199,8 @@ def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
         cedar.save(part, out, args.force)
     elif format == "mat":
         mat.save(part, out, args.force)
+    elif format == "rosbag":
+        rosbag.save(part, out, args.force)
     else:
         files.save_record(part, out, format, args.force)
     return names

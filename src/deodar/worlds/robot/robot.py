@@ -279,7 +279,8 @@ def _inside(name: str, value: Any, path: Path) -> Any:
         return value
     folder = path.resolve().parent
     named = folder / value
-    if any(mark in value for mark in ("/", "\\", "..")) or named.is_file():
+    bag = (named / "metadata.yaml").is_file()  # a folder that is opened as one file
+    if any(mark in value for mark in ("/", "\\", "..")) or named.is_file() or bag:
         if not named.resolve().is_relative_to(folder):
             raise WorldError(
                 f"{name} is {show(value)}, outside the folder of the robot's file", where=str(path)

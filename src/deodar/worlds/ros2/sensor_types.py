@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from deodar.worlds.ros2.arrays import ArrayReading
 from deodar.worlds.ros2.distances import RangeReading, ScanReading
 from deodar.worlds.ros2.message_types import full_name
 from deodar.worlds.ros2.pictures import CompressedReading, PictureReading
@@ -21,6 +22,8 @@ SENSOR_TYPES: Mapping[str, type[Reading]] = {
     "sensor_msgs/msg/JointState": JointReading,
     "sensor_msgs/msg/LaserScan": ScanReading,
     "sensor_msgs/msg/Range": RangeReading,
+    "std_msgs/msg/Float32MultiArray": ArrayReading,
+    "std_msgs/msg/Float64MultiArray": ArrayReading,
 }
 
 
