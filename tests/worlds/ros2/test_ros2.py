@@ -6,6 +6,8 @@ import gc
 import json
 import re
 import struct
+import subprocess
+import sys
 import threading
 import time
 import weakref
@@ -111,6 +113,26 @@ def test_motors_go_to_rest_when_no_command_follows(robot):
     world.reset(0)
     wait_for(lambda: robot.commands[-1] == (0,) * 6)
     world.close()
+
+
+LEFT = """
+import sys, time
+import numpy as np
+import deodar as dd
+world = dd.ROS2(motors={"drive": {"topic": "/cmd_vel", "type": "geometry_msgs/Twist"}}, at=sys.argv[1])
+world.reset(0)
+world.act({"drive": np.array([[0.25, 0.5]])}, 0.0)
+time.sleep(0.05)
+"""
+
+
+@pytest.mark.parametrize("end", ["", "raise SystemExit(3)", "1 / 0"])
+def test_a_script_that_ends_leaves_the_motors_at_rest(robot, end):
+    code = LEFT.replace('Twist"}', 'Twist", "stops_after": 60000}')
+    done = subprocess.run([sys.executable, "-c", code + end, robot.at], capture_output=True, text=True)
+    assert done.returncode == {"": 0, "1 / 0": 1}.get(end, 3), done.stderr
+    wait_for(lambda: len(robot.commands) == 2)
+    assert robot.commands == [(0.25, 0, 0, 0, 0, 0.5), (0,) * 6]
 
 
 def test_a_rate_of_change_is_kept(robot):

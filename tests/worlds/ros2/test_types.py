@@ -57,6 +57,13 @@ def inertia() -> bytes:
     return bytes(made.number("d", 1, 2, 3).number("d", *[0] * 9).number("d", 4, 5, 9.8, *[0] * 9).raw)
 
 
+def array(code: str, values, *sizes: int) -> bytes:
+    made = Cdr().number("I", len(sizes))
+    for k, size in enumerate(sizes):
+        made.text("axis").number("I", size, math.prod(sizes[k:]))
+    return bytes(made.number("I", 0, len(values)).number(code, *values).raw)
+
+
 # --------------------------------------------------------------------------------------------------- pictures
 
 
@@ -188,6 +195,17 @@ def test_an_imu_is_angular_velocity_then_acceleration():
     assert np.isclose(read(inertia(), "sensor_msgs/Imu", fields="yaw"), math.pi / 2)
 
 
+def test_arrays_are_in_c_order():
+    wide = read(array("d", [1 / 3, 2], 2), "std_msgs/Float64MultiArray", shape=[2])
+    assert wide.dtype == np.float64 and wide.tolist() == [1 / 3, 2]
+    flat = array("f", [1, 2, 3, 4, 5, 6], 2, 3)
+    assert read(flat, "std_msgs/Float32MultiArray", shape=[2, 3]).tolist() == [[1, 2, 3], [4, 5, 6]]
+    with pytest.raises(Unreadable, match="it has 6 numbers, not 4"):
+        read(flat, "std_msgs/Float32MultiArray", shape=[2, 2])
+    with pytest.raises(Unreadable, match="its numbers are not finite"):
+        read(array("f", [math.inf]), "std_msgs/Float32MultiArray", shape=[1])
+
+
 @pytest.mark.parametrize(
     ("entry", "said"),
     [
@@ -220,6 +238,8 @@ def test_no_damaged_message_is_read():
         "nav_msgs/msg/Odometry": (odometry(turned(0.7)), {}),
         "sensor_msgs/msg/Imu": (inertia(), {}),
         "sensor_msgs/msg/CompressedImage": (bytes(Cdr().header().text("png").number("I", 0).raw), {}),
+        "std_msgs/msg/Float32MultiArray": (array("f", [1, 2, 3, 4, 5, 6], 2, 3), {"shape": [2, 3]}),
+        "std_msgs/msg/Float64MultiArray": (array("d", [1, 2]), {"shape": [2]}),
     }
     assert set(raws) == set(SENSOR_TYPES)
     random = np.random.default_rng(1)
