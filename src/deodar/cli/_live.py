@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import signal
 import sys
+import threading
+from collections.abc import Generator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -74,10 +77,10 @@ def run(args: argparse.Namespace) -> int:
         from deodar.session.run_live import run_live
 
         pace = Pace()
-        with _recorded(args, session) as recorder:
+        with _terminated(), _recorded(args, session) as recorder:
             try:
                 meter = run_live(session, duration, speed, args.longest_step, pace=pace)
-            except KeyboardInterrupt:  # Ctrl-C is the usual end of a live run: the measurements are printed
+            except KeyboardInterrupt:  # the usual end of a live run: the measurements are printed
                 meter, unit = pace.meter(session), session.document.time_unit
                 stopped = f"stopped at {session.time:g} of {duration:g} {unit}"
         answer["meter"] = meter.data() | {"complete": not stopped}
@@ -100,6 +103,19 @@ def run(args: argparse.Namespace) -> int:
     if stopped:
         print(f"deodar run: {_options.paragraph([stopped])}", file=sys.stderr)
     return 1 if stopped else 0
+
+
+@contextlib.contextmanager
+def _terminated() -> Generator[None]:
+    """End the run at SIGTERM as at Ctrl-C, so that a robot is put to rest."""
+    if threading.current_thread() is not threading.main_thread():  # no other one receives signals
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, lambda number, frame: signal.raise_signal(signal.SIGINT))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _refuse(args: argparse.Namespace) -> None:

@@ -74,9 +74,10 @@ class RosNode:
         )
 
     def topics(self, patience: float) -> dict[str, str]:
-        """Return the types of the topics that have a publisher, by topic; wait at most some seconds."""
+        """Return the types of the topics on which others publish, by topic; wait at most some seconds."""
         replies = self._session.liveliness().get(tokens_of(self._domain), timeout=patience)
-        return published(str(reply.ok.key_expr) for reply in replies if reply.ok is not None)
+        tokens = [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]
+        return published(token for token in tokens if token.split("/")[2] != self._identity)
 
     def close(self) -> None:
         """Leave the network."""

@@ -142,9 +142,8 @@ def silence(
         why: why the last message was refused; None: none was.
         near: what to type if nothing came.
     """
-    since = "nothing was read" if age is None else f"the newest reading is {age:.2f} s old"
+    since = "has no message that was read" if age is None else f"was last read {age:.2f} s ago"
+    text = f"the topic {topic} at {at} {since}"
     if why is not None:
-        text, fix = f"{since}, and the last message of {topic} was refused: {why}", why.fix
-    else:
-        text, fix = f"{since} of the topic {topic} at {at}", near
-    return WorldError(text, f"sensor {name!r}", fix)
+        return WorldError(f"{text}; its last message was refused: {why}", f"sensor {name!r}", why.fix)
+    return WorldError(text, f"sensor {name!r}", near)

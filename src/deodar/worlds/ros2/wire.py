@@ -134,4 +134,5 @@ def nearest_topic(topic: str, types: dict[str, str]) -> str:
     if not types:
         return "No node publishes there. Type: ros2 topic list"
     near = did_you_mean(topic, types)
-    return near if near else f"Topics with a publisher: {', '.join(types)}"
+    listed = ", ".join(list(types)[:20])
+    return near if near.startswith("Did you mean") else f"Topics with a publisher: {listed}"
