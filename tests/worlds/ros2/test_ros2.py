@@ -18,12 +18,13 @@ import psutil
 import pytest
 
 import deodar as dd
-from deodar.errors import WorldError
+from deodar.errors import MissingExtra, WorldError
+from deodar.worlds.ros2 import message_types
 from deodar.worlds.ros2.motor_types import MOTOR_TYPES
 from deodar.worlds.ros2.ros2 import ROS2
 from deodar.worlds.ros2.sensor_types import SENSOR_TYPES
 from tests.house.source import ROOT
-from tests.worlds.ros2.fake import GID, HASHES, distance, key, scan
+from tests.worlds.ros2.fake import GID, HASHES, Cdr, distance, key, scan
 
 SCAN = {"topic": "/scan", "type": "sensor_msgs/LaserScan", "shape": [4]}
 BEAMS = [dd.Axis("beam", 0, 3, 4)]
@@ -248,6 +249,48 @@ def test_a_range_is_one_number(robot):
     robot.send("/ir/left", "Range", distance(0.75))
     assert world.sense("near", [], 0.0) == np.float32(0.75) and world.sensors["near"].unit == "m"
     world.close()
+
+
+def test_a_picture_is_sampled_over_any_axes(robot):
+    world = begun(robot, {"eye": {"topic": "/cam/image", "type": "sensor_msgs/Image"}}, patience=5.0)
+    pixels = np.zeros((4, 6, 3), np.uint8)
+    pixels[:2, 3:] = (255, 51, 0)
+    made = Cdr().header().number("I", 4, 6).text("rgb8").number("B", 0).number("I", 18, pixels.nbytes)
+    robot.until("%cam%image")
+    robot.send("/cam/image", "Image", bytes(made.raw) + pixels.tobytes())
+    axes = [dd.Axis("x", 0, 1, 2), dd.Axis("y", 0, 1, 2), dd.Axis("channel", 0, 2, 3)]
+    wide = [dd.Axis("x", 0, 2, 3), *axes[1:]]
+    np.testing.assert_allclose(world.sense("eye", wide, 0.0)[2], [[1, 0.2, 0], [0, 0, 0]], atol=0.01)
+    with pytest.raises(WorldError, match="eye: a picture has two dimensions and three channels"):
+        world.sense("eye", axes[:2], 0.0)
+    world.close()
+
+
+def test_a_topic_that_is_rarer_than_the_exchanges_states_its_period(robot):
+    robot.ranges = None
+    world = begun(robot, {"scan": {**SCAN, "period": 60_000}}, patience=0.1)
+    robot.until("/MS/")
+    robot.send("/scan", "LaserScan", scan([1, 2, 3, 4]))
+    assert world.sense("scan", BEAMS, 0.0).tolist() == [1, 2, 3, 4]
+    time.sleep(0.3)
+    assert world.sense("scan", BEAMS, 0.0).tolist() == [1, 2, 3, 4]
+    world.close()
+
+
+@pytest.mark.parametrize("make", [lambda: ROS2({"scan": SCAN}), lambda: dd.ROSBag(ROOT)])
+def test_a_missing_extra_is_named(monkeypatch, make):
+    monkeypatch.setitem(sys.modules, "rosbags", None)
+    for name in [n for n in sys.modules if n.startswith("rosbags.")]:
+        monkeypatch.setitem(sys.modules, name, None)
+    message_types.store.cache_clear()
+    with pytest.raises(MissingExtra, match=r"needs the package rosbags.*pip install 'deodar\[network\]'"):
+        make()
+
+
+def test_neither_package_is_imported_before_a_world_is_made():
+    code = "import sys, deodar; deodar.ROS2, deodar.ROSBag; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not {"zenoh", "rosbags"} & set(done.stdout.split())
 
 
 def test_messages_that_are_lost_are_counted(robot):

@@ -26,7 +26,7 @@ from deodar.worlds.ros2.node import RosNode
 from deodar.worlds.ros2.sender import CommandSender
 from deodar.worlds.ros2.sensor_types import readings
 from deodar.worlds.ros2.topic_inbox import TopicInbox, silence
-from deodar.worlds.ros2.wire import nearest_topic, require_node
+from deodar.worlds.ros2.wire import nearest_topic
 from deodar.worlds.zenoh import link
 
 ROUTER = "tcp/localhost:7447"
@@ -34,6 +34,9 @@ ROUTER = "tcp/localhost:7447"
 
 FIRST = 3.0
 """Least time that is waited for the first message of a topic, s; nodes find each other meanwhile."""
+
+NODE = "deodar"
+"""Name of the node of the model."""
 
 MOST_DOMAIN = 232
 
@@ -84,8 +87,6 @@ class ROS2(World):
     }
     stands_in = False
     repeatable = False
-    NODE = "deodar"
-    """Name of the node of the model."""
 
     def __init__(
         self,
@@ -127,7 +128,7 @@ class ROS2(World):
         self._inbox.begin()
 
     def _connect(self) -> None:
-        node = RosNode(self.at, max(self.patience, FIRST), self.domain, require_node(self.NODE))
+        node = RosNode(self.at, max(self.patience, FIRST), self.domain, NODE)
         try:
             for topic, type in {topic: type for topic, type, _ in self._sensors.values()}.items():
                 node.subscribe(topic, type, partial(self._inbox.offer, topic))

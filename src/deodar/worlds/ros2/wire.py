@@ -21,7 +21,6 @@ QUALITY = "::,10:,:,:,,"
 """Quality of service in a token: all as by default (reliable, volatile, keep last), with a depth of 10."""
 
 _TOPIC = re.compile(r"/?(?:[A-Za-z_]\w*/)*[A-Za-z_]\w*", re.ASCII)
-_NODE = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 Role = Literal["NN", "MP", "MS"]
 """What a token stands for: a node, a publisher, or a subscription."""
@@ -67,15 +66,6 @@ def require_topic(text: str, where: str) -> str:
     if not _TOPIC.fullmatch(text):
         raise WorldError(f"{text!r} is not the name of a topic", where, "Write it as /scan or /robot/scan")
     return "/" + text.lstrip("/")
-
-
-def require_node(text: str) -> str:
-    """Return the name of a node, or raise WorldError."""
-    if not _NODE.fullmatch(text):
-        raise WorldError(
-            f"{text!r} is not the name of a node", fix="It has letters, digits and _, such as deodar"
-        )
-    return text
 
 
 def type_on_wire(name: str) -> str:
