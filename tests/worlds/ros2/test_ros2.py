@@ -52,6 +52,17 @@ def wait_for(condition, seconds: float = 20.0) -> None:
         time.sleep(0.01)
 
 
+def seen(world: ROS2) -> np.ndarray:
+    """Return the scan; a machine that other tests use may be late for a short patience."""
+    limit = time.monotonic() + 20
+    while True:
+        try:
+            return world.sense("scan", BEAMS, 0.0)
+        except WorldError:
+            if time.monotonic() > limit:
+                raise
+
+
 def driving() -> dd.Model:
     model = dd.Model("driving", dt=10)
     model.add(dd.Sensor("see", BEAMS, sensor="scan"))
@@ -172,11 +183,11 @@ def test_a_command_that_is_not_finite_is_not_sent(robot):
 
 def test_a_topic_that_falls_silent_is_named(robot):
     world = begun(robot, {"scan": SCAN}, patience=0.2)
-    assert world.sense("scan", BEAMS, 0.0).tolist() == [1, 2, 3, 4]
+    assert seen(world).tolist() == [1, 2, 3, 4]
     robot.ranges = None
     time.sleep(0.5)
     with pytest.raises(
-        WorldError, match=r"sensor 'scan': the topic /scan at tcp.* was last read 0\.\d+ s ago"
+        WorldError, match=r"sensor 'scan': the topic /scan at tcp.* was last read \d\.\d+ s ago"
     ):
         world.sense("scan", BEAMS, 0.0)
     world.close()
@@ -220,7 +231,7 @@ BAD = {
 def test_a_bad_message_is_counted_named_and_never_read(robot, what):
     changes, said = BAD[what]
     world = begun(robot, {"scan": SCAN}, patience=0.2)
-    world.sense("scan", BEAMS, 0.0)
+    seen(world)
     robot.ranges = None
     time.sleep(0.05)
     before = world.link()
@@ -334,7 +345,7 @@ def test_nothing_is_left_after_close(robot):
     world.close()
     wait_for(lambda: threading.active_count() == threads and used() == sockets)
     world.reset(0)
-    assert world.sense("scan", BEAMS, 0.0).tolist() == [1, 2, 3, 4], "it connects again"
+    assert seen(world).tolist() == [1, 2, 3, 4], "it connects again"
     gone = weakref.ref(world)
     del world
     gc.collect()

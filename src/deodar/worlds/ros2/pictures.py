@@ -104,7 +104,7 @@ def colours(message: Any) -> np.ndarray:
     """Return the picture (height, width, 3) of an Image of colours, as bytes."""
     size, places = COLOURS[message.encoding]
     pixels = rows(message, size).reshape(message.height, message.width, size)
-    return np.ascontiguousarray(pixels[:, :, list(places)])
+    return pixels if pixels.shape[2] == 3 and places == (0, 1, 2) else pixels[:, :, list(places)]
 
 
 def rows(message: Any, size: int) -> np.ndarray:
