@@ -128,6 +128,19 @@ def test_motors_go_to_rest_when_no_command_follows(robot):
     world.close()
 
 
+def test_a_halt_puts_the_motors_to_rest_before_their_time(robot):
+    motors = {name: {**entry, "stops_after": 60_000} for name, entry in DRIVE.items()}
+    world = begun(robot, motors=motors)
+    assert world.wall_clock
+    world.act({"forward": np.array([0.2])}, 0.0)
+    wait_for(lambda: robot.commands)
+    world.halt()
+    wait_for(lambda: robot.commands[-1] == (0,) * 6)
+    world.act({"forward": np.array([0.1])}, 0.0)
+    wait_for(lambda: robot.commands[-1][0] == 0.1)
+    world.close()
+
+
 LEFT = """
 import sys, time
 import numpy as np

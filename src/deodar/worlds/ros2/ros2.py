@@ -50,9 +50,9 @@ class ROS2(World):
     repeated; record its sensors, and replay them (`Recording`), or record a bag (`ROSBag`).
 
     A sensor without a message for `patience` is an error that names the topic. The process of the model
-    applies the limits of motors, and sends the command at rest when it closes the world, or when no command
-    came for `stops_after`, for example because the run paused. A process that is killed sends nothing: the
-    driver of the robot needs a limit of time of its own.
+    applies the limits of motors, and sends the command at rest when the run pauses or fails, when it closes
+    the world, or when no command came for `stops_after`. A process that is killed sends nothing: the driver
+    of the robot needs a limit of time of its own.
 
     Equation:
         y(t) = y_{\mathrm{topic}}(t - a(t)),\quad a(t) \le \mathrm{patience}
@@ -87,6 +87,7 @@ class ROS2(World):
     }
     stands_in = False
     repeatable = False
+    wall_clock = True
 
     def __init__(
         self,
@@ -175,6 +176,10 @@ class ROS2(World):
             self.require_motor(motor)
         # a live robot is one, whatever the number of copies
         self._sender.send({name: np.asarray(command)[0] for name, command in motors.items()})
+
+    def halt(self) -> None:
+        if self._node is not None:
+            self._sender.rest()
 
     def _require_begun(self) -> RosNode:
         if self._node is None:
