@@ -16,6 +16,7 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 RENAMED = {
+    "dd.Camera(number=...)": "dd.Camera(source=...)",
     "dd.Element.faults": "dd.Element.validate",
     "dd.Element.lasting": "dd.Element.learned_parameters",
     "dd.Element.misfits": "dd.Element.validate_axes",

@@ -20,6 +20,10 @@ FORBIDDEN = {
 STATE = {
     ("registry", "_kinds"): "the registry itself",
     ("server.handlers", "HANDLERS"): "the handlers of messages, filled by `handles` in the same file",
+    (
+        "worlds._capture",
+        "_silenced",
+    ): "the log of OpenCV has one level for the process",
 }
 MUTABLE_CALLS = {
     "dict",

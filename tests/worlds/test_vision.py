@@ -93,7 +93,7 @@ def test_files_that_are_not_a_video_are_refused(tmp_path: Path) -> None:
 def test_a_camera_gives_its_latest_picture_without_waiting(film: Path) -> None:
     camera = Camera(str(film), patience=60.0)
     camera.reset(0)
-    # a video in place of a camera is read at full speed, to its last picture
+    # a video in place of a camera is played to its last picture
     while abs(middle(camera.sense("picture", FINE, 0.0)) - 55.5) >= 1.0:
         time.sleep(0.01)
     camera.sense("picture", FINE, 0.0)  # no picture follows, and the test does not wait for one
@@ -105,20 +105,24 @@ def test_a_camera_gives_its_latest_picture_without_waiting(film: Path) -> None:
 def test_a_camera_that_stops_is_an_error(film: Path) -> None:
     camera = Camera(str(film), patience=0.2)
     camera.reset(0)
-    time.sleep(0.6)
-    with pytest.raises(WorldError, match=r"camera .*square.avi: has delivered no picture for \d+\.\d s"):
+    time.sleep(1.6)  # it lasts for one second
+    says = r"camera .*square.avi: has ended, and has delivered no picture for \d+\.\d s"
+    with pytest.raises(WorldError, match=says):
         camera.sense("picture", AXES, 0.0)
     camera.close()
 
 
 def test_a_missing_camera_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(WorldError, match="there is no camera, or another program uses it"):
+        Camera(97, open_timeout=60.0).reset(0)
+    with pytest.raises(WorldError, match="there is no such device or file"):
         Camera(str(tmp_path / "nothing")).reset(0)
-    for number in (-1, 1.5, True, "", None):
-        with pytest.raises(WorldError, match="number of a camera"):
-            Camera(number)  # type: ignore[arg-type]
-    with pytest.raises(WorldError, match="the pictures of a camera are not stored"):
-        Camera.again({})
+    (tmp_path / "text.mp4").write_text("not a video")
+    with pytest.raises(WorldError, match="cannot be read as a video"):
+        Camera(str(tmp_path / "text.mp4"), open_timeout=60.0).reset(0)
+    for source in (-1, 1.5, True, "", None):
+        with pytest.raises(WorldError, match="source of a camera"):
+            Camera(source)  # type: ignore[arg-type]
 
 
 def test_without_opencv_the_error_names_the_package_to_install(

@@ -10,7 +10,7 @@ import io
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from deodar.model import files as documents
 from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, provenance
+from deodar.worlds._address import masked_data
 
 if TYPE_CHECKING:
     import xarray
@@ -144,8 +145,9 @@ def _digest_in(folder: Path, doc: Document) -> str:
 
 
 def _plan(setup: Setup) -> JsonObject:
-    """Return the plain data of an experiment whose model is beside it."""
-    return codec.parse(codec.line({**setup.experiment.to_data(), "model": MODEL}))
+    """Return the plain data of an experiment whose model is beside it, without credentials of a camera."""
+    plain = codec.parse(codec.line({**setup.experiment.to_data(), "model": MODEL}))
+    return cast("JsonObject", masked_data(plain))
 
 
 # -------------------------------------------------------------------------------------------------- the table

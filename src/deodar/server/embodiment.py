@@ -26,6 +26,7 @@ from deodar.server import scene
 from deodar.server.to_page import WorldPreview
 from deodar.session import agreement
 from deodar.session.exchange import used
+from deodar.worlds._address import masked
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 
@@ -103,7 +104,7 @@ class Embodiment:
                 return make(int(argument) if not cls.opens and argument.isdecimal() else argument, **settings)
         except WorldError as error:
             raise WorldError(
-                error.problems[0].what, where=name, fix=error.problems[0].fix
+                error.problems[0].what, where=masked(name), fix=error.problems[0].fix
             ) from error.__cause__
 
     def open_content(self, kind: str, name: str, content: str, settings: Mapping[str, Any]) -> World:
@@ -135,11 +136,11 @@ class Embodiment:
         if lacking := missing(world, doc):
             raise WorldError(
                 f"the world {kind} has no {', '.join(map(repr, lacking))}",
-                where=name,
+                where=masked(name),
                 fix="Choose a world with all sensors and motors of the model",
             )
         self.chosen = world
-        self._name = _named(kind, name)
+        self._name = _named(kind, masked(name))
 
 
 def _best(worlds: Iterable[World], doc: Document) -> World:

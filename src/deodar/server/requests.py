@@ -40,6 +40,7 @@ from deodar.server.to_page import Answer, Fits, Folder
 from deodar.server.weights_stream import WeightsStream
 from deodar.session.recorder import compile_records
 from deodar.session.session import Session
+from deodar.worlds._address import masked
 from deodar.worlds._base import World
 
 MOST_STREAMS = 2000
@@ -437,7 +438,7 @@ def _blob(axes: Axes, m: to_server.PushInput) -> np.ndarray:
 
 @handles(to_server.UseWorld)
 async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
-    world = await in_file_thread(lambda: _world(hub, m), m.path)
+    world = await in_file_thread(lambda: _world(hub, m), masked(m.path))
     await hub.project.embody(world, m.kind, m.path)
 
 
@@ -445,7 +446,7 @@ async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
 async def _preview_world(hub: Hub, page: Page, m: to_server.PreviewWorld) -> Answer:
     model = hub.project.model
     doc = None if model is None else model.document
-    shown = await in_file_thread(lambda: preview(_world(hub, m), doc), m.path)
+    shown = await in_file_thread(lambda: preview(_world(hub, m), doc), masked(m.path))
     return Answer(request=m.request, preview=shown)
 
 

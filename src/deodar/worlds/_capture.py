@@ -1,13 +1,14 @@
-"""Pictures from video files and cameras, read by OpenCV (extra `vision`)."""
+"""OpenCV (extra `vision`), without messages of its own, and the pictures of video files."""
 
 from __future__ import annotations
 
 import atexit
+import contextlib
+import os
 import shutil
 import tempfile
 import threading
-import time
-import weakref
+from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,8 @@ RATE = 5
 
 def opencv(purpose: str) -> Any:
     """Import OpenCV, or raise an error that says how to install it."""
+    # FFmpeg writes nothing to the terminal, unless the user states another level; it is read once
+    os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
     try:
         # an extra
         import cv2
@@ -30,16 +33,35 @@ def opencv(purpose: str) -> Any:
     return cv2
 
 
-def capture(source: int | str, purpose: str) -> Any:
-    """Open a video file or a camera; OpenCV's log is silent, because deodar reports a failure itself."""
-    cv2 = opencv(purpose)
-    log: Any = cv2.utils.logging
-    level = log.getLogLevel()
-    log.setLogLevel(log.LOG_LEVEL_SILENT)
+_lock = threading.Lock()
+_silenced: list[int] = []
+
+
+@contextlib.contextmanager
+def silence() -> Generator[None]:
+    """Silence the log of OpenCV, because deodar reports a failure itself; several threads may do so at once.
+
+    The log of OpenCV has one level for the whole process. The last one that ends restores it.
+    """
+    log: Any = opencv("a camera").utils.logging
+    with _lock:
+        _silenced.append(_silenced[0] if _silenced else log.getLogLevel())
+        log.setLogLevel(log.LOG_LEVEL_SILENT)
     try:
-        return cv2.VideoCapture(source)
+        yield
     finally:
-        log.setLogLevel(level)
+        with _lock:
+            level = _silenced.pop()
+            if not _silenced:
+                log.setLogLevel(level)
+
+
+def capture(file: str, purpose: str) -> Any:
+    """Open a video file, by FFmpeg if OpenCV has it: other readers of OpenCV write to the terminal."""
+    cv2 = opencv(purpose)
+    reader = cv2.CAP_FFMPEG if cv2.CAP_FFMPEG in cv2.videoio_registry.getStreamBackends() else cv2.CAP_ANY
+    with silence():
+        return cv2.VideoCapture(file, reader)
 
 
 class VideoReader:
@@ -102,75 +124,6 @@ class VideoReader:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__init__(state["path"])
-
-
-class CameraReader:
-    """Camera reader with its own thread; `picture` returns the newest picture without waiting for the next.
-
-    Attributes:
-        size: width and height in pixels.
-    """
-
-    def __init__(self, source: int | str, patience: float) -> None:
-        self.source, self.patience = source, patience
-        opened = capture(source, "a camera")
-        there, first = opened.read() if opened.isOpened() else (False, np.zeros((0, 0, 3), np.uint8))
-        if not there:
-            opened.release()
-            raise WorldError(
-                "there is no camera, or another program uses it",
-                where=f"camera {source}",
-                fix="Try another number: --camera 1",
-            )
-        self._stream = _Stream(opened, np.ascontiguousarray(first[:, :, ::-1]), patience)
-        self.size = (int(first.shape[1]), int(first.shape[0]))
-        self._thread = threading.Thread(target=self._stream.watch, name=f"camera {source}", daemon=True)
-        self._thread.start()
-        weakref.finalize(self, self._stream.closing.set)
-
-    def picture(self) -> np.ndarray:
-        """Return the newest picture (height, width, 3).
-
-        Raises:
-            WorldError: the camera has delivered no picture for `patience` seconds.
-        """
-        silent = time.monotonic() - self._stream.since
-        if silent > self.patience:
-            raise WorldError(
-                f"has delivered no picture for {silent:.1f} s",
-                where=f"camera {self.source}",
-                fix="Check that it is connected",
-            )
-        return self._stream.newest
-
-    def close(self) -> None:
-        """Release the camera."""
-        self._stream.closing.set()
-        self._thread.join(timeout=1.0)
-
-
-class _Stream:
-    """The newest picture and the loop of the thread.
-
-    It has no reference to its `CameraReader`, so that the camera is released when the `CameraReader` is
-    garbage-collected.
-    """
-
-    def __init__(self, opened: Any, first: np.ndarray, patience: float) -> None:
-        self.opened, self.newest, self.since, self.patience = opened, first, time.monotonic(), patience
-        self.closing = threading.Event()
-
-    def watch(self) -> None:
-        """Read pictures until closed, or until none arrives for `patience` seconds."""
-        try:
-            while not self.closing.is_set() and time.monotonic() - self.since <= self.patience:
-                there, picture = self.opened.read()
-                if there:
-                    self.newest, self.since = np.ascontiguousarray(picture[:, :, ::-1]), time.monotonic()
-                else:
-                    self.closing.wait(0.02)
-        finally:
-            self.opened.release()
 
 
 EXAMPLE_AXES: Axes = (Axis("x", 0, 15, 16), Axis("y", 0, 11, 12), Axis("channel", 0, 2, 3))

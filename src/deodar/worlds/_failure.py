@@ -10,6 +10,7 @@ from pathlib import Path
 
 from deodar import registry
 from deodar.errors import DeodarError, WorldError, first_line, show
+from deodar.worlds._address import masked
 from deodar.worlds._base import World
 
 
@@ -40,7 +41,7 @@ def errors_of(world: World | type[World], method: str, argument: str = "") -> Ge
         if package:
             fix = f"report this to the authors of {package.split()[0]}"
         if argument:
-            fix = f"check the argument {show(argument)}; if it is right, {fix}"
+            fix = f"check the argument {show(masked(argument))}; if it is right, {fix}"
         raise WorldError(
             f"the world {kind.__name__} of the {origin} raised {type(error).__name__} in"
             f" {name or method}{line}: {first_line(error)}",

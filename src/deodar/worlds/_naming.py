@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from deodar import registry
 from deodar.errors import WorldError, did_you_mean
+from deodar.worlds._address import is_address, masked
 from deodar.worlds._base import World
 
 
@@ -11,12 +12,14 @@ def named_kind(text: str, where: str) -> tuple[type[World], str]:
     """Return the class of a world and the argument for its `open`; messages call the place of this text
     `where`.
 
-    Case and hyphens do not count: `event-file` is `EventFile`. A class may have a short name besides.
+    Case and hyphens do not count: `event-file` is `EventFile`. A class may have a short name besides. An
+    address such as rtsp://HOST/PATH is a camera.
 
     Raises:
         WorldError: there is no such class, or the text has no argument.
     """
-    name, _, argument = text.partition(":")
+    where = masked(where)
+    name, _, argument = ("camera", "", text) if is_address(text) else text.partition(":")
     known = registry.kinds("worlds")
     kinds = {cls.short: cls for cls in known.values() if cls.short}
     kinds |= {kind.casefold(): cls for kind, cls in known.items()}

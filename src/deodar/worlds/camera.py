@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
+from typing import Any, cast
 
 import numpy as np
 
+from deodar import renamed
 from deodar.codec import Json
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
-from deodar.parameters import real, show
+from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds import _capture
+from deodar.worlds._address import Hidden, masked
 from deodar.worlds._base import Signal, World
+from deodar.worlds._camera_reader import CameraReader, CameraTimes, source_of
 from deodar.worlds._image import PICTURE, frame, sampled
+from deodar.worlds._settings import number
 
 
 @register
@@ -28,10 +32,20 @@ class Camera(World):
     Equation:
         y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
+    A file is played once, at its own rate; `Video` plays one in the time of the model. A camera that is
+    absent or stops is an error that says why. The user, the password and secret parameters of an address are
+    in no record and no message, which show `***` instead.
+
     Parameters:
-        number: number of the camera, 0 for the first; or the network address of one, as OpenCV accepts it.
+        source: number of a device, 0 for the first; its path; a video file; or an address, rtsp://, http://
+            or https://, as OpenCV accepts it. A user of `***` stands for the login that ~/.netrc states for
+            the host.
         period: ms between two readings; a whole number of steps of the model.
-        patience: seconds without a new picture after which a reading raises an error.
+        patience: s without a new picture after which a reading raises an error.
+        open_timeout: s in which the first picture has to come.
+        size: width and height in pixels. A device is asked for it; pictures of another size are an error.
+            None: any.
+        rate: most pictures per second that are kept. A device is asked for it. None: all.
 
     Shapes:
         x runs over columns from the left, y over rows from the top.
@@ -45,21 +59,39 @@ class Camera(World):
     repeatable = False
     wall_clock = True
 
-    def __init__(self, number: int | str = 0, period: float = 40.0, patience: float = 3.0) -> None:
-        known = isinstance(number, (int, np.integer)) and not isinstance(number, bool) and number >= 0
-        if not known and not (isinstance(number, str) and number):
+    @renamed.arguments("dd.Camera")
+    def __init__(
+        self,
+        source: int | str = 0,
+        period: float = 40.0,
+        patience: float = 3.0,
+        open_timeout: float = 5.0,
+        size: Sequence[int] | None = None,
+        rate: float | None = None,
+    ) -> None:
+        known = isinstance(source, (int, np.integer)) and not isinstance(source, bool) and source >= 0
+        if not known and not (isinstance(source, str) and source):
             raise WorldError(
-                f"the number of a camera is {show(number)}; expected a whole number, 0 for the first"
+                f"the source of a camera is {show(source)}; expected a number, 0 for the first, a path or an"
+                " address"
             )
-        for name, given in (("period", period), ("patience", patience)):
-            value = real(given)
-            if value is None or not 0 < value < math.inf:
-                raise WorldError(f"{name} is {show(given)}; expected a number above 0")
-        self.number = number if isinstance(number, str) else int(number)
-        self.period, self.patience = float(period), float(patience)
-        self._reader: _capture.CameraReader | None = None
+        self.period = number("period", period, above=0.0)
+        self.patience = number("patience", patience, above=0.0)
+        self.open_timeout = number("open_timeout", open_timeout, above=0.0)
+        self.rate = None if rate is None else number("rate", rate, above=0.0)
+        self.size = None if size is None else _pixels(size)
+        self._given = Hidden(source if isinstance(source, str) else int(source))
+        self.source = masked(source) if isinstance(source, str) else int(source)
+        self._reader: CameraReader | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether it is open and new pictures may come."""
+        return self._reader is not None and self._reader.running
 
     def reset(self, seed: int, trials: Sequence[int] = (0,), precision: str = "float32") -> None:
+        if not self.running:
+            self.close()  # it has stopped, and may be there again
         self._open()
 
     def sense(self, sensor: str, axes: Axes, time: float) -> np.ndarray:
@@ -81,12 +113,13 @@ class Camera(World):
         return frame(self._open().size, axes).to_pixels(axes, x, y)
 
     def describe(self) -> dict[str, Json]:
-        return {
+        said: dict[str, Json] = {
             "world": "Camera",
-            "number": self.number,
+            "source": self.source,
             "size": list(self._open().size),
             "period": self.period,
         }
+        return said if self.rate is None else said | {"rate": self.rate}
 
     @classmethod
     def open(cls, argument: str) -> Camera:
@@ -94,14 +127,17 @@ class Camera(World):
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> Camera:
-        raise WorldError(
-            "the pictures of a camera are not stored",
-            fix="Record its sensor and replay the record: --world recording:RECORD",
-        )
+        """Return a camera at the same place, whose pictures are other ones than those of the record. The user
+        and password of an address come from ~/.netrc.
+        """
+        given = cast("dict[str, Any]", described)
+        source = given["source"] if "source" in given else given["number"]  # in older records
+        return cls(source, given["period"], size=given["size"], rate=given.get("rate"))
 
-    def _open(self) -> _capture.CameraReader:
+    def _open(self) -> CameraReader:
         if self._reader is None:
-            self._reader = _capture.CameraReader(self.number, self.patience)
+            times = CameraTimes(self.open_timeout, self.patience, self.rate)
+            self._reader = CameraReader(source_of(self._given.value), times, self.size)
         return self._reader
 
     @classmethod
@@ -112,3 +148,11 @@ class Camera(World):
     @staticmethod
     def example_axes(sensor: str) -> Axes:
         return _capture.EXAMPLE_AXES
+
+
+def _pixels(size: Sequence[int]) -> tuple[int, int]:
+    """Return a width and a height."""
+    pair = list(size) if isinstance(size, (list, tuple)) else []
+    if len(pair) != 2 or not all(type(n) is int and 0 < n <= 2**15 for n in pair):
+        raise WorldError(f"size is {show(size)}; expected a width and a height in pixels")
+    return pair[0], pair[1]

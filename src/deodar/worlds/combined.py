@@ -15,6 +15,7 @@ from deodar.errors import Problem, WorldError
 from deodar.numerics.axes import Axes
 from deodar.parameters import show
 from deodar.registry import register
+from deodar.worlds._address import masked
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._link_state import LinkState
@@ -187,8 +188,10 @@ class Combined(World):
         sensors: dict[str, World] = {}
         for piece in pieces:
             name, equal, text = (part.strip() for part in piece.partition("="))
-            if not equal or not name:
-                raise WorldError(f"{show(piece)} names no sensor", fix="Write camera=video:table.mp4, say")
+            if not equal or not name or "://" in name:
+                raise WorldError(
+                    f"{show(masked(piece))} names no sensor", fix="Write camera=video:table.mp4, say"
+                )
             sensors[name] = _named(text)
         return cls(body, sensors)
 

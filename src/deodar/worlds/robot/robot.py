@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import inspect
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes
 from deodar.parameters import show
 from deodar.registry import register
+from deodar.worlds._address import is_address, masked, masked_data
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._link_state import LinkState
@@ -33,6 +35,11 @@ NOT_DATA = ("combined", "recording", "robot")
 
 ENDPOINTS = ("at", "topic", "type")
 """Settings that contain slashes and are not paths."""
+
+SOURCES = ("source",)
+"""Settings that name a path, an address of a camera, or a device."""
+
+_DEVICE = re.compile(r"/dev/video\d+")
 
 
 @register
@@ -213,7 +220,7 @@ class Robot(World):
             "robot": self.file.name,
             "file": self.source,
             "place": self.place_name,
-            "settings": codec.parse(codec.line(msgspec.to_builtins(self.file))),
+            "settings": masked_data(codec.parse(codec.line(msgspec.to_builtins(self.file)))),
             "of": self.world.describe(),
         }
         text = codec.line(said, ascii=True, sort=True)
@@ -277,13 +284,15 @@ def _inside(name: str, value: Any, path: Path) -> Any:
         return {key: _inside(str(key), each, path) for key, each in value.items()}
     if not isinstance(value, str) or name in ENDPOINTS:
         return value
+    if name in SOURCES and (is_address(value) or _DEVICE.fullmatch(str(Path(value).resolve()))):
+        return value
     folder = path.resolve().parent
     named = folder / value
     bag = (named / "metadata.yaml").is_file()  # a folder that is opened as one file
     if any(mark in value for mark in ("/", "\\", "..")) or named.is_file() or bag:
         if not named.resolve().is_relative_to(folder):
             raise WorldError(
-                f"{name} is {show(value)}, outside the folder of the robot's file", where=str(path)
+                f"{name} is {show(masked(value))}, outside the folder of the robot's file", where=str(path)
             )
         return str(named)
     return value

@@ -1,0 +1,233 @@
+"""The newest picture of a camera, which a thread reads by OpenCV (extra `vision`)."""
+
+from __future__ import annotations
+
+import threading
+import time
+import weakref
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from deodar.errors import WorldError
+from deodar.worlds import _capture
+from deodar.worlds._address import Address
+from deodar.worlds._reachable import Unreachable, unreachable
+
+CameraForm = Literal["device", "file", "address"]
+
+
+@dataclass(frozen=True)
+class CameraSource:
+    """What a camera opens.
+
+    Attributes:
+        form: a device, a file, or an address.
+        shown: its name in messages and records.
+        opened: what OpenCV opens; the address has one of its own.
+        address: the address, for this form.
+    """
+
+    form: CameraForm
+    shown: int | str
+    opened: int | str = 0
+    address: Address | None = None
+
+    @property
+    def where(self) -> str:
+        """The camera in messages."""
+        return f"camera {self.shown}"
+
+
+@dataclass(frozen=True)
+class CameraTimes:
+    """Times of a camera.
+
+    Attributes:
+        opening: s until the first picture is there.
+        patience: s without a new picture after which the camera has stopped.
+        rate: most pictures per second; None: all.
+    """
+
+    opening: float
+    patience: float
+    rate: float | None = None
+
+
+class CameraReader:
+    """Camera reader with its own thread; `picture` returns the newest picture without waiting for the next.
+
+    Only the newest picture is kept.
+
+    Args:
+        source: what is opened.
+        times: how long it may take.
+        wanted: width and height in pixels that the pictures have to have; None: any.
+
+    Attributes:
+        size: width and height in pixels.
+    """
+
+    def __init__(
+        self, source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None = None
+    ) -> None:
+        self.source, self.times = source, times
+        _capture.opencv("a camera")
+        self._stream = _Stream(source, times, wanted)
+        self._thread = threading.Thread(target=self._stream.run, name=source.where, daemon=True)
+        self._thread.start()
+        weakref.finalize(self, self._stream.closing.set)
+        began = time.monotonic()
+        # the last tenth is for the question why no picture came
+        answered = self._stream.ready.wait(0.9 * times.opening)
+        if self._stream.newest is None:
+            self._stream.closing.set()
+            raise self._failed(answered, max(times.opening - (time.monotonic() - began), 0.1))
+        height, width = self._stream.newest.shape[:2]
+        self.size = (int(width), int(height))
+        if wanted is not None and self.size != wanted:
+            self.close()
+            raise WorldError(
+                f"has pictures of {width} x {height}, and {wanted[0]} x {wanted[1]} are stated",
+                where=source.where,
+                fix=f"State the size that it has: size=({width}, {height})",
+            )
+
+    @property
+    def running(self) -> bool:
+        """Whether new pictures may come."""
+        return self._thread.is_alive()
+
+    def picture(self) -> np.ndarray:
+        """Return the newest picture (height, width, 3).
+
+        Raises:
+            WorldError: the camera has delivered no picture for `patience` seconds.
+        """
+        stream = self._stream
+        silent = time.monotonic() - stream.since
+        if silent > self.times.patience or stream.newest is None:
+            ended = "has ended, and " if stream.ended else ""
+            raise WorldError(
+                f"{ended}has delivered no picture for {silent:.1f} s",
+                where=self.source.where,
+                fix="Check that it is connected and sends pictures, then reset the run",
+            )
+        return stream.newest
+
+    def close(self) -> None:
+        """Release the camera. A thread that waits for a picture ends when its patience does."""
+        self._stream.closing.set()
+        self._thread.join(timeout=1.0)
+
+    def _failed(self, answered: bool, seconds: float) -> WorldError:
+        """Return why no picture came."""
+        where = self.source.where
+        if self.source.address is not None:
+            found = unreachable(self.source.address, seconds)
+            if found is None and not answered:
+                peer = f"{self.source.address.host}:{self.source.address.port}"
+                what = f"{peer} accepts the connection and sends no picture within {self.times.opening:g} s"
+                found = Unreachable(what, "Check the port and the path, or allow more: open_timeout=10")
+            if found is None:
+                fix = "Check the path: a player of videos has to show it, too"
+                found = Unreachable("sends nothing that OpenCV reads as pictures", fix)
+            return WorldError(found.what, where=where, fix=found.fix)
+        if self.source.form == "file":
+            return WorldError("cannot be read as a video", where=where, fix="Name an .mp4 or .avi file")
+        what = "there is no camera, or another program uses it"
+        if not answered:
+            what = f"sends no picture within {self.times.opening:g} s"
+        return WorldError(what, where=where, fix="Try another number: --world camera:1")
+
+
+class _Stream:
+    """The newest picture and the loop of the thread.
+
+    It has no reference to its `CameraReader`, so that the camera is released when the `CameraReader` is
+    garbage-collected.
+    """
+
+    def __init__(self, source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None) -> None:
+        self.source, self.times, self.wanted = source, times, wanted
+        self.newest: np.ndarray | None = None
+        self.since = time.monotonic()
+        self.ended = False
+        self.closing, self.ready = threading.Event(), threading.Event()
+
+    def run(self) -> None:
+        """Open the camera and read pictures until closed, or until none arrives for `patience` seconds."""
+        with _capture.silence():
+            opened: Any = None
+            try:
+                opened = _opened(self.source, self.times, self.wanted)
+                if opened.isOpened():
+                    self._watch(opened)
+            except _capture.opencv("a camera").error:
+                pass  # as a camera that is not there
+            finally:
+                if opened is not None:
+                    opened.release()
+                self.ready.set()
+
+    def _watch(self, opened: Any) -> None:
+        pace = float(opened.get(_capture.RATE)) if self.source.form == "file" else 0.0
+        least, next_kept, due = 1.0 / (self.times.rate or np.inf), 0.0, time.monotonic()
+        while not self.closing.is_set():
+            there, picture = opened.read()
+            now = time.monotonic()
+            if there and now >= next_kept:
+                self.newest = np.ascontiguousarray(picture[:, :, ::-1])
+                next_kept = now + least if self.times.rate else 0.0
+            if there:
+                self.since = now
+                self.ready.set()
+            elif self.source.form != "device" or now - self.since > self.times.patience:
+                # FFmpeg gives up a stream that sends nothing for `patience`
+                self.ended = self.source.form != "device" and now - self.since < 0.9 * self.times.patience
+                return
+            else:
+                self.closing.wait(0.02)
+            if pace > 0:
+                due += 1.0 / pace
+                self.closing.wait(max(0.0, due - time.monotonic()))
+
+
+def _opened(source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None) -> Any:
+    """Open what a camera names."""
+    cv2 = _capture.opencv("a camera")
+    if source.address is not None:
+        limits = [cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, max(1, round(900 * times.opening))]
+        limits += [cv2.CAP_PROP_READ_TIMEOUT_MSEC, max(1, round(1000 * times.patience))]
+        return cv2.VideoCapture(source.address.full, cv2.CAP_FFMPEG, limits)
+    if source.form == "file":
+        return _capture.capture(str(source.opened), "a camera")
+    opened = cv2.VideoCapture(source.opened, cv2.CAP_ANY if isinstance(source.opened, int) else cv2.CAP_V4L2)
+    if wanted is not None:
+        opened.set(cv2.CAP_PROP_FRAME_WIDTH, wanted[0])
+        opened.set(cv2.CAP_PROP_FRAME_HEIGHT, wanted[1])
+    if times.rate is not None:
+        opened.set(cv2.CAP_PROP_FPS, times.rate)
+    return opened
+
+
+def source_of(given: int | str) -> CameraSource:
+    """Return what the number of a device, the path of a device or file, or an address names.
+
+    Raises:
+        WorldError: it names none of these, or there is no such file.
+    """
+    if not isinstance(given, str):
+        return CameraSource("device", int(given), int(given))
+    if "://" in given:
+        address = Address.of(given)
+        return CameraSource("address", address.shown, address=address)
+    path = Path(given)
+    if path.is_char_device():
+        return CameraSource("device", given, str(path.absolute()))
+    if not path.is_file():
+        fix = "Name a number such as 0, a device, a file, or an address: rtsp://HOST/PATH"
+        raise WorldError("there is no such device or file", where=f"camera {given}", fix=fix)
+    return CameraSource("file", given, str(path.absolute()))
