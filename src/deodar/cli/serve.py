@@ -48,6 +48,12 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="allow an endpoint beyond this machine, in a network of your own: messages are not encrypted",
     )
+    for name, what in (
+        ("certificate", "certificate of this server, for an endpoint tls/HOST:PORT, which encrypts messages"),
+        ("key", "private key of the certificate"),
+        ("authority", "certificate of the authority; only models with a certificate that it signed connect"),
+    ):
+        parser.add_argument(f"--{name}", metavar="FILE", default="", help=what)
     _options.add_json(parser)
     _options.wrong(parser)
 
@@ -57,6 +63,7 @@ def run(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from deodar.worlds.zenoh import link
     from deodar.worlds.zenoh.server import WorldServer, free_name
+    from deodar.worlds.zenoh.tls_files import TlsFiles
 
     ended: list[int] = []
 
@@ -66,12 +73,15 @@ def run(args: argparse.Namespace) -> int:
     world = _opened(args)
     stated = "step" if args.model else getattr(getattr(world, "file", None), "clock", None)
     clock = args.clock or stated or ("live" if world.wall_clock else "step")
-    server = WorldServer(world, args.name or free_name(world), args.at or link.HERE, clock, args.trusted)
+    files = TlsFiles(args.authority, args.certificate, args.key)
+    called, place = args.name or free_name(world), args.at or link.HERE
+    server = WorldServer(world, called, place, clock, args.trusted, files)
     before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
     name, at = server.about.name, server.endpoint
     try:
         if not args.json:
             where = "" if at == link.HERE else f", at={at}"
+            where += ", authority=FILE" if files else ""
             print(f'{name} at {at}, clock {clock}. Move it with: --world "zenoh:{name}{where}"', flush=True)
         server.serve(lambda: bool(ended))
     finally:

@@ -27,7 +27,7 @@ def test_endpoints_of_this_machine_are_accepted(text):
         ("tcp/robot.lab:7461", "trusted=True"),
         ("tcp/127.0.0.1:99999", "is not an endpoint"),
         ("127.0.0.1:7461", "Write it as tcp/127.0.0.1:7461"),
-        ("tls/robot.lab:7461", "is not an endpoint"),
+        ("quic/robot.lab:7461", "is not an endpoint"),
         ("udp/127.0.0.1:7461", "is not an endpoint"),
     ],
 )

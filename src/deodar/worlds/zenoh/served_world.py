@@ -6,8 +6,10 @@ import socket
 import threading
 
 from deodar.worlds._base import World
+from deodar.worlds.zenoh import link
 from deodar.worlds.zenoh.about import RobotClock
 from deodar.worlds.zenoh.server import WorldServer
+from deodar.worlds.zenoh.tls_files import TlsFiles
 
 
 class ServedWorld:
@@ -18,15 +20,23 @@ class ServedWorld:
         name: name of the robot.
         clock: step, or live.
         at: endpoint; empty: a free port of this machine.
+        files: certificates for an endpoint with TLS.
 
     Attributes:
         server: the server.
         endpoint: where it listens.
     """
 
-    def __init__(self, world: World, name: str = "example", clock: RobotClock = "step", at: str = "") -> None:
+    def __init__(
+        self,
+        world: World,
+        name: str = "example",
+        clock: RobotClock = "step",
+        at: str = "",
+        files: TlsFiles = link.NO_FILES,
+    ) -> None:
         self.endpoint = at or free_endpoint()
-        self.server = WorldServer(world, name, self.endpoint, clock)
+        self.server = WorldServer(world, name, self.endpoint, clock, files=files)
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._serve, name=f"serve {name}", daemon=True)
         self._thread.start()
@@ -43,8 +53,8 @@ class ServedWorld:
         self._thread.join()
 
 
-def free_endpoint() -> str:
+def free_endpoint(scheme: str = "tcp") -> str:
     """Return an endpoint of this machine at a port that is free now."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
-        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+        return f"{scheme}/127.0.0.1:{probe.getsockname()[1]}"

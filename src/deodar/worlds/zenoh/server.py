@@ -27,6 +27,7 @@ from deodar.worlds.zenoh import link
 from deodar.worlds.zenoh.about import About, RobotClock, key, reading_keys, requests_from_data
 from deodar.worlds.zenoh.command_inbox import CommandInbox
 from deodar.worlds.zenoh.message import MOST_BYTES, BadMessage, WireMessage, bundle, unbundle
+from deodar.worlds.zenoh.tls_files import TlsFiles
 
 MOST_WAITING = 64
 """Most queries that wait for the world; more are refused, so that memory is bounded."""
@@ -47,6 +48,8 @@ class WorldServer:
         endpoint: where to listen.
         clock: step, or live.
         trusted: whether the network of another host is trusted.
+        files: certificate and private key for an endpoint with TLS. With an authority a commander needs a
+            certificate that it signed.
 
     Attributes:
         about: what the robot says of itself.
@@ -61,8 +64,9 @@ class WorldServer:
         endpoint: str = link.HERE,
         clock: RobotClock = "step",
         trusted: bool = False,
+        files: TlsFiles = link.NO_FILES,
     ) -> None:
-        self.endpoint = link.require_endpoint(endpoint, trusted)
+        self.endpoint = link.require_endpoint(endpoint, trusted, files)
         self.world = world
         if clock == "live" and world.period is None:
             raise WorldError(
@@ -87,7 +91,7 @@ class WorldServer:
         self._dtype = np.dtype(np.float32)
         self._deferred: Any = None
         self._who = ""
-        self._session = link.listen(self.endpoint)
+        self._session = link.listen(self.endpoint, files)
         self._publishers: dict[str, Any] = {}
         self._close = weakref.finalize(self, self._session.close)
         self._declare()

@@ -9,6 +9,7 @@ import threading
 import time
 import weakref
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,9 +29,13 @@ from deodar.worlds.zenoh.about import About, Requests, key, reading_keys, reques
 from deodar.worlds.zenoh.message import WireMessage, bundle, unbundle
 from deodar.worlds.zenoh.reading_inbox import ReadingInbox
 from deodar.worlds.zenoh.served_world import ServedWorld
+from deodar.worlds.zenoh.tls_files import TlsFiles
 
 SLOWEST = 60.0
 """Time after which a robot that still answers is no longer waited for, s."""
+
+FILES = ("authority", "certificate", "private_key")
+"""Settings that name files of TLS."""
 
 
 @register
@@ -51,10 +56,13 @@ class Zenoh(World):
 
     Parameters:
         robot: name of the robot; empty: the only one at the endpoint.
-        at: endpoint of the robot, tcp/HOST:PORT.
+        at: endpoint of the robot, tcp/HOST:PORT, or with TLS tls/HOST:PORT.
         patience: time without a message of the robot after which a reading raises an error, s.
-        trusted: whether the network between this machine and another host is trusted; messages are not
-            encrypted.
+        trusted: whether the network between this machine and another host is trusted; without TLS messages
+            are not encrypted.
+        authority: file of the authority that signed the certificate of the robot; needed with TLS.
+        certificate: file of a certificate of this side, if the robot asks for one.
+        private_key: file of its private key.
 
     Shapes:
         Those of the robot's sensors and motors.
@@ -70,9 +78,17 @@ class Zenoh(World):
     stands_in = False
 
     def __init__(
-        self, robot: str = "", at: str = link.HERE, patience: float = 0.5, trusted: bool = False
+        self,
+        robot: str = "",
+        at: str = link.HERE,
+        patience: float = 0.5,
+        trusted: bool = False,
+        authority: str | Path = "",
+        certificate: str | Path = "",
+        private_key: str | Path = "",
     ) -> None:
-        self.at = link.require_endpoint(at, trusted)
+        self._files = TlsFiles(str(authority), str(certificate), str(private_key))
+        self.at = link.require_endpoint(at, trusted, self._files)
         self.patience, self.trusted = number("patience", patience, above=0.0), bool(trusted)
         self._inbox = ReadingInbox()
         self._connect(robot)
@@ -95,7 +111,7 @@ class Zenoh(World):
     # ----------------------------------------------------------------------------------------- the connection
 
     def _connect(self, robot: str) -> None:
-        self._session = session = link.connect(self.at, max(self.patience, 0.2))
+        self._session = session = link.connect(self.at, max(self.patience, 0.2), self._files)
         self._commander = secrets.randbits(62) + 1
         self._publishers: dict[str, Any] = {}
         self._close = weakref.finalize(self, session.close)
@@ -357,6 +373,7 @@ class Zenoh(World):
             "robot": self.robot,
             "at": self.at,
             "trusted": self.trusted,
+            **self._files.to_data(),
             "clock": self.about.clock,
             "period": self.period,
             "of": dict(self.about.of),
@@ -364,18 +381,20 @@ class Zenoh(World):
 
     @classmethod
     def open(cls, argument: str) -> Zenoh:
-        """Make the world of a text such as `epuck, at=tcp/127.0.0.1:7461, patience=1`; the name `*` is the
-        only robot there.
+        """Make the world of a text such as `epuck, at=tcp/127.0.0.1:7461, patience=1`, with TLS also
+        `authority=FILE`; the name `*` is the only robot there.
         """
         name, *pieces = (piece.strip() for piece in argument.split(","))
-        found = named(pieces, ("at", "patience"), argument)
+        found = named(pieces, ("at", "patience", *FILES), argument)
         patience = float(numeric("patience", found.get("patience", "0.5"), argument))
-        return cls("" if name == "*" else name, found.get("at", link.HERE), patience)
+        files = (found.get(file, "") for file in FILES)
+        return cls("" if name == "*" else name, found.get("at", link.HERE), patience, False, *files)
 
     @classmethod
     def again(cls, described: Mapping[str, Json]) -> Zenoh:
         trusted = described.get("trusted") is True
-        return cls(str(described["robot"]), str(described["at"]), trusted=trusted)
+        files = (str(described.get(file, "")) for file in FILES)
+        return cls(str(described["robot"]), str(described["at"]), 0.5, trusted, *files)
 
     @classmethod
     def example(cls) -> Zenoh:
