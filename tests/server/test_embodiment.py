@@ -6,11 +6,13 @@ import base64
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
+from deodar.errors import WorldError
 from deodar.server.embodiment import Embodiment, preview, problems, warnings
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
@@ -100,3 +102,16 @@ def test_a_world_may_have_a_preview_of_its_own() -> None:
     assert (shown.width, shown.height) == (3, 2)
     assert list(base64.b64decode(shown.pixels)) == [0, 0, 0, 255, 255, 255, 127, 127, 127] * 2
     assert preview(Picture.example(), None).width == 160
+
+
+def test_the_page_shows_no_login_of_a_camera() -> None:
+    found, address = Embodiment(), "rtsp://user:s3cr3t@127.0.0.1:1/live?token=s3cr3t"
+    camera = found.open("Camera", address, address, {})
+    with pytest.raises(WorldError, match=r"has no 'infrared', 'left'") as caught:
+        found.choose(camera, "Camera", address, driving().document)
+    assert "s3cr3t" not in str(caught.value)
+    with pytest.raises(WorldError) as caught:
+        found.open("Camera", address, address, {"period": -1})
+    assert "s3cr3t" not in str(caught.value)
+    found.choose(camera, "Camera", address, dd.Model("blind").document)
+    assert found.label(camera) == "Camera: rtsp://***@127.0.0.1:1/live?token=***"

@@ -250,6 +250,16 @@ def test_a_record_names_the_camera_and_netrc_states_the_login(
         again(Camera, said | {"source": f"http://{peer.place}/?token=***"}).reset(0)
 
 
+def test_the_results_of_an_experiment_have_no_login(peer: PeerServer, tmp_path: Path) -> None:
+    peer.login = f"user:{SECRET}"
+    model = dd.Model("looking", dt=40)
+    model.add(dd.Sensor("eye", AXES, "picture"))
+    world = f"camera:http://user:{SECRET}@{peer.place}/"
+    dd.Experiment("seen", model, 80.0, world=world).run(tmp_path / "results")
+    written = b"".join(file.read_bytes() for file in tmp_path.rglob("*") if file.is_file())
+    assert f"http://***@{peer.place}/".encode() in written and SECRET.encode() not in written
+
+
 def test_a_camera_in_a_process_of_its_own_has_its_login(peer: PeerServer) -> None:
     peer.login = f"user:{SECRET}"
     camera = pickle.loads(pickle.dumps(Camera(f"http://user:{SECRET}@{peer.place}/", open_timeout=30.0)))
