@@ -115,6 +115,28 @@ def test_a_memory_is_forgotten_at_a_fold_and_the_grid_makes_others():
     assert len(made) == 4 and "made by the grid" in made[0].words
 
 
+@pytest.mark.parametrize("even", [(), ("x",)])
+def test_a_peak_that_may_stand_anywhere_has_one_neutral_mode_and_one_fold(even):
+    """On a ring without input all places are equal: the shift of the peak neither grows nor decays."""
+    x = dd.Axis("x", 0, 100, samples=101, periodic=True)
+    model = dd.Model("ring")
+    kernel = [dd.Gaussian(22, 5, normalized=True)]
+    field = dd.Field("u", [x], tau=20, resting_level=-5, kernel=kernel, global_inhibition=0.4)
+    u = model.add(field)
+    model.set("u.sigmoid.beta", 1.0)
+    model.add(dd.GaussianStimulus("s", [x], center=50, sigma=5, amplitude=0.0)) >> u
+    model.add(dd.Boost("boost", [x], amplitude=0.0)) >> u
+    branch = dd.continuation(
+        model, "boost.amplitude", (0, -4), induced_by={"s.amplitude": 8.0}, even=even, finer=False
+    )
+    assert kinds(branch) == [("fold", "forgetting")]
+    assert branch.bifurcations[0].value == pytest.approx(-1.33856, abs=5e-5)
+    line = branch.line
+    rates = line.at(line.point(branch.states[0], branch.values[0])).rates() * line.slowest
+    assert (rates == 0).sum() == (0 if even else 1)
+    assert branch.stable[0]
+
+
 def test_two_equal_inputs_are_selected_at_a_branch_point():
     """Bisection gives 0.3235."""
     branch = dd.continuation(rivals(), "u.global_inhibition", (0.1, 0.5), finer=False)

@@ -161,6 +161,24 @@ class Dynamics:
         ]
         return self._reduced(np.concatenate(numbers) if numbers else np.zeros(0))
 
+    def shifts(self, x: np.ndarray) -> list[np.ndarray]:
+        """Return the directions, of unit length, in which a state moves along each axis that is not even.
+
+        Without input such a direction is a mode that neither grows nor decays, up to the grid: a peak may
+        stand anywhere.
+        """
+        state = self.state(x)
+        names = {axis.name: None for part in self.parts for axis in part.axes if axis.samples > 2}
+        found: list[np.ndarray] = []
+        for name in names:
+            if name in self.even:
+                continue
+            by = {f"{part.path}.{part.name}": part.axes for part in self.parts}
+            vector = self.vector({key: _slope(state[key], axes, name) for key, axes in by.items()})
+            if (size := float(np.linalg.norm(vector))) > 0:
+                found.append(vector / size)
+        return found
+
     # ------------------------------------------------------------------------------------------- functions
 
     def function(self, x: Array, parameters: Array) -> Array:
@@ -316,6 +334,18 @@ def _restless(entry: Entry) -> str:
     if kind.learned_parameters is not Element.learned_parameters:
         return f"learns ({kind.__name__}), so that what it reaches depends on the past"
     return ""
+
+
+def _slope(values: np.ndarray, axes: Axes, name: str) -> np.ndarray:
+    """Return the derivative along the axis of a name, in steps; 0 without such an axis."""
+    for d, axis in enumerate(axes):
+        if axis.name == name and axis.periodic:
+            waves = np.fft.fftfreq(axis.samples) * 2j * np.pi
+            shape = [-1 if k == d else 1 for k in range(values.ndim)]
+            return np.fft.ifft(np.fft.fft(values, axis=d) * waves.reshape(shape), axis=d).real
+        if axis.name == name:
+            return np.gradient(values, axis=d, edge_order=2)
+    return np.zeros_like(values)
 
 
 def _has_tau(element: Element) -> bool:

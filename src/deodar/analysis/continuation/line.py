@@ -22,6 +22,11 @@ Rates = npt.NDArray[np.complex128]
 LEADING = 8
 """Number of growth rates that are computed above `DENSE` states."""
 
+FREE = 0.02
+"""Change of a shifted state per longest time constant and length of the shift, below which the shift counts as
+a neutral mode; the grid alone changes it then (a guess).
+"""
+
 SINGULAR = 1e-10
 """Ratio of the pivots of a matrix below which it counts as singular, as where a peak may stand anywhere."""
 
@@ -99,8 +104,8 @@ class _Dense:
     """The equations with their matrices."""
 
     def __init__(self, line: Line, z: np.ndarray) -> None:
-        self.line = line
-        self.residual, jacobian, by = line.dynamics.linear(line.state(z), line.all_parameters(z))
+        self.line, self.x = line, line.state(z)
+        self.residual, jacobian, by = line.dynamics.linear(self.x, line.all_parameters(z))
         self.jacobian = jacobian
         self.rows = np.column_stack([jacobian / line.weight, by[:, line.index] * line.length])
 
@@ -110,7 +115,7 @@ class _Dense:
     def rates(self) -> Rates:
         matrix = self.jacobian / self.line.dynamics.time_constants[:, None]
         found: Rates = np.linalg.eigvals(matrix).astype(np.complex128)
-        return found[np.argsort(-found.real, kind="stable")]
+        return _without_shifts(found, self.line, self.x, lambda v: matrix @ v)
 
     def mode(self, rate: complex) -> np.ndarray:
         rates, modes = np.linalg.eig(self.jacobian / self.line.dynamics.time_constants[:, None])
@@ -153,8 +158,9 @@ class _Krylov:
         return found
 
     def rates(self) -> Rates:
+        tau = self.line.dynamics.time_constants
         found = self._leading()[0]
-        return found[np.argsort(-found.real, kind="stable")]
+        return _without_shifts(found, self.line, self._x, lambda v: self._along(v, 0.0) / tau)
 
     def mode(self, rate: complex) -> np.ndarray:
         rates, modes = self._leading()
@@ -164,6 +170,21 @@ class _Krylov:
         """Return the leading growth rates and their modes, by Arnoldi's method."""
         tau = self.line.dynamics.time_constants
         return leading(self._x.size, lambda d: self._along(d, 0.0) / tau)
+
+
+def _without_shifts(
+    found: Rates, line: Line, x: np.ndarray, product: Callable[[np.ndarray], np.ndarray]
+) -> Rates:
+    """Return growth rates, the largest real parts first; of a peak that may stand anywhere, its shift has 0.
+
+    A shift of the state is such a mode, if the product of the matrix and the shift is small.
+    """
+    rates = found.copy()
+    for shift in line.dynamics.shifts(x):
+        change = product(shift)
+        if float(np.linalg.norm(change)) * line.slowest < FREE:
+            rates[np.argmin(np.abs(rates - shift @ change))] = 0.0
+    return rates[np.argsort(-rates.real, kind="stable")]
 
 
 def leading(n: int, product: Callable[[np.ndarray], np.ndarray]) -> tuple[Rates, Rates]:

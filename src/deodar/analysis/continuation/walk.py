@@ -20,6 +20,11 @@ ACCURACY = 1e-9
 NEUTRAL = 1e-7
 """Growth rate times the longest time constant below which a mode counts as neutral."""
 
+CROSSED = 1e-4
+"""Growth rate times the longest time constant above which a located branch point or Hopf point is none: a
+mode became neutral, or stopped to be.
+"""
+
 STRAY = 0.3
 """Largest distance of a corrected point from its predictor, as a share of the step.
 
@@ -237,18 +242,24 @@ def _between(line: Line, now: WalkPoint, after: WalkPoint, size: float, index: i
     turns = now.direction[-1] * after.direction[-1] < 0
     if turns:
         found.append(_located(line, now, size, index, "fold", lambda ahead, _: ahead[-1]))
+    found += _crossings(line, now, after, size, index, turns)
+    return [b for b in found if b.kind == "fold" or abs(b.rate) * line.slowest < CROSSED]
+
+
+def _crossings(
+    line: Line, now: WalkPoint, after: WalkPoint, size: float, index: int, turns: bool
+) -> list[Bifurcation]:
+    """Return the branch point or Hopf point between two points, besides a fold."""
     few, many = sorted((growing(line, now), growing(line, after)))
     left = many - few - (1 if turns else 0)
     if left <= 0:
-        return found
+        return []
     more = after if growing(line, after) > growing(line, now) else now
     crossing = more.rates[few:many]
     if many - few >= 2 and np.abs(crossing.imag).max() > 1e-6 / line.slowest:
-        found.append(_located(line, now, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real))
-    else:
-        mode = few + (1 if turns and more is after else 0)
-        found.append(_located(line, now, size, index, "branch point", lambda _, at: at.rates()[mode].real))
-    return found
+        return [_located(line, now, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real)]
+    mode = few + (1 if turns and more is after else 0)
+    return [_located(line, now, size, index, "branch point", lambda _, at: at.rates()[mode].real)]
 
 
 class _Lost(Exception):
