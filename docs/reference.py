@@ -118,6 +118,7 @@ def _derived(base: type[Any]) -> list[str]:
 MEASURES = [
     *("dd.peaks", "dd.analysis.Peaks", "dd.analysis.Peak", "dd.regimes", "dd.analysis.Regimes"),
     *("dd.continuation", "dd.analysis.SteadyBranch", "dd.analysis.Bifurcation", "dd.bifurcation_diagram"),
+    *("dd.locus", "dd.analysis.Locus", "dd.analysis.LocusPoint", "dd.locus_figure"),
     *("dd.dynamics", "dd.analysis.Dynamics"),
     *("dd.thresholds", "dd.analysis.Thresholds", "dd.analysis.Transition", "dd.descend"),
     *("dd.outlives", "dd.analysis.Memory", "dd.forgetting", "dd.selects", "dd.analysis.Selection"),

@@ -10,6 +10,7 @@ from deodar import papers as papers
 from deodar import worlds as worlds
 from deodar.analysis.continuation.continuation import continuation as continuation
 from deodar.analysis.continuation.dynamics import dynamics as dynamics
+from deodar.analysis.continuation.locus import locus as locus
 from deodar.analysis.isolated import isolate as isolate
 from deodar.analysis.memory import forgetting as forgetting
 from deodar.analysis.memory import outlives as outlives
@@ -138,6 +139,7 @@ from deodar.experiments.run import run_trial as run_trial
 from deodar.exporters.exporting import export as export
 from deodar.figures._files import save_figure as save_figure
 from deodar.figures.bifurcation import bifurcation_diagram as bifurcation_diagram
+from deodar.figures.locus import locus_figure as locus_figure
 from deodar.figures.path import animate_path as animate_path
 from deodar.figures.path import path_figure as path_figure
 from deodar.figures.projection import projection as projection

@@ -11,6 +11,7 @@ from deodar import renamed
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.branch import SteadyBranch
 from deodar.analysis.continuation.dynamics import Dynamics
+from deodar.analysis.continuation.locus import Locus, LocusPoint
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.memory import Memory, forgetting, outlives
 from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
@@ -31,6 +32,8 @@ __all__ = [
     "FixedPoint",
     "Grid",
     "Isolated",
+    "Locus",
+    "LocusPoint",
     "Memory",
     "Peak",
     "Peaks",

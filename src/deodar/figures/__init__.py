@@ -14,6 +14,7 @@ from deodar.figures._files import save_figure
 from deodar.figures._style import COLOR, COLORS, DIVERGING, RC, SEQUENTIAL, THRESHOLD_LINE, Palette
 from deodar.figures._view import View
 from deodar.figures.bifurcation import bifurcation_diagram
+from deodar.figures.locus import locus_figure
 from deodar.figures.path import animate_path, path_figure
 from deodar.figures.projection import projection
 from deodar.figures.regimes import phase_figure, regimes_figure
@@ -35,6 +36,7 @@ __all__ = [
     "View",
     "animate_path",
     "bifurcation_diagram",
+    "locus_figure",
     "path_figure",
     "phase_figure",
     "projection",

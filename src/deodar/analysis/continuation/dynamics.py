@@ -220,6 +220,11 @@ class Dynamics:
             "gradient": jax.jit(lambda x, p, w: jax.vjp(lambda q: f(x, q), p)[1](w)[0]),
             "back": jax.jit(lambda x, p, w: jax.vjp(lambda y: f(y, p), x)[1](w)[0]),
             "run": jax.jit(run),
+            "curvature": jax.jit(
+                lambda x, p, v, w: jax.grad(
+                    lambda y, q: w @ jax.jvp(lambda s: f(s, q), (y,), (v,))[1], argnums=(0, 1)
+                )(x, p)
+            ),
         }
 
     def _call(self, name: str, *args: Any) -> Any:
@@ -245,6 +250,12 @@ class Dynamics:
     def gradient(self, x: np.ndarray, parameters: np.ndarray, w: np.ndarray) -> np.ndarray:
         """Return the product of a row vector and the derivative of F in the parameters."""
         return self._call("gradient", x, parameters, w)
+
+    def curvature(
+        self, x: np.ndarray, parameters: np.ndarray, v: np.ndarray, w: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the derivatives of w F_x v in the state and in the parameters."""
+        return self._call("curvature", x, parameters, v, w)
 
     def settle(
         self, x: np.ndarray, parameters: np.ndarray, time_constants: float, least: float = 1e-9

@@ -23,8 +23,8 @@ LEADING = 8
 """Number of growth rates that are computed above `DENSE` states."""
 
 FREE = 0.02
-"""Change of a shifted state per longest time constant and length of the shift, below which the shift counts as
-a neutral mode; the grid alone changes it then (a guess).
+"""Change of a shifted state per longest time constant and length of the shift, below which the shift counts
+as a neutral mode; the grid alone changes it then (a guess).
 """
 
 SINGULAR = 1e-10

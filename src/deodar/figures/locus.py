@@ -1,0 +1,59 @@
+"""Loci of bifurcations in the plane of two parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from deodar.errors import FigureError
+from deodar.figures import _style
+from deodar.figures._style import COLOR, COLORS
+
+if TYPE_CHECKING:
+    from deodar.analysis.continuation.locus import Locus
+
+MARKS = {"cusp": "^", "Bogdanov-Takens": "*"}
+
+
+def locus_figure(*loci: Locus, at: tuple[float, float] | None = None) -> Figure:
+    """Draw where bifurcations lie in the plane of two parameters.
+
+    Cusps are triangles, Bogdanov-Takens points stars.
+
+    Args:
+        loci: lines over the same two parameters.
+        at: values of a model, drawn as a cross; None: none.
+
+    Raises:
+        FigureError: there is no line, or they have different parameters.
+    """
+    if not loci:
+        raise FigureError("there is no locus to draw", fix="Give what dd.locus returned")
+    if len({found.parameters for found in loci}) > 1:
+        raise FigureError("the loci have different parameters", fix="Draw them in figures of their own")
+    with _style.style():
+        figure = _style.figure(1.3 * _style.SINGLE, 2.8)
+        axes = figure.subplots()
+        draw_loci(axes, loci)
+        if at is not None:
+            axes.plot(*at, "+", color=COLOR.threshold, markersize=9, label="the model")
+        first, second = loci[0].parameters
+        axes.margins(0.06)
+        axes.set_xlabel(first)
+        axes.set_ylabel(second)
+        axes.legend(loc="best")
+        return figure
+
+
+def draw_loci(axes: Axes, loci: tuple[Locus, ...]) -> None:
+    """Draw lines, and the points on them, each point once."""
+    seen: set[tuple[str, float, float]] = set()
+    for found, color in zip(loci, COLORS * (1 + len(loci) // len(COLORS)), strict=False):
+        axes.plot(*found.values.T, color=color, label=found.of)
+        for point in found.points:
+            key = (point.kind, round(point.values[0], 6), round(point.values[1], 6))
+            if key not in seen:
+                seen.add(key)
+                axes.plot(*point.values, MARKS[point.kind], color=COLOR.threshold, markersize=4, zorder=4)
