@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ from deodar import codec
 from deodar.cli import _options
 
 if TYPE_CHECKING:
+    from deodar.analysis.continuation.confirmation import Confirmation
     from deodar.analysis.peaks import Peak
     from deodar.analysis.preshape import Boosted
     from deodar.analysis.regimes import Regimes
@@ -68,6 +70,7 @@ def run(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from rich.console import Console
 
+    from deodar.analysis.continuation.confirmation import confirmed
     from deodar.analysis.regimes import regimes
     from deodar.figures import _files
     from deodar.figures.regimes import regimes_figure
@@ -84,11 +87,15 @@ def run(args: argparse.Namespace) -> int:
             finer=True,
             progress=status.update,
         )
+        status.update("folds")
+        folds = confirmed(found)
     _files.save_figure(regimes_figure(found), target, args.force)
     if args.json:
-        print(codec.text(found.data() | {"figure": str(target)}))
+        computed = {name: fold.data() for name, fold in folds.items()}
+        print(codec.text(found.data() | {"folds": computed, "figure": str(target)}))
     else:
         print(_table(found))
+        print(_folds(folds))
         print(f"\nFigure: {target}")
     return 0
 
@@ -177,6 +184,21 @@ def _table(found: Regimes) -> str:
             ("note", "the field did not settle at some inputs; their values are where it stood at the limit")
         )
     return "\n".join([*lines, "", *(f"  {label:26}{text}" for label, text in rows)])
+
+
+def _folds(folds: Mapping[str, Confirmation]) -> str:
+    """Return the thresholds that were computed as folds, and whether both methods agree."""
+    if not folds:
+        return f"  {'computed as folds':26}none: no threshold is an instability"
+    parts: list[str] = []
+    for name, fold in folds.items():
+        said = f"not found ({fold.why})" if fold.value is None else f"{fold.value:.6g}"
+        outside = fold.value is not None and not fold.inside
+        parts.append(f"{NAMES[name]} {said}{', OUTSIDE the interval above' if outside else ''}")
+    return f"  {'computed as folds':26}{'; '.join(parts)}"
+
+
+NAMES = {"detection": "detection", "reverse": "reverse detection", "forgetting": "forgetting"}
 
 
 def _bracket(found: Regimes, name: str) -> str:
