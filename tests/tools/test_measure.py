@@ -105,6 +105,7 @@ def test_the_command_prints_every_limit_and_marks_those_exceeded(
 def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
     found = {" ".join(line.split()[:2]) for line in measure.crowded(measure.trees(measure.SRC))}
     assert {re.sub(r":\d+", "", place) for place in found} == {
+        "analysis/continuation/continuation.py continuation",
         "batch/simulate.py simulate",
         "compat/cosivina/controls.py __init__",
         "experiments/batch.py run_batch",

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from deodar.analysis.continuation.dynamics import Dynamics
-from deodar.analysis.continuation.line import DENSE, Line, leading
+from deodar.analysis.continuation.line import DENSE, ParameterLine, leading
 from deodar.codec import JsonObject
 from deodar.compiler.plan import Leaf
 from deodar.errors import AnalysisError
@@ -48,7 +48,7 @@ class Bifurcation:
     rate: float
     frequency: float
     index: int
-    line: Line = field(repr=False)
+    line: ParameterLine = field(repr=False)
     instability: str = ""
     where: str = ""
     step_value: float | None = None
@@ -133,7 +133,7 @@ def _counts(leaf: str) -> bool:
     return leaf not in ("tau", "noise", "noise_length")
 
 
-def _left(line: Line, x: np.ndarray, value: float) -> np.ndarray:
+def _left(line: ParameterLine, x: np.ndarray, value: float) -> np.ndarray:
     """Return the left null vector of the derivative in the state."""
     own, parameters = line.dynamics, line.all_parameters(line.point(x, value))
     if own.size <= DENSE:

@@ -8,7 +8,7 @@ import numpy as np
 
 from deodar.analysis.continuation import switching
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.line import Line
+from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.naming import named
 from deodar.analysis.continuation.walk import NEUTRAL, Walk, with_step_values
 from deodar.codec import JsonObject
@@ -38,7 +38,7 @@ class SteadyBranch:
     growing: np.ndarray
     bifurcations: tuple[Bifurcation, ...]
     ended: tuple[str, str]
-    line: Line = field(repr=False)
+    line: ParameterLine = field(repr=False)
     not_refined: str = ""
 
     @property
@@ -95,7 +95,7 @@ class SteadyBranch:
         return f"<{len(self.values)} steady states over {self.parameter} from {low:.4g} to {high:.4g}{found}>"
 
 
-def branch(parameter: str, walked: tuple[Line, Walk], begin: str = "start") -> SteadyBranch:
+def branch(parameter: str, walked: tuple[ParameterLine, Walk], begin: str = "start") -> SteadyBranch:
     """Return a walk as a branch, its bifurcations with their names."""
     line, walk = walked
     rates = np.array([float(p.rates.real.max(initial=-np.inf)) for p in walk.points])

@@ -11,7 +11,7 @@ import numpy as np
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.branch import SteadyBranch, branch
 from deodar.analysis.continuation.dynamics import Dynamics, dynamics
-from deodar.analysis.continuation.line import Line
+from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.refinement import checked
 from deodar.analysis.continuation.walk import WalkPoint, begun, walk
 from deodar.errors import AnalysisError, ParameterError
@@ -92,7 +92,7 @@ def _followed(
     length = abs(last - first) / 10
     values = own.values.copy()
     values[0] = first
-    line = Line(own, 0, values, length)
+    line = ParameterLine(own, 0, values, length)
     x = own.start
     if made:
         strong = values.copy()
@@ -107,7 +107,7 @@ def _followed(
     return branch(parameter, (line, walk(line, start, (low, high), MOST)))
 
 
-def _require_effect(line: Line, start: WalkPoint, parameter: str, last: float) -> None:
+def _require_effect(line: ParameterLine, start: WalkPoint, parameter: str, last: float) -> None:
     """Raise an error if the parameter changes nothing in the first state."""
     own, x, here = line.dynamics, line.state(start.z), line.all_parameters(start.z)
     there, unit = here.copy(), np.zeros(here.size)

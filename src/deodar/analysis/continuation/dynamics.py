@@ -59,7 +59,7 @@ class StatePart:
 class Dynamics:
     r"""The dynamics of a model without noise, at one moment, as a pure function in double precision.
 
-    The state x is the vector of all numbers that change from step to step. Time stands at one moment, so that
+    The state x is the vector of all numbers that change from step to step. Time is constant, so that
     stimuli keep the values that they have then.
 
     Equation:

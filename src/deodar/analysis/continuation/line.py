@@ -16,7 +16,7 @@ from deodar.analysis.continuation.dynamics import Dynamics
 DENSE = 600
 """Largest number of states whose matrices are stored; above, only products with them are computed."""
 
-Rates = npt.NDArray[np.complex128]
+GrowthRates = npt.NDArray[np.complex128]
 """Growth rates per document time."""
 
 LEADING = 8
@@ -40,7 +40,7 @@ class Linearisation(Protocol):
         """Solve for a step: the rows of the equations, and one more row."""
         ...
 
-    def rates(self) -> Rates:
+    def rates(self) -> GrowthRates:
         """Return growth rates per document time, complex, the largest real parts first."""
         ...
 
@@ -50,7 +50,7 @@ class Linearisation(Protocol):
 
 
 @dataclass(frozen=True)
-class Line:
+class ParameterLine:
     """A model in one of its parameters; a point is z = (w x, value / length).
 
     With w = 1 / sqrt(n) the length of a step is a root mean square of activation.
@@ -103,7 +103,7 @@ class Line:
 class _Dense:
     """The equations with their matrices."""
 
-    def __init__(self, line: Line, z: np.ndarray) -> None:
+    def __init__(self, line: ParameterLine, z: np.ndarray) -> None:
         self.line, self.x = line, line.state(z)
         self.residual, jacobian, by = line.dynamics.linear(self.x, line.all_parameters(z))
         self.jacobian = jacobian
@@ -112,9 +112,9 @@ class _Dense:
     def solve(self, row: np.ndarray, right: np.ndarray, accuracy: float) -> np.ndarray:
         return solved(np.vstack([self.rows, row]), right)
 
-    def rates(self) -> Rates:
+    def rates(self) -> GrowthRates:
         matrix = self.jacobian / self.line.dynamics.time_constants[:, None]
-        found: Rates = np.linalg.eigvals(matrix).astype(np.complex128)
+        found: GrowthRates = np.linalg.eigvals(matrix).astype(np.complex128)
         return _without_shifts(found, self.line, self.x, lambda v: matrix @ v)
 
     def mode(self, rate: complex) -> np.ndarray:
@@ -128,7 +128,7 @@ class _Krylov:
     The matrix of a neural field is the identity minus a smoothing operator, so that a few products suffice.
     """
 
-    def __init__(self, line: Line, z: np.ndarray) -> None:
+    def __init__(self, line: ParameterLine, z: np.ndarray) -> None:
         self.line, self._x, self._p = line, line.state(z), line.all_parameters(z)
         self.residual = line.dynamics.rates(self._x, self._p)
         self._one = np.zeros(self._p.size)
@@ -157,7 +157,7 @@ class _Krylov:
         )
         return found
 
-    def rates(self) -> Rates:
+    def rates(self) -> GrowthRates:
         tau = self.line.dynamics.time_constants
         found = self._leading()[0]
         return _without_shifts(found, self.line, self._x, lambda v: self._along(v, 0.0) / tau)
@@ -166,15 +166,15 @@ class _Krylov:
         rates, modes = self._leading()
         return _unit(modes[:, np.argmin(np.abs(rates - rate))])
 
-    def _leading(self) -> tuple[Rates, Rates]:
+    def _leading(self) -> tuple[GrowthRates, GrowthRates]:
         """Return the leading growth rates and their modes, by Arnoldi's method."""
         tau = self.line.dynamics.time_constants
         return leading(self._x.size, lambda d: self._along(d, 0.0) / tau)
 
 
 def _without_shifts(
-    found: Rates, line: Line, x: np.ndarray, product: Callable[[np.ndarray], np.ndarray]
-) -> Rates:
+    found: GrowthRates, line: ParameterLine, x: np.ndarray, product: Callable[[np.ndarray], np.ndarray]
+) -> GrowthRates:
     """Return growth rates, the largest real parts first; of a peak that may stand anywhere, its shift has 0.
 
     A shift of the state is such a mode, if the product of the matrix and the shift is small.
@@ -187,7 +187,7 @@ def _without_shifts(
     return rates[np.argsort(-rates.real, kind="stable")]
 
 
-def leading(n: int, product: Callable[[np.ndarray], np.ndarray]) -> tuple[Rates, Rates]:
+def leading(n: int, product: Callable[[np.ndarray], np.ndarray]) -> tuple[GrowthRates, GrowthRates]:
     """Return the eigenvalues with the largest real parts of a matrix of which products are known, and its
     eigenvectors as columns, by Arnoldi's method.
     """
@@ -203,7 +203,7 @@ def _operator(n: int, product: Callable[[np.ndarray], np.ndarray]) -> Any:
     return make((n, n), matvec=lambda d: product(np.asarray(d).ravel()), dtype=float)
 
 
-def _unit(mode: Rates) -> np.ndarray:
+def _unit(mode: GrowthRates) -> np.ndarray:
     # a complex mode has any phase: the one with the largest real part
     turned = mode * np.exp(-1j * np.angle(mode[np.argmax(np.abs(mode))]))
     return turned.real / np.linalg.norm(turned.real)

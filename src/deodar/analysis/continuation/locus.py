@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
-from scipy import optimize
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.line import DENSE, solved
+from deodar.analysis.continuation.walk import zero
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError, ParameterError
 from deodar.parameters import show
@@ -274,9 +273,8 @@ class _Plane:
             reached[share] = found[0]
             return test(found[0])
 
-        search: Any = optimize.brentq
         try:
-            share = float(search(at, 0.0, 1.0, xtol=1e-12, rtol=1e-12, maxiter=60))
+            share = zero(at)
         except ValueError:
             return None
         return self.values(reached[share]) if share in reached else None

@@ -81,12 +81,12 @@ def _all_axes(doc: Document) -> list[tuple[Axis, ...]]:
     return [tuple(axes) for e in doc.entries if (axes := getattr(e.element, "axes", ()))]
 
 
-Followed = Callable[[Model], tuple[Sequence[Bifurcation], bool]]
+FollowBranch = Callable[[Model], tuple[Sequence[Bifurcation], bool]]
 """A function that follows a branch of a model, and says what it found and whether it reached its end."""
 
 
 def checked(
-    model: Model, found: Sequence[Bifurcation], length: float, follow: Followed
+    model: Model, found: Sequence[Bifurcation], length: float, follow: FollowBranch
 ) -> tuple[tuple[Bifurcation, ...], str]:
     """Return bifurcations with their values on a finer grid, and why there are none."""
     if not found:

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.line import Line
+from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.walk import ACCURACY, Walk, WalkPoint, tangent, walk
 
 SIZES = (0.05, 0.2, 0.8)
 """Largest activations by which the state is moved along the mode, tried one after another (a guess)."""
 
 
-def switched(at: Bifurcation, span: tuple[float, float], most: int) -> list[tuple[Line, Walk]]:
+def switched(at: Bifurcation, span: tuple[float, float], most: int) -> list[tuple[ParameterLine, Walk]]:
     """Return the walks along the other branch of a branch point, in both directions of its mode."""
-    out: list[tuple[Line, Walk]] = []
+    out: list[tuple[ParameterLine, Walk]] = []
     for sign in (1.0, -1.0):
         for size in SIZES:
             begin = _beside(at, sign * size * at.vector / np.abs(at.vector).max())

@@ -9,10 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy import optimize
 
 from deodar.analysis.continuation.bifurcation import Bifurcation, BifurcationKind
-from deodar.analysis.continuation.line import Line, Linearisation, Rates
+from deodar.analysis.continuation.line import GrowthRates, Linearisation, ParameterLine
 
 ACCURACY = 1e-9
 """Largest residual of a steady state, in units of activation."""
@@ -45,7 +44,7 @@ class WalkPoint:
 
     z: np.ndarray
     direction: np.ndarray
-    rates: Rates
+    rates: GrowthRates
 
 
 @dataclass
@@ -64,7 +63,7 @@ class Walk:
 
 
 def walk(
-    line: Line,
+    line: ParameterLine,
     start: WalkPoint,
     span: tuple[float, float],
     most: int,
@@ -99,7 +98,7 @@ def walk(
     return found
 
 
-def with_step_values(line: Line, found: Walk) -> list[Bifurcation]:
+def with_step_values(line: ParameterLine, found: Walk) -> list[Bifurcation]:
     """Return the bifurcations; Hopf points with the nearest value at which Euler's step begins to oscillate.
 
     A mode with the growth rate r changes by 1 + dt r in a step, so that it grows if |1 + dt r| > 1.
@@ -123,7 +122,7 @@ def _turning(point: WalkPoint, dt: float) -> float:
     return float(np.abs(1 + dt * turning).max(initial=0.0)) - 1
 
 
-def _crossing(line: Line, before: WalkPoint, after: WalkPoint, dt: float) -> float | None:
+def _crossing(line: ParameterLine, before: WalkPoint, after: WalkPoint, dt: float) -> float | None:
     """Return the value at which an oscillation of Euler's step begins to grow, between two points."""
     chord = after.z - before.z
     row = chord / np.linalg.norm(chord)
@@ -137,12 +136,12 @@ def _crossing(line: Line, before: WalkPoint, after: WalkPoint, dt: float) -> flo
         return _turning(WalkPoint(found[0], row, found[1].rates()), dt)
 
     try:
-        return line.value(reached[_zero(at)])
+        return line.value(reached[zero(at)])
     except (_Lost, ValueError, KeyError):
         return None
 
 
-def begun(line: Line, x: np.ndarray, value: float, direction: float) -> WalkPoint | None:
+def begun(line: ParameterLine, x: np.ndarray, value: float, direction: float) -> WalkPoint | None:
     """Return the steady state near x as the first point of a branch towards larger or smaller values; None if
     Newton's method does not find it.
     """
@@ -173,7 +172,9 @@ def tangent(at: Linearisation, before: np.ndarray) -> np.ndarray:
     return found / np.linalg.norm(found)
 
 
-def corrected(line: Line, guess: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, Linearisation, int] | None:
+def corrected(
+    line: ParameterLine, guess: np.ndarray, row: np.ndarray
+) -> tuple[np.ndarray, Linearisation, int] | None:
     """Return the steady state in the plane through a guess, across a direction.
 
     The equations there and the number of Newton steps follow; None if Newton's method does not converge.
@@ -191,12 +192,12 @@ def corrected(line: Line, guess: np.ndarray, row: np.ndarray) -> tuple[np.ndarra
     return None
 
 
-def growing(line: Line, point: WalkPoint) -> int:
+def growing(line: ParameterLine, point: WalkPoint) -> int:
     """Return the number of growing modes."""
     return int((point.rates.real * line.slowest > NEUTRAL).sum())
 
 
-def _advanced(line: Line, now: WalkPoint, size: float) -> tuple[WalkPoint, int] | None:
+def _advanced(line: ParameterLine, now: WalkPoint, size: float) -> tuple[WalkPoint, int] | None:
     """Return the next point of the branch, and how many Newton steps it took; None if it may be another
     branch.
     """
@@ -213,7 +214,7 @@ def _advanced(line: Line, now: WalkPoint, size: float) -> tuple[WalkPoint, int] 
     return WalkPoint(z, ahead, at.rates()), effort
 
 
-def _at_end(line: Line, now: WalkPoint, after: WalkPoint, span: tuple[float, float]) -> WalkPoint:
+def _at_end(line: ParameterLine, now: WalkPoint, after: WalkPoint, span: tuple[float, float]) -> WalkPoint:
     """Return the steady state at the end of the span, between a point inside and one outside."""
     end = min(max(line.value(after.z), span[0]), span[1]) / line.length
     guess = now.z + (after.z - now.z) * (end - now.z[-1]) / (after.z[-1] - now.z[-1])
@@ -236,7 +237,9 @@ def _closed(points: list[WalkPoint], size: float) -> bool:
 # ----------------------------------------------------------------------------------- what lies between points
 
 
-def _between(line: Line, now: WalkPoint, after: WalkPoint, size: float, index: int) -> list[Bifurcation]:
+def _between(
+    line: ParameterLine, now: WalkPoint, after: WalkPoint, size: float, index: int
+) -> list[Bifurcation]:
     """Return the bifurcations between two points."""
     found: list[Bifurcation] = []
     turns = now.direction[-1] * after.direction[-1] < 0
@@ -247,7 +250,7 @@ def _between(line: Line, now: WalkPoint, after: WalkPoint, size: float, index: i
 
 
 def _crossings(
-    line: Line, now: WalkPoint, after: WalkPoint, size: float, index: int, turns: bool
+    line: ParameterLine, now: WalkPoint, after: WalkPoint, size: float, index: int, turns: bool
 ) -> list[Bifurcation]:
     """Return the branch point or Hopf point between two points, besides a fold."""
     few, many = sorted((growing(line, now), growing(line, after)))
@@ -266,14 +269,17 @@ class _Lost(Exception):
     """Raised inside a search where the branch is not found."""
 
 
-def _zero(of: Callable[[float], float]) -> float:
+def zero(of: Callable[[float], float]) -> float:
     """Return a zero between 0 and 1; raise ValueError if both ends have one sign."""
+    # start-up time
+    from scipy import optimize
+
     search: Any = optimize.brentq
     return float(search(of, 0.0, 1.0, xtol=1e-13, rtol=1e-12, maxiter=60))
 
 
 def _located(
-    line: Line,
+    line: ParameterLine,
     now: WalkPoint,
     size: float,
     index: int,
@@ -297,7 +303,7 @@ def _located(
 
     # a failed search leaves the nearest point to the zero that was reached
     with contextlib.suppress(_Lost, ValueError):
-        _zero(at)
+        zero(at)
     z = min(seen, key=lambda point: point[0])[1] if seen else now.z
     linear = line.at(z)
     rates = linear.rates()

@@ -220,7 +220,7 @@ def watched(camera: Camera, hues: Sequence[float]) -> CueScene:
 
     try:
         seen = simulate(eye, DURATION, record="eye.output", world=camera, progress=wait)
-        return CueScene("camera", f"camera {camera.number}", Picture(camera.picture()), cues, Recording(seen))
+        return CueScene("camera", f"camera {camera.source}", Picture(camera.picture()), cues, Recording(seen))
     finally:
         camera.close()
 

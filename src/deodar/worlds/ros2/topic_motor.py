@@ -8,7 +8,7 @@ import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
 from deodar.worlds._motor_rule import STOPS_AFTER
-from deodar.worlds.ros2.topic_sensor import Samples
+from deodar.worlds.ros2.topic_sensor import ArraySamples
 
 Above0 = Annotated[float, Meta(gt=0)]
 
@@ -31,7 +31,7 @@ class TopicMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
 
     topic: str
     type: str
-    shape: Samples | None = None
+    shape: ArraySamples | None = None
     fields: str | list[str] | None = None
     joints: list[str] | None = None
     limits: tuple[float, float] | None = None

@@ -11,7 +11,7 @@ from msgspec import Meta
 from deodar.errors import WorldError
 
 T = TypeVar("T")
-Samples = Annotated[list[Annotated[int, Meta(gt=0, le=10**6)]], Meta(max_length=7)]
+ArraySamples = Annotated[list[Annotated[int, Meta(gt=0, le=10**6)]], Meta(max_length=7)]
 
 
 class TopicSensor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -29,7 +29,7 @@ class TopicSensor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     topic: str
     type: str
-    shape: Samples | None = None
+    shape: ArraySamples | None = None
     fields: str | list[str] | None = None
     joints: list[str] | None = None
     undefined: float | None = None

@@ -22,7 +22,7 @@ QUALITY = "::,10:,:,:,,"
 
 _TOPIC = re.compile(r"/?(?:[A-Za-z_]\w*/)*[A-Za-z_]\w*", re.ASCII)
 
-Role = Literal["NN", "MP", "MS"]
+TokenRole = Literal["NN", "MP", "MS"]
 """What a token stands for: a node, a publisher, or a subscription."""
 
 
@@ -85,7 +85,12 @@ def topic_key(domain: int, topic: str, type: str = "*", hash: str = "*") -> str:
 
 
 def token(
-    domain: int, session: str, number: int, role: Role, node: str, about: tuple[str, str, str] | None = None
+    domain: int,
+    session: str,
+    number: int,
+    role: TokenRole,
+    node: str,
+    about: tuple[str, str, str] | None = None,
 ) -> str:
     """Return the key of the liveliness token of a node, or of a publisher or subscription of it.
 
