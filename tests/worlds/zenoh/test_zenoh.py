@@ -359,6 +359,22 @@ def test_a_robot_that_leaves_is_named_and_one_that_returns_is_connected_again(se
     again.close()
 
 
+def test_a_record_keeps_what_was_seen_before_a_robot_left_and_is_a_world(served, tmp_path):
+    robot = served(Wheel(), clock="live")
+    world = Zenoh(at=robot.endpoint)
+    session = dd.Session(turning(), world=world)
+    with session.record(tmp_path / "run", ["see.output", "turn.output"], every=10):
+        session.run_live(300)
+        robot.close()
+        with pytest.raises(WorldError, match="'robot' has left"):
+            session.run_live(300)
+    data = dd.load_record(tmp_path / "run")
+    seen = data["see.output"].values
+    assert len(seen) > 20 and np.unique(seen).size > 5, "the wheel turned"
+    replay = dd.simulate(turning(), 200, record="see.output", every=10, world=dd.Recording(data))
+    np.testing.assert_array_equal(replay["see.output"].values, seen[: replay.sizes["time"]])
+
+
 def test_names_that_are_not_there_are_answered_with_those_that_are(served):
     at = served(Wheel(), "epuck").endpoint
     with pytest.raises(WorldError, match=f"no robot called 'epuk' is at {at}. Did you mean 'epuck'?"):
