@@ -109,8 +109,8 @@ def timed(function: Callable[[], object]) -> float:
 
 
 def bisected(model: dd.Model, low: float, high: float, peak: bool) -> float:
-    """Return the input at which a peak appears, to 1e-5, by runs of 3000 time constants; or vanishes, from `low`,
-    where it is.
+    """Return the input at which a peak appears, to 1e-5, by runs of 3000 time constants; or where it
+    vanishes, from `low` on, where there is one.
     """
     d = dd.dynamics(model, ["s.amplitude"])
     state = d.settle(d.start, np.array([low]), 3000, least=0.0)
