@@ -281,8 +281,7 @@ def exchange(side: Any, hz: float, size: tuple[int, int], seconds: float) -> lis
         both = [1000 * part["cpu"] / max(1, part["periods"]) for part in (mine, other)]
         text += f", CPU {both[0]:.2f} ms a period of the plant, {both[1]:.2f} of the other side"
         found += [(f"{name}: median ms", median, 2.0), (f"{name}: p99 ms", late, 10.0)]
-        if size == (160, 120):
-            found += [(f"{name}: CPU ms", cpu, 1.5) for cpu in both]
+        found += [(f"{name}: CPU ms", cpu, 1.5) for cpu in both]
     else:
         text += f"; {other['meter']}"
         found += [(f"{name}: p99 ms", late, 1000 / hz + 5)]
