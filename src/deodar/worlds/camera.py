@@ -29,12 +29,12 @@ class Camera(World):
     the model to it (`session.run_live`). A run with a camera cannot be repeated; record the output of the
     sensor and replay it (`Recording`).
 
-    Equation:
-        y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
-
     A file is played once, at its own rate; `Video` plays one in the time of the model. A camera that is
     absent or stops is an error that says why. The user, the password and secret parameters of an address are
     in no record and no message, which show `***` instead.
+
+    Equation:
+        y(x, y, c, t) = \langle \text{channel } c \rangle_{\text{cell of } (x, y)}
 
     Parameters:
         source: number of a device, 0 for the first; its path; a video file; or an address, rtsp://, http://

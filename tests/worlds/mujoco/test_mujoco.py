@@ -184,7 +184,7 @@ def test_the_command_line_states_scene_robot_and_settings(cart: Path):
     world = MuJoCo.open("table, robot=four, camera_every=2, light=0.5")
     assert len(world.sense("joint_angles", (), 0.0)[0]) == 4
     assert (world.camera_every, world.light) == (2, 0.5)
-    assert MuJoCo.open(str(cart)).arm is None and MuJoCo.names() == ["table"]
+    assert MuJoCo.open(str(cart)).arm is None and MuJoCo.names() == ["head", "table"]
     for argument, says in (
         ("table, robt=four", "there is no setting 'robt'.*robot"),
         ("table, light=much", "light is 'much'; expected a number"),
