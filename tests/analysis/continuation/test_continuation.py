@@ -205,6 +205,20 @@ def test_a_stimulus_outside_of_its_windows_is_named():
     assert dd.continuation(model, "s.amplitude", (0, 8), at=150, finer=False).bifurcations
 
 
+def test_a_field_that_is_held_is_constant_and_has_no_name():
+    model = node()
+    model.add(dd.Field("v", tau=10, resting_level=-3.0))
+    model["v"] >> model["u"]
+    whole, held = (
+        dd.continuation(model, "s.amplitude", (0, 8), hold=hold, finer=False) for hold in ((), ("v",))
+    )
+    assert list(held.state(0)) == ["u.activation"]
+    assert kinds(whole) == kinds(held) == [("fold", "detection"), ("fold", "reverse detection")]
+    assert [b.value for b in held.bifurcations] == pytest.approx(
+        [b.value for b in whole.bifurcations], abs=1e-6
+    )
+
+
 def test_the_parameter_of_the_span_cannot_induce_the_state():
     with pytest.raises(ParameterError, match="Leave it out of induced_by"):
         dd.continuation(node(), "s.amplitude", (0, 8), induced_by={"s.amplitude": 3})

@@ -10,7 +10,7 @@ from deodar.analysis.continuation import switching
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.naming import named
-from deodar.analysis.continuation.walk import NEUTRAL, Walk, with_step_values
+from deodar.analysis.continuation.walk import Walk, growing, with_step_values
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError
 
@@ -99,18 +99,18 @@ def branch(parameter: str, walked: tuple[ParameterLine, Walk], begin: str = "sta
     """Return a walk as a branch, its bifurcations with their names."""
     line, walk = walked
     rates = np.array([float(p.rates.real.max(initial=-np.inf)) for p in walk.points])
-    growing = np.array([int((p.rates.real * line.slowest > NEUTRAL).sum()) for p in walk.points])
+    modes = np.array([growing(line, p) for p in walk.points])
     found: list[Bifurcation] = []
     for b in with_step_values(line, walk):
         # a state that is unstable on both sides is never seen
-        seen = min(growing[b.index], growing[b.index + 1]) == 0
+        seen = min(modes[b.index], modes[b.index + 1]) == 0
         found.append(named(b, walk.points) if seen else b)
     return SteadyBranch(
         parameter,
         np.array([line.value(p.z) for p in walk.points]),
         np.array([line.state(p.z) for p in walk.points]),
         rates,
-        growing,
+        modes,
         tuple(found),
         (begin, walk.ended),
         line,

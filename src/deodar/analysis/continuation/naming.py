@@ -79,11 +79,12 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
 
 
 def _fields(found: Bifurcation) -> list[tuple[str, Axes, float]]:
-    """Return path, axes and threshold of the fields of the model."""
+    """Return path, axes and threshold of the fields of the model that are not held."""
+    own = found.line.dynamics
     return [
         (e.path, tuple(e.element.axes), float(getattr(e.element.sigmoid, "threshold", 0.0)))
-        for e in found.line.dynamics.doc.entries
-        if isinstance(e.element, Field)
+        for e in own.doc.entries
+        if isinstance(e.element, Field) and e.id not in own.held
     ]
 
 
