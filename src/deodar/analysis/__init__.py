@@ -13,6 +13,7 @@ from deodar.analysis.continuation.branch import SteadyBranch
 from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.locus import Locus, LocusPoint
 from deodar.analysis.isolated import Isolated, isolate
+from deodar.analysis.maps.map_result import RegimeMap
 from deodar.analysis.memory import Memory, forgetting, outlives
 from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
 from deodar.analysis.peaks import Peak, Peaks, peaks
@@ -38,6 +39,7 @@ __all__ = [
     "Peak",
     "Peaks",
     "Phase",
+    "RegimeMap",
     "Regimes",
     "Selection",
     "Settled",

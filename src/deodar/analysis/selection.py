@@ -12,6 +12,8 @@ from deodar.analysis.settle import LIMIT
 from deodar.errors import AnalysisError, ParameterError
 
 HEAD_START = 0.01
+DISTANCE = 0.5
+"""Distance of the two inputs, as a share of each axis' range."""
 FARTHEST = 0.5
 """Largest distance of two inputs that is tried, as a share of each axis' range: the largest one possible on a
 periodic axis.
@@ -41,7 +43,11 @@ class Selection:
 
 
 def selects(
-    isolated: Isolated, amplitude: float, difference: float = 0.1, distance: float = 0.5, limit: float = LIMIT
+    isolated: Isolated,
+    amplitude: float,
+    difference: float = 0.1,
+    distance: float = DISTANCE,
+    limit: float = LIMIT,
 ) -> Selection:
     """Measure whether two simultaneous inputs lead to one peak.
 
@@ -70,7 +76,7 @@ def selects(
         )
     home = isolated.session.get("input.center")
     try:
-        first, second = _places(isolated, distance)
+        first, second = places(isolated, distance)
         isolated.session.set("input.center", first)
         isolated.session.set("second.center", second)
         isolated.reset(input=amplitude * (1 + difference), second=amplitude)
@@ -106,7 +112,7 @@ def separation(isolated: Isolated, amplitude: float, limit: float = LIMIT) -> fl
     home = isolated.session.get("input.center")
 
     def both(distance: float) -> bool:
-        for name, place in zip(("input", "second"), _places(isolated, distance), strict=True):
+        for name, place in zip(("input", "second"), places(isolated, distance), strict=True):
             isolated.session.set(f"{name}.center", place)
         return len(_equal(isolated, amplitude, limit)) >= 2
 
@@ -132,7 +138,7 @@ def _equal(isolated: Isolated, amplitude: float, limit: float) -> Peaks:
     return isolated.peaks()
 
 
-def _places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def places(isolated: Isolated, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return two samples at equal distances on both sides of the middle."""
     away = [max(1, round(distance * a.samples / 2)) for a in isolated.axes]
     middle = [a.samples // 2 for a in isolated.axes]

@@ -1,0 +1,264 @@
+"""The protocol of a map: stages of input for each cell, in one compiled function that returns labels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from deodar.analysis.isolated import WHOLE
+from deodar.analysis.maps.labels import RegimeLabel
+from deodar.analysis.maps.patterns import count, widest
+from deodar.analysis.maps.request import INPUTS, MapRequest
+from deodar.analysis.selection import HEAD_START
+from deodar.compiler.arguments import ProgramState
+from deodar.compiler.functions import Constants
+from deodar.compiler.program import precision_context
+from deodar.compiler.pure_copies import PureCopies
+from deodar.model import find
+from deodar.numerics.axes import Axes
+
+REST, ONE, NONE, AHEAD, EQUAL = range(5)
+"""The stages: no input, one input, none again; two inputs, one of them ahead; two equal inputs."""
+
+LANES = 64
+"""Cells that are computed at once."""
+
+BLOCKS = 400
+"""Blocks of steps in one call, between which progress is shown."""
+
+LEAST_BLOCKS = 2
+"""Blocks after which a stage may end."""
+
+FAR = 1e4
+"""Activation, relative to inputs and resting level, beyond which it grows without limit."""
+
+
+class Lanes(NamedTuple):
+    """The cells that are computed at once; a JAX PyTree.
+
+    Attributes:
+        cell: number of the cell of each lane; -1: idle.
+        stage: stage of each lane.
+        blocks: blocks of steps that it has taken in this stage.
+        kept: whether a peak outlived its input.
+        state: state of each copy.
+        constants: constants of the copies.
+        taken: how many cells of the queue have begun.
+        labels: label of every cell of the grid, and of a last one that idle lanes write.
+    """
+
+    cell: Array
+    stage: Array
+    blocks: Array
+    kept: Array
+    state: ProgramState
+    constants: list[Constants]
+    taken: Array
+    labels: Array
+
+
+class RegimeProtocol:
+    """The stages of a map, for any of its cells.
+
+    A lane takes the next cell of the queue when it has finished one, so that cells that settle late delay no
+    others.
+
+    Args:
+        request: what is measured.
+    """
+
+    def __init__(self, request: MapRequest) -> None:
+        self._request = request
+        doc = request.model.document
+        entry = find.element(doc, "field")
+        inputs = [[(find.element(doc, name).id, "amplitude")] for name in INPUTS]
+        leaves = [*request.leaves, *inputs]
+        self.axes: Axes = request.isolated.axes
+        dt = request.isolated.session.dt
+        self.copies = PureCopies(request.model, doc, leaves, LANES, request.precision, dt)
+        self._place = self.copies.executable.plan.row[entry.id]
+        tau = request.isolated.field.tau
+        self._steps = max(2, math.ceil(tau / dt))
+        # blocks last a time constant
+        self._longest = max(LEAST_BLOCKS, math.ceil(request.limit * tau / (self._steps * dt)))
+        self._columns = len(request.values[1])
+        self._cells = math.prod(len(values) for values in request.values)
+
+    def run(self, labels: np.ndarray, cells: np.ndarray, progress: Callable[[int], None]) -> np.ndarray:
+        """Return the labels of a grid with those of some cells computed.
+
+        Args:
+            labels: labels so far, of all cells in one row.
+            cells: numbers of the cells that are computed.
+            progress: called with the number of cells that are done.
+        """
+        queue = np.zeros(self._cells, np.int32)
+        queue[: len(cells)] = cells
+        own = self._call("begin", np.append(labels, 0).astype(np.uint8))
+        while True:
+            own = self._call("blocks", own, queue, np.int32(len(cells)))
+            going = int((np.asarray(own.cell) >= 0).sum())
+            done = int(own.taken) - going
+            progress(done)
+            if done == len(cells):
+                return np.asarray(own.labels)[:-1]
+
+    def _call(self, name: str, *args: Any) -> Any:
+        with precision_context(self._request.precision), jax.default_matmul_precision("highest"):
+            return self._compiled[name](*args)
+
+    @cached_property
+    def _compiled(self) -> dict[str, Callable[..., Any]]:
+        return {"begin": jax.jit(self._begin), "blocks": jax.jit(self._blocks)}
+
+    # ----------------------------------------------------------------------------------------------- compiled
+
+    def _begin(self, labels: Array) -> Lanes:
+        """Return idle lanes."""
+        none = jnp.full(LANES, -1, jnp.int32)
+        zero = jnp.zeros(LANES, jnp.int32)
+        parameters = self._parameters(none, zero)
+        return Lanes(
+            none,
+            zero,
+            zero,
+            zero > 0,
+            self.copies.start(parameters),
+            self.copies.constants(parameters),
+            jnp.int32(0),
+            labels,
+        )
+
+    def _blocks(self, lanes: Lanes, queue: Array, total: Array) -> Lanes:
+        """Return the lanes after `BLOCKS` blocks, or when all cells are done."""
+
+        def going(carry: tuple[Array, Lanes]) -> Array:
+            number, own = carry
+            return (number < BLOCKS) & ((own.taken < total) | (own.cell >= 0).any())
+
+        def block(carry: tuple[Array, Lanes]) -> tuple[Array, Lanes]:
+            number, own = carry
+            return number + 1, self._block(self._filled(own, queue, total))
+
+        return jax.lax.while_loop(going, block, (jnp.int32(0), lanes))[1]
+
+    def _filled(self, lanes: Lanes, queue: Array, total: Array) -> Lanes:
+        """Give the next cells of the queue to idle lanes; where constants are rebuilt, to several at once."""
+        idle = lanes.cell < 0
+        least = LANES // 8 if self.copies.rebuilt else 1
+        ready = (lanes.taken < total) & (idle.sum() >= jnp.minimum(least, total - lanes.taken))
+
+        def fill(lanes: Lanes) -> Lanes:
+            place = lanes.taken + jnp.cumsum(idle, dtype=jnp.int32) - 1
+            begins = idle & (place < total)
+            cell = jnp.where(begins, queue[jnp.clip(place, 0, self._cells - 1)], lanes.cell)
+            parameters = self._parameters(cell, lanes.stage)
+            return lanes._replace(
+                cell=cell,
+                stage=jnp.where(begins, REST, lanes.stage),
+                blocks=jnp.where(begins, 0, lanes.blocks),
+                kept=lanes.kept & ~begins,
+                state=_where(begins, self.copies.start(parameters), lanes.state),
+                constants=self.copies.constants(parameters) if self.copies.rebuilt else lanes.constants,
+                taken=lanes.taken + begins.sum(dtype=jnp.int32),
+            )
+
+        return jax.lax.cond(ready, fill, lambda lanes: lanes, lanes)
+
+    def _block(self, lanes: Lanes) -> Lanes:
+        """Advance all lanes by a block of steps, and those that have settled to their next stage."""
+        parameters = self._parameters(lanes.cell, lanes.stage)
+        begin = self._activation(lanes.state)
+        before, state = self.copies.run(parameters, lanes.constants, lanes.state, self._steps)
+        last, now = self._activation(before), self._activation(state)
+        settled, far = self._judged(begin, last, now)
+        settled &= lanes.blocks + 1 >= LEAST_BLOCKS
+        late = ~settled & (lanes.blocks + 1 >= self._longest)
+        above = now - self._threshold(parameters)[:, None]
+        peaks = count(above if self.axes else above[:, 0], self.axes)
+        covers = jnp.zeros_like(settled)
+        if self.axes:
+            covers = widest(above, self.axes[0]) >= WHOLE * self.axes[0].range
+        label, stage, kept = self._decided(lanes, peaks, covers)
+        label = jnp.where(settled, label, -1)
+        label = jnp.where(late, RegimeLabel.RESTLESS, label)
+        label = jnp.where(far, RegimeLabel.UNBOUNDED, label)
+        active = lanes.cell >= 0
+        done, next_stage = active & (label >= 0), settled & (label < 0)
+        labels = lanes.labels.at[jnp.where(done, lanes.cell, self._cells)].set(label.astype(jnp.uint8))
+        again = next_stage & (stage == AHEAD)
+        return lanes._replace(
+            cell=jnp.where(done, -1, lanes.cell),
+            stage=jnp.where(next_stage, stage, lanes.stage),
+            blocks=jnp.where(next_stage, 0, lanes.blocks + 1),
+            kept=jnp.where(next_stage, kept, lanes.kept),
+            # an idle lane may hold values that are not finite
+            state=_where(again | done, self.copies.start(parameters), state),
+            labels=labels,
+        )
+
+    def _decided(self, lanes: Lanes, peaks: Array, covers: Array) -> tuple[Array, Array, Array]:
+        """Return what follows where a stage has settled: the label, or -1 and the next stage; and whether a
+        peak outlived its input.
+        """
+        stage, some = lanes.stage, peaks > 0
+        kept = jnp.where(stage == NONE, some, lanes.kept)
+        label = jnp.full(LANES, -1, jnp.int32)
+        label = jnp.where((stage == REST) & some, RegimeLabel.ACTIVE, label)
+        label = jnp.where((stage == ONE) & ~some, RegimeLabel.SILENT, label)
+        label = jnp.where(((stage == ONE) | (stage == NONE)) & covers, RegimeLabel.UNBOUNDED, label)
+        alone = jnp.where(kept, RegimeLabel.SUSTAINED, RegimeLabel.DRIVEN)
+        if not self.axes:
+            return jnp.where(stage == NONE, alone, label), stage + 1, kept
+        chosen = jnp.where(kept, RegimeLabel.SUSTAINED_SELECTIVE, RegimeLabel.SELECTIVE)
+        return jnp.where(stage == EQUAL, jnp.where(peaks == 1, chosen, alone), label), stage + 1, kept
+
+    def _judged(self, begin: Array, last: Array, now: Array) -> tuple[Array, Array]:
+        """Return whether each lane has settled, over the block and in its last step, and whether its
+        activation is far beyond what inputs and resting level explain.
+        """
+        tau, dt = self._request.isolated.field.tau, self.copies.dt
+        slow = jnp.abs(now - begin).max(-1) * (tau / (self._steps * dt))
+        fast = jnp.abs(now - last).max(-1) * (tau / dt)
+        most = jnp.abs(now).max(-1)
+        far = ~(most < FAR * (self._request.isolated.scale + self._request.strength))
+        return jnp.maximum(slow, fast) <= self._request.tolerance, far
+
+    def _parameters(self, cell: Array, stage: Array) -> Array:
+        """Return both parameters and the strengths of the inputs, (lanes, parameters)."""
+        one, two = stage == ONE, stage >= AHEAD
+        dtype = self.copies.executable.program.dtype
+        strength = jnp.asarray(self._request.strength, dtype)
+        first = two * strength * jnp.where(stage == AHEAD, 1 + HEAD_START, 1.0)
+        cell = jnp.maximum(cell, 0)
+        places = (cell // self._columns, cell % self._columns)
+        values = [jnp.asarray(v, dtype)[k] for v, k in zip(self._request.values, places, strict=True)]
+        return jnp.stack([*values, one * strength, first, two * strength], axis=1).astype(dtype)
+
+    def _threshold(self, parameters: Array) -> Array:
+        """Return the activation above which a peak exists, for each lane."""
+        number = self._request.threshold_of
+        if number is not None:
+            return parameters[:, number]
+        return jnp.full(LANES, self._request.isolated.threshold, parameters.dtype)
+
+    def _activation(self, state: ProgramState) -> Array:
+        """Return the activation of the field, lanes first; a node has one sample."""
+        group, row = self._place
+        return state["groups"][group]["activation"][:, row].reshape(LANES, -1)
+
+
+def _where(chosen: Array, new: Any, old: Any) -> Any:
+    """Return the lanes of `new` where `chosen`, else those of `old`."""
+
+    def pick(a: Array, b: Array) -> Array:
+        return jnp.where(chosen.reshape(-1, *(1,) * (a.ndim - 1)), a, b)
+
+    return jax.tree.map(pick, new, old)

@@ -1,0 +1,72 @@
+"""Maps of regimes over two parameters, by simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Unpack
+
+import numpy as np
+
+from deodar.analysis.isolated import Isolation
+from deodar.analysis.maps import grid
+from deodar.analysis.maps.map_result import RegimeMap
+from deodar.analysis.maps.protocol import RegimeProtocol
+from deodar.analysis.maps.request import requested
+from deodar.model.model import Model
+
+LIMIT = 500.0
+"""Longest stage, in time constants. Beside a fold the passage takes at most about 100, as slower changes
+count as settled; an edge of a peak that hardly moves takes longer.
+"""
+
+
+def regime_map(
+    model: Model,
+    over: Mapping[str, Sequence[float] | np.ndarray | tuple[float, float, int]],
+    field: str = "",
+    strength: float | None = None,
+    refine: bool = True,
+    limit: float = LIMIT,
+    progress: Callable[[int, int], None] | None = None,
+    **isolation: Unpack[Isolation],
+) -> RegimeMap:
+    """Map what a field does with its input over two parameters, by simulation of each cell.
+
+    The field is measured alone, without noise, as by `dd.regimes`. Each cell is a run of several stages, each
+    until the field settles: no input; one localised input; none again; then, from the resting level, two
+    equal inputs, the first a hundredth stronger until the field settles. Peaks are counted at the end of each
+    stage.
+
+    Args:
+        model: the model.
+        over: for each of two parameters its values in growing order, or (lowest, highest, number).
+        field: path of the field or node; empty: the only one.
+        strength: amplitude of each input; None: 1.2 times the distance between resting level and threshold
+            of the model's own field, which makes a peak without interaction.
+        refine: whether a coarse grid comes first, and then only cells of which a neighbour has another label;
+            else every cell is computed.
+        limit: longest stage, in time constants; a field that has not settled then gets a label of its own.
+        progress: called with the number of cells that are computed and the number that is known to be needed.
+        sigma: width of the inputs; None: that of the kernel's excitation, in all cells.
+        center: position of the single input; None: the sample nearest to the middle.
+        precision: float32 or float64.
+        dt: Euler step; None: see `isolate`.
+        inputs: elements of the model kept as constant inputs.
+
+    Raises:
+        AnalysisError: the element is not a field with one axis or none, or a parameter changes no label.
+        ParameterError: changing a parameter needs another program, or its values are no axis of a map.
+        UnknownName: a path is unknown.
+    """
+    request = requested(model, over, field, strength, limit, isolation)
+    protocol = RegimeProtocol(request)
+    tell, finished = progress or (lambda done, known: None), 0
+
+    def compute(labels: np.ndarray, cells: np.ndarray) -> np.ndarray:
+        nonlocal finished
+        before, finished = finished, finished + len(cells)
+        return protocol.run(labels, cells, lambda done: tell(before + done, before + len(cells)))
+
+    first, second = (len(values) for values in request.values)
+    labels, computed = (grid.refined if refine else grid.every)((first, second), compute)
+    return RegimeMap.of(model, request, labels, computed)
