@@ -144,6 +144,7 @@ from deodar.figures.locus import locus_figure as locus_figure
 from deodar.figures.path import animate_path as animate_path
 from deodar.figures.path import path_figure as path_figure
 from deodar.figures.projection import projection as projection
+from deodar.figures.regime_map import regime_map_figure as regime_map_figure
 from deodar.figures.regimes import phase_figure as phase_figure
 from deodar.figures.regimes import regimes_figure as regimes_figure
 from deodar.figures.snapshot import snapshot as snapshot

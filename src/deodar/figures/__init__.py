@@ -17,6 +17,7 @@ from deodar.figures.bifurcation import bifurcation_diagram
 from deodar.figures.locus import locus_figure
 from deodar.figures.path import animate_path, path_figure
 from deodar.figures.projection import projection
+from deodar.figures.regime_map import regime_map_figure
 from deodar.figures.regimes import phase_figure, regimes_figure
 from deodar.figures.snapshot import snapshot
 from deodar.figures.snapshots import snapshots
@@ -40,6 +41,7 @@ __all__ = [
     "path_figure",
     "phase_figure",
     "projection",
+    "regime_map_figure",
     "regimes_figure",
     "save_figure",
     "snapshot",

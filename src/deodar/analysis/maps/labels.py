@@ -10,9 +10,9 @@ class RegimeLabel(IntEnum):
 
     Attributes:
         SILENT: the input makes no peak.
-        DRIVEN: the input makes a peak, which vanishes with it; two equal inputs do not end in one peak.
+        DRIVEN: the input makes a peak, which vanishes with it; two equal inputs do not end in one.
         SUSTAINED: the peak outlives its input.
-        SELECTIVE: two equal inputs end in one peak.
+        SELECTIVE: two equal inputs end in one peak, at one of them.
         SUSTAINED_SELECTIVE: both.
         UNBOUNDED: the peak spreads over the field, or activation grows without limit.
         ACTIVE: a peak exists without input.

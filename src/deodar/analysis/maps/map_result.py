@@ -16,6 +16,7 @@ from deodar.codec import JsonObject
 from deodar.compiler import device as devices
 from deodar.errors import RecordError
 from deodar.model import find
+from deodar.model.document import Document
 from deodar.model.model import Model
 
 if TYPE_CHECKING:
@@ -71,6 +72,14 @@ class RegimeMap:
         made = {**provenance.stored(doc), "made_by": made_by}
         first, second = (float(np.ravel(find.value(doc, path))[0]) for path in request.paths)
         return cls(request.paths, request.values, labels, computed, (first, second), found, made)
+
+    @property
+    def document(self) -> Document:
+        """The document that was mapped."""
+        # start-up time: this brings xarray
+        from deodar.recording import provenance
+
+        return provenance.document(self.provenance)
 
     @property
     def words(self) -> np.ndarray:

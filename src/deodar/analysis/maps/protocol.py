@@ -186,7 +186,7 @@ class RegimeProtocol:
         covers = jnp.zeros_like(settled)
         if self.axes:
             covers = widest(above, self.axes[0]) >= WHOLE * self.axes[0].range
-        label, stage, kept = self._decided(lanes, peaks, covers)
+        label, stage, kept = self._decided(lanes, peaks, covers, self._joined(above))
         label = jnp.where(settled, label, -1)
         label = jnp.where(late, RegimeLabel.RESTLESS, label)
         label = jnp.where(far, RegimeLabel.UNBOUNDED, label)
@@ -204,7 +204,16 @@ class RegimeProtocol:
             labels=labels,
         )
 
-    def _decided(self, lanes: Lanes, peaks: Array, covers: Array) -> tuple[Array, Array, Array]:
+    def _joined(self, above: Array) -> Array:
+        """Return whether both places of the two inputs are active."""
+        if not self.axes:
+            return jnp.zeros(LANES, bool)
+        samples = [int(np.abs(self.axes[0].points - at).argmin()) for (at,) in self._request.places]
+        return (above[:, np.array(samples)] > 0).all(-1)
+
+    def _decided(
+        self, lanes: Lanes, peaks: Array, covers: Array, joined: Array
+    ) -> tuple[Array, Array, Array]:
         """Return what follows where a stage has settled: the label, or -1 and the next stage; and whether a
         peak outlived its input.
         """
@@ -218,7 +227,9 @@ class RegimeProtocol:
         if not self.axes:
             return jnp.where(stage == NONE, alone, label), stage + 1, kept
         chosen = jnp.where(kept, RegimeLabel.SUSTAINED_SELECTIVE, RegimeLabel.SELECTIVE)
-        return jnp.where(stage == EQUAL, jnp.where(peaks == 1, chosen, alone), label), stage + 1, kept
+        # two peaks that have grown together are no selection
+        won = (peaks == 1) & ~joined
+        return jnp.where(stage == EQUAL, jnp.where(won, chosen, alone), label), stage + 1, kept
 
     def _judged(self, begin: Array, last: Array, now: Array) -> tuple[Array, Array]:
         """Return whether each lane has settled, over the block and in its last step, and whether its

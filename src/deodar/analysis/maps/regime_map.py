@@ -7,17 +7,11 @@ from typing import Unpack
 
 import numpy as np
 
-from deodar.analysis.isolated import Isolation
 from deodar.analysis.maps import grid
 from deodar.analysis.maps.map_result import RegimeMap
 from deodar.analysis.maps.protocol import RegimeProtocol
-from deodar.analysis.maps.request import requested
+from deodar.analysis.maps.request import MapOptions, requested
 from deodar.model.model import Model
-
-LIMIT = 500.0
-"""Longest stage, in time constants. Beside a fold the passage takes at most about 100, as slower changes
-count as settled; an edge of a peak that hardly moves takes longer.
-"""
 
 
 def regime_map(
@@ -26,16 +20,15 @@ def regime_map(
     field: str = "",
     strength: float | None = None,
     refine: bool = True,
-    limit: float = LIMIT,
     progress: Callable[[int, int], None] | None = None,
-    **isolation: Unpack[Isolation],
+    **options: Unpack[MapOptions],
 ) -> RegimeMap:
     """Map what a field does with its input over two parameters, by simulation of each cell.
 
     The field is measured alone, without noise, as by `dd.regimes`. Each cell is a run of several stages, each
     until the field settles: no input; one localised input; none again; then, from the resting level, two
     equal inputs, the first a hundredth stronger until the field settles. Peaks are counted at the end of each
-    stage.
+    stage. A single peak that covers both inputs is no selection.
 
     Args:
         model: the model.
@@ -45,8 +38,9 @@ def regime_map(
             of the model's own field, which makes a peak without interaction.
         refine: whether a coarse grid comes first, and then only cells of which a neighbour has another label;
             else every cell is computed.
-        limit: longest stage, in time constants; a field that has not settled then gets a label of its own.
         progress: called with the number of cells that are computed and the number that is known to be needed.
+        limit: longest stage, in time constants (500); a field that has not settled then gets a label of its
+            own.
         sigma: width of the inputs; None: that of the kernel's excitation, in all cells.
         center: position of the single input; None: the sample nearest to the middle.
         precision: float32 or float64.
@@ -58,7 +52,7 @@ def regime_map(
         ParameterError: changing a parameter needs another program, or its values are no axis of a map.
         UnknownName: a path is unknown.
     """
-    request = requested(model, over, field, strength, limit, isolation)
+    request = requested(model, over, field, strength, options)
     protocol = RegimeProtocol(request)
     tell, finished = progress or (lambda done, known: None), 0
 

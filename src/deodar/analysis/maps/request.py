@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,8 +28,19 @@ interaction.
 TOLERANCE = 2e-4
 """Change of activation per time constant that counts as settled, relative to the same distance."""
 
+LIMIT = 500.0
+"""Longest stage, in time constants. Beside a fold the passage takes at most about 100, as slower changes
+count as settled; an edge of a peak that hardly moves takes longer.
+"""
+
 INPUTS = ("middle", "first", "second")
 """The inputs of the protocol: one alone, and two at equal distances from it."""
+
+
+class MapOptions(Isolation, total=False):
+    """Keyword arguments of `regime_map`: those of `isolate`, and the longest stage in time constants."""
+
+    limit: float
 
 
 @dataclass(frozen=True)
@@ -78,8 +89,7 @@ def requested(
     over: Mapping[str, Any],
     field: str,
     strength: float | None,
-    limit: float,
-    isolation: Isolation,
+    options: MapOptions,
 ) -> MapRequest:
     """Return what a map measures.
 
@@ -88,6 +98,7 @@ def requested(
         ParameterError: a path is unknown, changing the parameter needs another program, or its values are
             not those of an axis of a map.
     """
+    isolation, limit = _divided(**options)
     doc = model.document
     path = field or _only_field(doc)
     if len(over) != 2:
@@ -117,6 +128,19 @@ def requested(
         _positive("limit", limit),
         isolated.session.precision,
     )
+
+
+def _divided(
+    *,
+    sigma: float | Sequence[float] | None = None,
+    center: Sequence[float] | None = None,
+    precision: str = "float32",
+    dt: float | None = None,
+    inputs: Sequence[str] = (),
+    limit: float = LIMIT,
+) -> tuple[Isolation, float]:
+    """Return the arguments of `isolate`, and the longest stage."""
+    return {"sigma": sigma, "center": center, "precision": precision, "dt": dt, "inputs": inputs}, limit
 
 
 def _only_field(doc: Document) -> str:

@@ -1,0 +1,144 @@
+"""The command `deodar map FILE PARAMETER LOW HIGH N PARAMETER LOW HIGH N`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar import codec
+from deodar.cli import _options
+from deodar.cli._bar import Bar
+
+if TYPE_CHECKING:
+    from deodar.analysis.maps.map_result import RegimeMap
+
+HELP = "map the regimes of a field over two parameters: silent, input-driven, self-sustained, selective"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    _options.add_document(parser)
+    _options.wrong(parser)
+    for side, which, example in (("x", "across", "u.global_inhibition"), ("y", "up", "u.resting_level")):
+        name = side.upper()
+        parser.add_argument(side, metavar=name, help=f"path of the parameter {which}, as {example}")
+        parser.add_argument(f"{side}_low", type=float, metavar=f"{name}LOW", help="its lowest value")
+        parser.add_argument(f"{side}_high", type=float, metavar=f"{name}HIGH", help="its highest value")
+        parser.add_argument(
+            f"{side}_number", type=_options.whole, metavar=f"{name}N", help="how many values, at least 2"
+        )
+    parser.add_argument(
+        "--field", default="", metavar="PATH", help="the field or node (default: the only one)"
+    )
+    parser.add_argument(
+        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
+    )
+    parser.add_argument(
+        "--strength",
+        type=_options.positive,
+        metavar="AMPLITUDE",
+        help="of the inputs (default: 1.2 times the distance between resting level and threshold)",
+    )
+    parser.add_argument(
+        "--sigma",
+        type=_options.positive,
+        metavar="WIDTH",
+        help="width of the inputs (default: that of the kernel)",
+    )
+    parser.add_argument(
+        "--input",
+        nargs="+",
+        default=[],
+        metavar="PATH",
+        help="stimuli (and couplings) of the document to keep as constant input",
+    )
+    parser.add_argument(
+        "--precision",
+        choices=("float32", "float64"),
+        default="float32",
+        help="of the computation (default: float32)",
+    )
+    parser.add_argument(
+        "--every-cell", action="store_true", help="compute every cell, not only those beside another regime"
+    )
+    parser.add_argument(
+        "-o",
+        "--out",
+        type=Path,
+        metavar="FIGURE",
+        help="the figure, .png or .svg (default: FILE-map-001.png, -002, ...)",
+    )
+    parser.add_argument("--save", type=Path, metavar="MAP", help="write the map as well, .nc or .zarr")
+    _options.add_force(parser)
+    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the share of each regime, and write the figure."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    _options.use_cores(None)
+    # start-up time: these bring JAX
+    from deodar.analysis.maps.regime_map import regime_map
+    from deodar.experiments.jobs import Progress
+    from deodar.figures import _files
+    from deodar.figures.regime_map import regime_map_figure
+    from deodar.importers.opening import load
+    from deodar.recording import files
+
+    model = load(args.file)
+    for path, value in args.set or ():
+        model.set(path, value)
+    target = _options.figure(args.out, f"{args.file.stem}-map")
+    _files.claim(target, args.force)
+    if args.save is not None:
+        files.claim(args.save, files.format_of(args.save), args.force)
+    if args.x == args.y:
+        args.wrong(f"both parameters are {args.x!r}")
+    over = {
+        args.x: (args.x_low, args.x_high, args.x_number),
+        args.y: (args.y_low, args.y_high, args.y_number),
+    }
+    with Bar(args.no_progress or args.json or not sys.stderr.isatty(), "cells") as bar:
+        found = regime_map(
+            model,
+            over,
+            args.field,
+            args.strength,
+            refine=not args.every_cell,
+            progress=lambda done, known: bar.show(Progress(done, known, done / known, None)),
+            sigma=args.sigma,
+            inputs=args.input,
+            precision=args.precision,
+        )
+    _files.save_figure(regime_map_figure(found), target, args.force)
+    if args.save is not None:
+        found.save(args.save, args.force)
+    if args.json:
+        print(codec.text(found.data() | {"figure": str(target)}))
+        return 0
+    print(_table(found))
+    print(f"\nFigure: {target}")
+    return 0
+
+
+def _table(found: RegimeMap) -> str:
+    """Return the regimes and their shares in words, one per line."""
+    about, (x, y) = found.about, found.parameters
+    rows, columns = found.labels.shape
+    size = f"{rows} x {columns} cells, {int(found.computed.sum())} of them computed"
+    lines = [
+        f"{about['field']} over {x} and {y}: {size}",
+        f"Measured alone, without noise, with inputs of {about['strength']:g}.",
+        "",
+        *(f"  {share:6.1%}  {word}" for word, share in found.shares.items()),
+    ]
+    inside = all(v[0] <= at <= v[-1] for v, at in zip(found.values, found.at, strict=True))
+    if inside:
+        lines.append(
+            f"\nThe model itself ({x} {found.at[0]:g}, {y} {found.at[1]:g}): {found.word(*found.at)}"
+        )
+    return "\n".join(lines)
