@@ -34,6 +34,7 @@ class PureCopies:
 
     Attributes:
         executable: the compiled document.
+        count: number of copies.
         dt: Euler step.
         rebuilt: whether a parameter rebuilds constants, so that each copy has its own.
     """
@@ -49,7 +50,7 @@ class PureCopies:
     ) -> None:
         batch = Batch(points=copies, sweep=tuple(tuple(leaves) for leaves in parameters))
         self.executable = found = executable(model, doc, precision, batch)
-        self.dt = dt
+        self.count, self.dt = copies, dt
         self._base: ProgramValues = {**found.values(doc), "swept": ()}
         self.rebuilt = any(found.program.rebuilt)
         self._rebuilt = [0 if own else None for own in found.program.rebuilt]

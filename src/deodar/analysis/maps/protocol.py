@@ -27,8 +27,11 @@ from deodar.numerics.axes import Axes
 REST, ONE, NONE, AHEAD, EQUAL = range(5)
 """The stages: no input, one input, none again; two inputs, one of them ahead; two equal inputs."""
 
-LANES = 64
+MOST_LANES, LEAST_LANES = 64, 8
 """Cells that are computed at once."""
+
+LANE_BYTES = 8 * 2**20
+"""Largest number of bytes of the matrices of all lanes, if each has its own; more than `LEAST_LANES` need."""
 
 BLOCKS = 400
 """Blocks of steps in one call, between which progress is shown."""
@@ -82,7 +85,15 @@ class RegimeProtocol:
         leaves = [*request.leaves, *inputs]
         self.axes: Axes = request.isolated.axes
         dt = request.isolated.session.dt
-        self.copies = PureCopies(request.model, doc, leaves, LANES, request.precision, dt)
+
+        def copies(lanes: int) -> PureCopies:
+            return PureCopies(request.model, doc, leaves, lanes, request.precision, dt)
+
+        self.copies = copies(MOST_LANES)
+        matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.executable.program.dtype.itemsize
+        if self.copies.rebuilt and matrix * MOST_LANES > LANE_BYTES:
+            self.copies = copies(max(LEAST_LANES, LANE_BYTES // matrix))
+        self._lanes = self.copies.count
         self._place = self.copies.executable.plan.row[entry.id]
         tau = request.isolated.field.tau
         self._steps = max(2, math.ceil(tau / dt))
@@ -122,8 +133,8 @@ class RegimeProtocol:
 
     def _begin(self, labels: Array) -> Lanes:
         """Return idle lanes."""
-        none = jnp.full(LANES, -1, jnp.int32)
-        zero = jnp.zeros(LANES, jnp.int32)
+        none = jnp.full(self._lanes, -1, jnp.int32)
+        zero = jnp.zeros(self._lanes, jnp.int32)
         parameters = self._parameters(none, zero)
         return Lanes(
             none,
@@ -152,7 +163,7 @@ class RegimeProtocol:
     def _filled(self, lanes: Lanes, queue: Array, total: Array) -> Lanes:
         """Give the next cells of the queue to idle lanes; where constants are rebuilt, to several at once."""
         idle = lanes.cell < 0
-        least = LANES // 8 if self.copies.rebuilt else 1
+        least = self._lanes // 8 if self.copies.rebuilt else 1
         ready = (lanes.taken < total) & (idle.sum() >= jnp.minimum(least, total - lanes.taken))
 
         def fill(lanes: Lanes) -> Lanes:
@@ -207,7 +218,7 @@ class RegimeProtocol:
     def _joined(self, above: Array) -> Array:
         """Return whether both places of the two inputs are active."""
         if not self.axes:
-            return jnp.zeros(LANES, bool)
+            return jnp.zeros(self._lanes, bool)
         samples = [int(np.abs(self.axes[0].points - at).argmin()) for (at,) in self._request.places]
         return (above[:, np.array(samples)] > 0).all(-1)
 
@@ -219,7 +230,7 @@ class RegimeProtocol:
         """
         stage, some = lanes.stage, peaks > 0
         kept = jnp.where(stage == NONE, some, lanes.kept)
-        label = jnp.full(LANES, -1, jnp.int32)
+        label = jnp.full(self._lanes, -1, jnp.int32)
         label = jnp.where((stage == REST) & some, RegimeLabel.ACTIVE, label)
         label = jnp.where((stage == ONE) & ~some, RegimeLabel.SILENT, label)
         label = jnp.where(((stage == ONE) | (stage == NONE)) & covers, RegimeLabel.UNBOUNDED, label)
@@ -258,12 +269,12 @@ class RegimeProtocol:
         number = self._request.threshold_of
         if number is not None:
             return parameters[:, number]
-        return jnp.full(LANES, self._request.isolated.threshold, parameters.dtype)
+        return jnp.full(self._lanes, self._request.isolated.threshold, parameters.dtype)
 
     def _activation(self, state: ProgramState) -> Array:
         """Return the activation of the field, lanes first; a node has one sample."""
         group, row = self._place
-        return state["groups"][group]["activation"][:, row].reshape(LANES, -1)
+        return state["groups"][group]["activation"][:, row].reshape(self._lanes, -1)
 
 
 def _where(chosen: Array, new: Any, old: Any) -> Any:
