@@ -98,6 +98,28 @@ def test_options_set_step_parameters_sweep_and_format(here: Path, capsys: pytest
     assert dd.load(here / "out" / "model.json").get("u.tau") == 7 and answer["out"] == "out"
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("points.csv", "s.amplitude,u.tau\n1,7\n2,9\n3,11\n"),
+        ("points.json", '[{"s.amplitude": 1, "u.tau": 7}, {"s.amplitude": 2, "u.tau": 9},'
+         ' {"s.amplitude": 3, "u.tau": 11}]'),
+    ],
+)  # fmt: skip
+def test_a_list_of_points_is_read_from_a_file_and_run_again(
+    here: Path, capsys: pytest.CaptureFixture[str], name: str, text: str
+) -> None:
+    (here / name).write_text(text)
+    call = ["run", "small.json", "--duration", "4", "--points", name, "--own-noise", "--trials", "2"]
+    assert main([*call, "--out", "out", "--json"]) == 0
+    capsys.readouterr()
+    data = files.load_record(here / "out" / "record.zarr")
+    assert dict(data["u.activation"].sizes)["point"] == 3 and data.sizes["trial"] == 2
+    assert data["u.tau"].values.tolist() == [7, 9, 11]
+    assert main(["run", "out/record.zarr", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["repetition"]["same_bits"] is True
+
+
 def test_a_record_is_repeated_and_compared(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "small.json", "--duration", "20", "--every", "5", "--out", "first"]) == 0
     assert main(["run", "first", "--out", "second"]) == 0
@@ -121,6 +143,10 @@ def test_a_record_is_repeated_and_compared(here: Path, capsys: pytest.CaptureFix
         (["small.json", "--duration", "5", "--dt", "50"], 1, "longer than the time constant"),
         (["small.json", "--duration", "5", "--set", "u.tua=3"], 1, "Did you mean"),
         (["small.json", "--duration", "5", "--sweep", "u.tau=a,b"], 2, "numbers"),
+        (["small.json", "--duration", "5", "--points", "none.csv"], 1, "none.csv: cannot be read"),
+        (["small.json", "--duration", "5", "--points", "small.json"], 1, "is no list of points"),
+        (["small.json", "--duration", "5", "--points", "p.csv", "--sweep", "u.tau=7"], 2, "one of them"),
+        (["small.json", "--duration", "5", "--sweep", "u.tau=7", "--own-noise"], 1, "list of points"),
         (["small.json", "--duration", "5", "--world", "picture:none.jpg"], 1, "no such picture"),
         (["small.json", "--duration", "5", "--out", "small.json"], 1, "not a folder"),
         (["small.json", "--duration", "5", "--out", "a/b"], 1, "does not exist"),

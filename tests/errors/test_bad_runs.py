@@ -156,7 +156,37 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
     "a sweep that is a list": (
         lambda m: dd.simulate(m, 5, sweep=["u.tau"]),
         ParameterError,
-        ("sweep gives for each parameter path its values",),
+        ("point 0 of the sweep", "gives a value for each parameter path, not 'u.tau'"),
+    ),
+    "a sweep that is a number": (
+        lambda m: dd.simulate(m, 5, sweep=3),  # pyright: ignore[reportArgumentType]
+        ParameterError,
+        ("a sweep gives values for each parameter path, or a list of points, not 3",),
+    ),
+    "points with other paths": (
+        lambda m: dd.simulate(m, 5, sweep=[{"u.tau": 20}, {"u.resting_level": -5}]),
+        ParameterError,
+        ("point 1 of the sweep", "has the paths u.resting_level; point 0 has u.tau"),
+    ),
+    "a point out of range": (
+        lambda m: dd.simulate(m, 5, sweep=[{"u.tau": 20}, {"u.tau": -1}]),
+        ParameterError,
+        ("u.tau", "below its lower bound"),
+    ),
+    "a point with a word": (
+        lambda m: dd.simulate(m, 5, sweep=[{"u.tau": "fast"}]),
+        ParameterError,
+        ("sweep of u.tau",),
+    ),
+    "noise of its own for a grid": (
+        lambda m: dd.simulate(m, 5, sweep={"u.tau": [10, 20]}, own_noise=True),
+        ParameterError,
+        ("own_noise belongs to a sweep that is a list of points",),
+    ),
+    "noise of its own for too many trials": (
+        lambda m: dd.simulate(m, 5, sweep=[{"u.tau": 10}], trials=[70_000], own_noise=True),
+        ParameterError,
+        ("own_noise serves 65536 points",),
     ),
     "a sweep of a sigmoid": (
         lambda m: dd.simulate(m, 5, sweep={"u.sigmoid": [1]}),

@@ -42,6 +42,10 @@ Spread = Callable[
 """A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
 
 
+MOST_OWN = 2**16
+"""Number of points, and of trials, that have noise of their own under one seed."""
+
+
 PROVENANCE = ("duration", "seed", "every", "accuracy", "record")
 """Parts of a request that every record states; other entries are known only after the start."""
 
@@ -64,24 +68,21 @@ def compute(
     sweep, precision, device = request.sweep, request.precision, request.device
     doc = require_model(model).document
     model.require()
-    if sweep is not None and not isinstance(sweep, Mapping):
-        raise ParameterError(
-            f"sweep gives for each parameter path its values, not {show(sweep)}",
-            fix="For example sweep={'u.tau': [10, 20]}",
-        )
     step = doc.step if request.dt is None else request.dt
     require_step(doc, step)
     seed = require_seed(request.seed)
     steps = whole(request.duration, step, "the duration")
     asked_for, gap, strides = _probes(request, step, out)
     names, numbers = _trials(request.trials)
-    points = Points(doc, sweep or {})
+    points = Points(doc, {} if sweep is None else sweep, request.first)
+    own_noise = _own_noise(request, points)
     for document in points.documents():
         require_step(document, step)
     ports, strides = _ports(doc, asked_for, strides)
     start, gap = (steps, steps + 1) if request.record is None else (0, gap)
     count = 0 if start > steps else 1 + (steps - start) // gap
-    copies = Batch(points.size if sweep else None, len(numbers) if names else None)
+    swept = bool(points.paths)
+    copies = Batch(points.size if swept else None, len(numbers) if names else None)
     nodes, _ = resolve(doc)
     size = memory.copy_bytes(nodes, precision, points.rebuilt(), len(numbers))
     cut = _cut(size, names, points, request)
@@ -100,12 +101,13 @@ def compute(
     paths = [dc.replace(probe, path=find.written(doc, probe.path)) for probe in asked_for]
     request = dc.replace(request, duration=float(request.duration), seed=seed)
     request = dc.replace(request, record=list(map(str, paths)) or None)
-    labels, grid = list(numbers) if names else None, points.by_path
-    asked = {"trials": labels, "sweep": grid, "workers": request.workers, "device": device}
+    labels, listed = list(numbers) if names else None, points.asked
+    asked = {"trials": labels, "sweep": listed, "workers": request.workers, "device": device}
+    asked |= {"own_noise": True} if own_noise else {}
     if isinstance(out, RunOutput):
-        out.plan(doc, cut, asked)
+        out.plan(points, cut, asked)
     if cut.count > 1:
-        jobs = cut.requests(dc.replace(request, dt=float(step)), labels, grid)
+        jobs = cut.requests(dc.replace(request, dt=float(step)), labels, listed)
         assert not isinstance(out, OutputPart)
         workers, run_there = request.workers, None
         if spread is not None and workers is not None:
@@ -116,9 +118,10 @@ def compute(
     with stoppable() as check:
         more_points, more_trials = _missing(request.width, points, len(numbers))
         filled = Batch(
-            points.size + more_points if sweep else None,
+            points.size + more_points if swept else None,
             len(numbers) + more_trials if names else None,
-            tuple(map(tuple, points.leaves)) if sweep else (),
+            tuple(map(tuple, points.leaves)),
+            own_noise=own_noise,
         )
         program = executable(
             model,
@@ -129,10 +132,11 @@ def compute(
             request.accuracy,
             embodied(doc, world),
         )
-        swept = (
-            [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values] if sweep else None
-        )
-        run = Run(program, doc, float(step), seed, [*numbers, *[numbers[-1]] * more_trials], world, swept)
+        values = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values]
+        numbered = [*numbers, *[numbers[-1]] * more_trials]
+        if own_noise:
+            numbered = _numbered(request.first, points.size + more_points, numbered)
+        run = Run(program, doc, float(step), seed, numbered, world, values if swept else None)
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
         settings = {name: getattr(request, name) for name in PROVENANCE}
@@ -185,10 +189,11 @@ def compute(
         ],
         times,
         names,
-        points.by_path,
+        points.grid,
         about | {"complete": not stopped},
+        points.beside,
     )
-    data = marked(data, [*points.by_path, *(["trial"] if names is not None else [])], reasons)
+    data = marked(data, [*points.grid, *(["trial"] if names is not None else [])], reasons)
     if stopped:
         raise Interrupted(said, data)
     return pieces.PieceResult(data, True, nothing)
@@ -211,8 +216,8 @@ def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tupl
     if width is None:
         return 0, 0
     dimension, length = width
-    if dimension in points.by_path:
-        own = len(points.by_path[dimension])
+    if dimension in points.grid:
+        own = len(points.grid[dimension])
         return points.size // own * (length - own), 0
     return 0, length - trials
 
@@ -256,7 +261,7 @@ def _cut(
     request: SimulationRequest,
 ) -> pieces.Pieces:
     lengths = ({} if trials is None else {"trial": len(trials)}) | {
-        path: len(values) for path, values in points.by_path.items()
+        path: len(values) for path, values in points.grid.items()
     }
     workers, device = request.workers, request.device
     on_cpu = device is None or devices.find(device).platform == devices.DEFAULT
@@ -349,6 +354,29 @@ def _ports(
                 "is recorded with two intervals or conditions", where=probe.path, fix="Record it once"
             )
     return list(ports), list(ports.values())
+
+
+def _own_noise(request: SimulationRequest, points: Points) -> bool:
+    """Return whether each point has noise of its own; raise if that was asked of no list of points."""
+    if request.own_noise and not points.listed:
+        raise ParameterError(
+            "own_noise belongs to a sweep that is a list of points",
+            fix="For example sweep=[{'u.tau': 10}, {'u.tau': 20}]; trials have noise of their own",
+        )
+    return request.own_noise
+
+
+def _numbered(first: int, points: int, trials: Sequence[int]) -> list[list[int]]:
+    """Return the number under which each copy draws noise, points first.
+
+    It depends on point and trial alone, not on how the run is cut; at point 0 it is the trial.
+    """
+    if first + points > MOST_OWN or max(trials) >= MOST_OWN:
+        raise ParameterError(
+            f"own_noise serves {MOST_OWN} points, and trials below {MOST_OWN}",
+            fix="Run the rest with another seed",
+        )
+    return [[point * MOST_OWN + trial for trial in trials] for point in range(first, first + points)]
 
 
 def _cells(nodes: Sequence[Node], ident: str, port: str) -> int:

@@ -13,6 +13,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.batch.pieces import Pieces
+from deodar.batch.points import Points
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, RecordError
@@ -76,7 +77,8 @@ class PartOwner(Protocol):
 
     Attributes:
         doc: the document.
-        grid: for each path of the sweep its values.
+        grid: the dimensions of the points of a sweep, with the values of their coordinates.
+        beside: for each path of a list of points its values.
         labels: the numbers of the trials; None without this dimension.
         settings: what the record states of the whole run.
         state: the stored state that the part may continue from.
@@ -85,7 +87,8 @@ class PartOwner(Protocol):
     """
 
     doc: Document
-    grid: dict[str, list[float]]
+    grid: dict[str, Sequence[float]]
+    beside: dict[str, list[float]]
     labels: list[int] | None
     settings: Mapping[str, Any]
     state: StoredState | None
@@ -178,11 +181,11 @@ class RunOutput:
         again = "" if isinstance(error, NotFinite) else f". deodar run {self.path} --resume continues it"
         return f"The record {end} kept: {self.path}{again}"
 
-    def plan(self, doc: Document, cut: Pieces, settings: Mapping[str, Any]) -> None:
+    def plan(self, points: Points, cut: Pieces, settings: Mapping[str, Any]) -> None:
         """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
-        self.doc, self.cut = doc, cut
+        self.doc, self.cut = points.doc, cut
+        self.grid, self.beside = points.grid, points.beside
         self.settings: Mapping[str, Any] = {**settings, "batch": cut.batch}
-        self.grid: dict[str, list[float]] = settings["sweep"]
         self.labels: list[int] | None = settings["trials"]
 
     def part(self, number: int) -> OutputPart:
@@ -436,7 +439,8 @@ class OutputPart:
             array = np.empty((*copies, 0, *shape(axes)), self.program.program.dtype)
             variables.append((doc.by_id()[ident], port, axes, array))
         about = {**self.about, **self.out.settings}
-        data = record.dataset(doc, variables, np.empty(0), self.out.labels, self.out.grid, about)
+        out, no_times = self.out, np.empty(0)
+        data = record.dataset(doc, variables, no_times, out.labels, out.grid, about, out.beside)
         return record.with_times(
             data, {name: one.dimension for one in self.selector.found for name in one.names}
         )

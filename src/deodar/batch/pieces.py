@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from deodar import codec
+from deodar.batch.points import POINT, Sweep, dimensions
 from deodar.batch.request import SimulationRequest
 from deodar.errors import NotFinite, ParameterError
 from deodar.parameters import show
@@ -74,27 +75,23 @@ class Pieces:
         return math.ceil(self.total / self.length)
 
     def requests(
-        self, whole: SimulationRequest, trials: Sequence[int] | None, sweep: Mapping[str, Sequence[float]]
+        self, whole: SimulationRequest, trials: Sequence[int] | None, sweep: Sweep
     ) -> list[SimulationRequest]:
         """Return for each piece the request of the whole run, with the trials and the sweep of the piece."""
         out: list[SimulationRequest] = []
         for first in range(0, self.total, self.length):
             part = slice(first, first + self.length)
             own = list(trials) if trials is not None else None
-            if self.dimension in sweep:
-                grid = {
-                    path: list(values[part] if path == self.dimension else values)
-                    for path, values in sweep.items()
-                }
+            grid: Sweep = sweep
+            if self.dimension == POINT and not isinstance(sweep, Mapping):
+                grid = sweep[part]
+            elif isinstance(sweep, Mapping) and self.dimension in sweep:
+                grid = {**sweep, self.dimension: list(sweep[self.dimension][part])}
             else:
-                grid, own = (
-                    {path: list(values) for path, values in sweep.items()},
-                    own[part] if own is not None else None,
-                )
-            width = self.dimension, self.length
-            out.append(
-                dc.replace(whole, trials=own, sweep=grid or None, workers=None, batch=self.batch, width=width)
-            )
+                own = own[part] if own is not None else None
+            piece = dc.replace(whole, trials=own, sweep=grid or None, workers=None, batch=self.batch)
+            at = first if self.dimension == POINT else 0
+            out.append(dc.replace(piece, width=(self.dimension, self.length), first=at))
         return out
 
 
@@ -146,7 +143,8 @@ def joined(
     begun = [part for part in parts if part is not None]
     whole = [part for part in begun if part.complete]
     complete, all_begun = ([p.data for p in some if p.data is not None] for some in (whole, begun))
-    copies = [*(settings.get("sweep") or ()), *(["trial"] if settings.get("trials") is not None else [])]
+    trials = ["trial"] if settings.get("trials") is not None else []
+    copies = [*dimensions(settings.get("sweep")), *trials]
     kept = diverged.alike(complete or _abreast(all_begun), copies)
     data = kept[0] if kept else xarray.Dataset()
     if len(kept) > 1:

@@ -1,9 +1,10 @@
-"""The points of a sweep."""
+"""The points of a sweep: a grid, or a list."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -15,16 +16,38 @@ from deodar.model import edit
 from deodar.model.document import Document
 from deodar.parameters import real, show
 
+Sweep = Mapping[str, Sequence[float]] | Sequence[Mapping[str, float]]
+"""For each parameter path its values, which form a grid; or a list of points, each with a value by path."""
+
+POINT = "point"
+"""The dimension of a list of points."""
+
 
 class Points:
-    """The grid of a sweep: the leaves that each entry drives, and its value at every point."""
+    """The points of a sweep: the leaves that each entry drives, and its value at every point.
 
-    def __init__(self, doc: Document, sweep: Mapping[str, Sequence[float]]) -> None:
+    Args:
+        doc: the document.
+        sweep: the values.
+        first: number of the first point of a list, in a piece of a run.
+
+    Attributes:
+        paths: the parameter paths.
+        leaves: for each path the numbers that it drives.
+        listed: whether the points are a list.
+        size: number of points.
+        grid: the dimensions of the points, with the values of their coordinates.
+        beside: for each path of a list its value at each point; empty for a grid.
+    """
+
+    def __init__(self, doc: Document, sweep: Sweep, first: int = 0) -> None:
         self.doc = doc
-        self.paths = list(sweep)
+        self.listed = not isinstance(sweep, Mapping)
+        by_path = sweep if isinstance(sweep, Mapping) else _by_path(sweep)
+        self.paths = list(by_path)
         self.leaves: list[list[Leaf]] = []
         lists: list[list[float]] = []
-        for path, values in sweep.items():
+        for path, values in by_path.items():
             given = [] if isinstance(values, (str, bytes)) or not np.iterable(values) else list(values)
             found = [number for number in map(real, given) if number is not None]
             if not given or len(found) < len(given):
@@ -33,29 +56,44 @@ class Points:
             _require_on(doc, path, self.leaves[-1], values)
             lists.append(found)
         self.lists = lists
-        self.size = math.prod(len(v) for v in lists)
+        columns = dict(zip(self.paths, lists, strict=True))
+        numbers = range(first, first + len(lists[0])) if lists else range(0)
+        self.grid: dict[str, Sequence[float]] = {POINT: numbers} if self.listed else {**columns}
+        self.beside: dict[str, list[float]] = columns if self.listed else {}
+        self.size = math.prod(len(values) for values in self.grid.values())
 
     @property
     def values(self) -> list[np.ndarray]:
         """Return for each entry its value at every point; computed after the check that they fit into
         memory.
         """
+        if self.listed:
+            return [np.array(values) for values in self.lists]
         return [grid.ravel() for grid in np.meshgrid(*(np.array(v) for v in self.lists), indexing="ij")]
 
     def place(self, copy: tuple[int, ...], trials: bool) -> tuple[int, ...]:
-        """Return the index of a copy along the entries of the sweep, and along the trials if it has any."""
-        point = np.unravel_index(copy[0], [len(v) for v in self.lists]) if self.lists else ()
+        """Return the index of a copy along the dimensions of the points, and of the trials if it has any."""
+        point = np.unravel_index(copy[0], [len(v) for v in self.grid.values()]) if self.grid else ()
         return (*(int(k) for k in point), *copy[len(copy) - trials :])
 
     @property
-    def by_path(self) -> dict[str, list[float]]:
-        """For each path its values."""
+    def asked(self) -> dict[str, list[float]] | list[dict[str, float]]:
+        """The sweep as plain data."""
+        if self.listed:
+            return [dict(zip(self.paths, own, strict=True)) for own in zip(*self.lists, strict=True)]
         return dict(zip(self.paths, self.lists, strict=True))
 
     def documents(self) -> Iterator[Document]:
-        """Yield the document at each value of each entry (not at each point): values are checked one by
-        one.
+        """Yield the documents whose values are to be checked: each point of a list; of a grid each value of
+        each entry, one by one.
         """
+        if self.listed:
+            for own in zip(*self.lists, strict=True):
+                doc = self.doc
+                for path, value in zip(self.paths, own, strict=True):
+                    doc = edit.change(doc, path, value)
+                yield doc
+            return
         for path, values in zip(self.paths, self.lists, strict=True):
             for value in values:
                 yield edit.change(self.doc, path, value)
@@ -69,6 +107,46 @@ class Points:
             for path, _, p in leaves(by[i].element)
         }
         return {i for found in self.leaves for i, path in found if costs[i, path] == "rebuild"}
+
+
+def dimensions(sweep: Any) -> list[str]:
+    """Return the dimensions of the points of a sweep as plain data; none without a sweep."""
+    return list(sweep or ()) if isinstance(sweep or {}, Mapping) else [POINT]
+
+
+def _by_path(points: Any) -> dict[str, list[Any]]:
+    """Return for each path its values at the points of a list.
+
+    Raises:
+        ParameterError: the points are not mappings with the same paths.
+    """
+    again = "For example sweep=[{'u.tau': 10, 'u.resting_level': -5}, {'u.tau': 20, 'u.resting_level': -3}]"
+    if isinstance(points, (str, bytes)) or not isinstance(points, Sequence) or not points:
+        raise ParameterError(
+            f"a sweep gives values for each parameter path, or a list of points, not {show(points)}",
+            fix=again,
+        )
+    found: list[Any] = list(points)
+    for number, point in enumerate(found):
+        if not isinstance(point, Mapping) or not point:
+            raise ParameterError(
+                f"gives a value for each parameter path, not {show(point)}",
+                where=f"point {number} of the sweep",
+                fix=again,
+            )
+        if set(point) != set(found[0]):
+            raise ParameterError(
+                f"has the paths {', '.join(map(str, point))}; point 0 has {', '.join(map(str, found[0]))}",
+                where=f"point {number} of the sweep",
+                fix="All points have the same paths",
+            )
+    if POINT in found[0]:
+        raise ParameterError(
+            f"is also the name of the dimension of the points, {POINT!r}",
+            where=f"sweep of {POINT}",
+            fix="Sweep a grid, or rename the document parameter",
+        )
+    return {path: [point[path] for point in found] for path in found[0]}
 
 
 def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequence[float]) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
+
+from deodar.batch.points import Sweep
 
 
 @dc.dataclass(frozen=True)
@@ -21,7 +23,8 @@ class SimulationRequest:
         record: paths of ports, handles or probes; none: all fields and nodes, at the end.
         every: document time between records; none: dt.
         trials: number of trials, or a list of trial numbers; none: one run without a dimension `trial`.
-        sweep: for each parameter path its values; none: no sweep.
+        sweep: for each parameter path its values, or a list of points; none: no sweep.
+        own_noise: whether each point of a list has noise of its own.
         precision: float32 or float64.
         workers: number of processes that share the copies; none: only this process.
         batch: copies that run at once in one process; none: as many as fit into the cache.
@@ -30,6 +33,7 @@ class SimulationRequest:
         width: of a piece, a dimension and its length in the other pieces. The piece is filled up to it with
             copies of its last one, whose results are dropped: the last digits in single precision depend on
             the number of copies that are computed together.
+        first: of a piece, the number of its first point of a list.
     """
 
     duration: float
@@ -38,10 +42,12 @@ class SimulationRequest:
     record: Any = None
     every: float | None = None
     trials: int | Sequence[int] | None = None
-    sweep: Mapping[str, Sequence[float]] | None = None
+    sweep: Sweep | None = None
+    own_noise: bool = False
     precision: str = "float32"
     workers: int | None = None
     batch: int | None = None
     device: str | None = None
     accuracy: str = "default"
     width: tuple[str, int] | None = None
+    first: int = 0

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,7 +30,8 @@ class SentPart:
 
     Attributes:
         region: the copies of the piece.
-        grid: for each path of the sweep its values.
+        grid: the dimensions of the points of a sweep, with the values of their coordinates.
+        beside: for each path of a list of points its values.
         labels: the numbers of the trials; None without this dimension.
         settings: what the record states of the whole run.
         snapshots: document time between two stored states; None: about every 30 s of wall time.
@@ -39,7 +40,8 @@ class SentPart:
     """
 
     region: Region
-    grid: dict[str, list[float]]
+    grid: dict[str, Sequence[float]]
+    beside: dict[str, list[float]]
     labels: list[int] | None
     settings: Mapping[str, Any]
     snapshots: float | None
@@ -53,6 +55,7 @@ class SentPart:
         return cls(
             out.region(number),
             out.grid,
+            out.beside,
             out.labels,
             out.settings,
             out.snapshots,
@@ -120,7 +123,8 @@ class SentOutput:
 
     def __init__(self, about: SentPart, doc: Document, send: Callable[[PieceMessage], None]) -> None:
         self.doc, self._send = doc, send
-        self.grid, self.labels, self.settings = about.grid, about.labels, about.settings
+        self.grid, self.beside = about.grid, about.beside
+        self.labels, self.settings = about.labels, about.settings
         self.state, self.state_file, self.snapshots = about.state, about.state_file, about.snapshots
         self._begun = False
 

@@ -6,12 +6,13 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar.batch.compute import compute
 from deodar.batch.output import RunOutput
+from deodar.batch.points import Sweep
 from deodar.batch.progress import Shown
 from deodar.batch.request import SimulationRequest
 from deodar.batch.workers import run as in_workers
@@ -44,7 +45,7 @@ def simulate(
     record: Probe | Handle | str | Sequence[Probe | Handle | str] | None = None,
     every: float | None = None,
     trials: int | Sequence[int] | None = None,
-    sweep: Mapping[str, Sequence[float]] | None = None,
+    sweep: Sweep | None = None,
     precision: str = "float32",
     world: World | None = None,
     progress: Shown = None,
@@ -55,6 +56,7 @@ def simulate(
     out: str | Path | None = None,
     snapshots: float | None = None,
     force: bool = False,
+    own_noise: bool = False,
 ) -> xarray.Dataset:
     """Run a model and return its record.
 
@@ -81,7 +83,8 @@ def simulate(
         every: sampling interval in document time; none: dt. The first sample is the initial state.
         trials: number of trials (0 to n - 1 of the seed), or a list of trial numbers; trials differ in their
             noise.
-        sweep: for each parameter path its values; several entries form a grid. All points share the noise.
+        sweep: for each parameter path its values; several entries form a grid. Or a list of points, each a
+            mapping of values by path, which have one dimension, `point`. All points share the noise.
         precision: float32 or float64.
         world: the world that provides the sensors of the model.
         progress: whether to show a progress bar; none: on a terminal, if the run takes longer than a second.
@@ -99,9 +102,12 @@ def simulate(
         snapshots: with `out`: document time between two stored states, from which `dd.resume` continues;
             none: about every 30 s of wall time.
         force: with `out`: whether to replace an existing record.
+        own_noise: whether each point of a list has noise of its own instead; point 0 has that of a run
+            without a sweep.
 
     Returns:
-        A Dataset with one variable for each path; dimensions: sweep paths, `trial` (if given), `time`, axes.
+        A Dataset with one variable for each path; dimensions: those of the sweep (its paths, or `point`, with
+        the value of each path as a coordinate), `trial` (if given), `time`, axes.
         All values of copies that diverge are NaN, at all times; the coordinate `diverged` gives the reason of
         each, the attribute `diverged` counts them, and a `RunWarning` repeats it.
 
@@ -126,8 +132,9 @@ def simulate(
         )
         progress = True if progress is None else progress
     agreement.warn(model.document, world, stacklevel=2)
+    copies = trials, sweep, own_noise
     request = SimulationRequest(
-        duration, dt, seed, record, every, trials, sweep, precision, workers, batch, device, accuracy
+        duration, dt, seed, record, every, *copies, precision, workers, batch, device, accuracy
     )
     file = None if out is None else RunOutput(Path(out), force, snapshots)
     return warned(model, request, world, progress, file)

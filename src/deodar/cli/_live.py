@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from deodar.session.recorder import Recorder
     from deodar.session.session import Session
 
-OF_A_BATCH = ("trials", "workers", "sweep", "snapshots")
+OF_A_BATCH = ("trials", "workers", "sweep", "points", "own_noise", "snapshots")
 """Options that a session does not have."""
 
 OF_A_RECORD = ("record", "every", "out", "force")

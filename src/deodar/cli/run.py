@@ -19,6 +19,7 @@ from deodar.importers import examples
 if TYPE_CHECKING:
     import xarray
 
+    from deodar.batch.points import Sweep
     from deodar.model.document import Document
     from deodar.model.model import Model
     from deodar.recording.repeat import Difference, Repetition
@@ -38,6 +39,8 @@ OF_A_RECORD = (
     "every",
     "trials",
     "sweep",
+    "points",
+    "own_noise",
     "set",
     "precision",
     "workers",
@@ -89,6 +92,18 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         metavar="PATH=V1,V2,...",
         help="run at each value; several make a grid",
+    )
+    parser.add_argument(
+        "--points",
+        type=Path,
+        metavar="FILE",
+        help="run at each point of a list: .csv (a line of paths, then one of numbers each) or .json",
+    )
+    parser.add_argument(
+        "--own-noise",
+        action="store_true",
+        default=None,
+        help="with --points: each point has noise of its own",
     )
     parser.add_argument(
         "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
@@ -160,6 +175,7 @@ def _is_record(path: Path) -> bool:
 
 def _simulate(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
+    from deodar.batch import points_file
     from deodar.batch.simulate import simulate
     from deodar.importers.opening import load
 
@@ -174,6 +190,11 @@ def _simulate(args: argparse.Namespace) -> int:
     if world is not None and world.wall_clock:
         args.wrong(f"the world {args.world} follows the wall clock, so the run needs --live")
     _show_warnings(model, args.file, world)
+    sweep: Sweep | None = dict(args.sweep) if args.sweep else None
+    if args.points is not None:
+        if sweep is not None:
+            args.wrong("--points is a list and --sweep a grid; give one of them")
+        sweep = points_file.read(args.points)
     place = _Place(args, model.name)
     step = model.document.step if args.dt is None else args.dt
 
@@ -186,7 +207,8 @@ def _simulate(args: argparse.Namespace) -> int:
             record=args.record,
             every=args.every,
             trials=args.trials,
-            sweep=dict(args.sweep) if args.sweep else None,
+            sweep=sweep,
+            own_noise=bool(args.own_noise),
             precision=args.precision or "float32",
             world=world,
             progress=progress,
@@ -216,7 +238,7 @@ def _resume(args: argparse.Namespace) -> int:
     from deodar.recording.record import about
 
     given = [
-        f"--{name}" for name in OF_A_RECORD if name != "duration" and getattr(args, name) is not None
+        _flag(name) for name in OF_A_RECORD if name != "duration" and getattr(args, name) is not None
     ] + [f"--{name}" for name in ("out", "force") if getattr(args, name)]
     if given:
         args.wrong(f"a run is resumed as it began, in its folder, so {', '.join(given)} cannot be given")
@@ -238,6 +260,11 @@ def _resume(args: argparse.Namespace) -> int:
     except Interrupted as error:
         data, stopped = error.data, str(error)
     return _finish(args, _Written(args.file, None), data, doc, stopped, None)
+
+
+def _flag(name: str) -> str:
+    """Return the option as it is typed."""
+    return f"--{name.replace('_', '-')}"
 
 
 def _accepts(args: argparse.Namespace, found: Sequence[Difference]) -> bool:
@@ -289,7 +316,7 @@ def _repeat(args: argparse.Namespace) -> int:
     from deodar.recording.record import about
     from deodar.recording.repeat import compare, repeat
 
-    given = [f"--{name}" for name in OF_A_RECORD if getattr(args, name) is not None]
+    given = [_flag(name) for name in OF_A_RECORD if getattr(args, name) is not None]
     if given:
         args.wrong(
             f"a record is run again as it was, so {', '.join(given)} cannot be given; run its model.json"

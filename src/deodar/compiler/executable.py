@@ -48,6 +48,9 @@ Result = TypeVar("Result")
 OneCopy = Callable[[ProgramValues, list[Constants], ProgramState, NoiseKeys], Result]
 """A function of one copy of a model."""
 
+TrialNumbers = Sequence[int] | Sequence[Sequence[int]]
+"""The number of each trial, by which it draws noise; with `Batch.own_noise` for each point."""
+
 Stepped = tuple[Array, ProgramState, Arrays, Arrays]
 """Tick, state, the noise drawn for two ticks, and what follows from the latest readings of the world."""
 
@@ -93,6 +96,7 @@ class Batch:
         begun: number of copies with which a batch began that has fewer now; 0: those that it has. The
             operations are those of that number, so that the state of the larger batch fits.
         restarts: whether each copy has a tick of its own at which its time began, under `BEGUN` of the keys.
+        own_noise: whether each point has trial numbers of its own: (points, trials) instead of (trials).
     """
 
     points: int | None = None
@@ -100,6 +104,12 @@ class Batch:
     sweep: tuple[tuple[Leaf, ...], ...] = ()
     begun: int = 0
     restarts: bool = False
+    own_noise: bool = False
+
+    @property
+    def numbered(self) -> tuple[int, ...]:
+        """The shape of the trial numbers."""
+        return (self.points or 1, self.trials or 1) if self.own_noise else (self.trials or 1,)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -186,7 +196,7 @@ class Executable:
         self.compiled = 0
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
-        values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.trials or 1, np.uint32)
+        values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.numbered, np.uint32)
         self._prepare, constants = self.once(self.program.prepare, values)
         self._init, (state, keys) = self.once(self._start, values, seed, trials)
         if body is not None:
@@ -237,7 +247,7 @@ class Executable:
             {**keys, "world": batched(own, self.batch.shape)},
         )
 
-    def init(self, values: ProgramValues, seed: int, trials: Sequence[int]) -> tuple[ProgramState, NoiseKeys]:
+    def init(self, values: ProgramValues, seed: int, trials: TrialNumbers) -> tuple[ProgramState, NoiseKeys]:
         """Return the state at the start and the noise keys, for the given trials of a seed."""
         return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
 
@@ -318,7 +328,8 @@ class Executable:
         if self.batch.points is None:
             state, keys = many(_unswept(values), seed, trials)
         else:
-            each = jax.vmap(many, in_axes=(self._swept_axes(values), None, None))
+            own = 0 if self.batch.own_noise else None
+            each = jax.vmap(many, in_axes=(self._swept_axes(values), None, own))
             state, keys = each(values, seed, trials)
         if self.batch.restarts:
             keys = {**keys, BEGUN: jnp.zeros(self.batch.shape, jnp.uint32)}

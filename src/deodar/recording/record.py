@@ -26,15 +26,26 @@ def dataset(
     trials: Sequence[int] | None,
     sweep: Mapping[str, Sequence[float]],
     about: Mapping[str, Any],
+    beside: Mapping[str, Sequence[float]] | None = None,
 ) -> xarray.Dataset:
     """Return the record of a run.
 
-    Variables are named by path. Dimensions are sweep paths, `trial` (if trials were requested), `time`, and
-    axes by name; an axis whose name belongs to another sampling, or that occurs twice, becomes `PATH.axis`,
-    PATH being the path of the port.
+    Variables are named by path. Dimensions are those of the sweep, `trial` (if trials were requested),
+    `time`, and axes by name; an axis whose name belongs to another sampling, or that occurs twice, becomes
+    `PATH.axis`, PATH being the path of the port.
+
+    Args:
+        doc: the document.
+        variables: the recorded arrays.
+        times: time of each sample.
+        trials: number of each trial; None without this dimension.
+        sweep: values along each dimension of the sweep; a range for the numbers of points of a list.
+        about: the provenance.
+        beside: for each path its value at each point of a list.
     """
     lead = [*sweep, *(["trial"] if trials is not None else []), "time"]
-    coords: dict[str, Any] = {path: (path, np.asarray(values, float)) for path, values in sweep.items()}
+    coords: dict[str, Any] = {path: (path, _numbers(values)) for path, values in sweep.items()}
+    coords |= {path: (list(sweep), np.asarray(values, float)) for path, values in (beside or {}).items()}
     if trials is not None:
         coords["trial"] = ("trial", np.asarray(trials, np.int64))
     coords["time"] = ("time", times, {"units": doc.time_unit})
@@ -93,6 +104,11 @@ def time_dimension(variable: xarray.DataArray) -> str | None:
     """
     # the times of the samples stand before the axes, of which one may have this name, too
     return next((str(d) for d in variable.dims if is_time(str(d))), None)
+
+
+def _numbers(values: Sequence[float]) -> np.ndarray:
+    """Return the values of a sweep as real numbers, the numbers of its points as whole ones."""
+    return np.asarray(values, np.int64 if isinstance(values, range) else float)
 
 
 def _axis_attributes(axis: Axis) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import numpy as np
 from jax.typing import DTypeLike
 
 from deodar.compiler.body import Body
-from deodar.compiler.executable import Batch
+from deodar.compiler.executable import Batch, TrialNumbers
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, WorldError
@@ -112,10 +112,11 @@ class Exchange:
         self.sensors, self.motors = used(doc, self.world)
         self.unread = True
 
-    def reset(self, seed: int, trials: Sequence[int], batch: Batch, precision: str) -> None:
+    def reset(self, seed: int, trials: TrialNumbers, batch: Batch, precision: str) -> None:
         """Reset the world to its start, for a batch of copies."""
         if self.world is not None:
-            copies = [t for _ in range(batch.points or 1) for t in trials]
+            own = trials if batch.own_noise else [trials] * (batch.points or 1)
+            copies = np.ravel(np.asarray(own, np.uint32)).tolist()
             if (
                 batch.shape
                 and not self.inside

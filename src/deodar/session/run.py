@@ -15,7 +15,7 @@ from jax.stages import Compiled
 
 from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
-from deodar.compiler.executable import ChunkResult, Executable
+from deodar.compiler.executable import ChunkResult, Executable, TrialNumbers
 from deodar.compiler.moment import packed
 from deodar.compiler.program import Port
 from deodar.element import Arrays
@@ -69,12 +69,12 @@ class Run:
         doc: Document,
         dt: float,
         seed: int,
-        trials: Sequence[int],
+        trials: TrialNumbers,
         world: World | None,
         swept: Sequence[np.ndarray] | None = None,
     ) -> None:
         self.seed = seed
-        self.trials = tuple(trials)
+        self.trials: TrialNumbers = trials
         self.swept = swept
         self.clock = Clock(0, doc.t0, 0, dt)
         self.exchange = Exchange(doc, world)

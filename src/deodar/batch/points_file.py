@@ -1,0 +1,60 @@
+"""A list of points for a sweep, as a file: a CSV table, or JSON."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses as dc
+from pathlib import Path
+from typing import Any
+
+from deodar import codec
+from deodar.errors import DocumentError
+
+
+def read(path: str | Path) -> list[dict[str, float]]:
+    """Read a list of points.
+
+    A .csv file has a line of parameter paths, then one of numbers for each point; every other file is the
+    list as JSON. `simulate` checks the values.
+
+    Args:
+        path: the file.
+
+    Raises:
+        DocumentError: it cannot be read, or is no such table or JSON.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        return _table(text) if path.suffix.lower() == ".csv" else _listed(text)
+    except OSError as error:
+        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None
+    except UnicodeDecodeError:
+        raise DocumentError("is not text in UTF-8", where=str(path)) from None
+    except DocumentError as error:
+        raise DocumentError([dc.replace(problem, where=str(path)) for problem in error.problems]) from None
+
+
+def _listed(text: str) -> list[dict[str, float]]:
+    points: Any = codec.read(text)
+    if not isinstance(points, list):
+        raise DocumentError("is no list of points", fix='For example [{"u.tau": 10}, {"u.tau": 20}]')
+    return points
+
+
+def _table(text: str) -> list[dict[str, float]]:
+    rows = [row for row in csv.reader(text.splitlines()) if row]
+    if not rows:
+        raise DocumentError("is empty; the first line has the parameter paths", fix="For example u.tau,n.tau")
+    paths = [cell.strip() for cell in rows[0]]
+    if len(set(paths)) < len(paths):
+        raise DocumentError(f"names a path twice: {', '.join(paths)}")
+    points: list[dict[str, float]] = []
+    for number, row in enumerate(rows[1:]):
+        try:
+            points.append({path: float(cell) for path, cell in zip(paths, row, strict=True)})
+        except ValueError:
+            raise DocumentError(
+                f"point {number} is {','.join(row)}; expected one number for each of {', '.join(paths)}"
+            ) from None
+    return points

@@ -1,0 +1,117 @@
+"""Sweeps over a list of points: each point pairs its values, and may draw noise of its own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import RunWarning
+from deodar.recording import repeat
+
+POINTS = [
+    {"n.resting_level": -1.0, "s.amplitude": 2.0},
+    {"n.resting_level": -2.0, "s.amplitude": 2.5},
+    {"n.resting_level": -0.5, "s.amplitude": 1.0},
+    {"n.resting_level": -3.0, "s.amplitude": 6.0},
+    {"n.resting_level": -1.5, "s.amplitude": 0.5},
+]
+
+
+def node(noise: float = 0.5) -> dd.Model:
+    model = dd.Model("points")
+    stimulus = model.add(dd.GaussianStimulus("s", amplitude=2.0))
+    stimulus >> model.add(dd.Field("n", tau=10, noise=noise))
+    return model
+
+
+def run(**given: object) -> np.ndarray:
+    data = dd.simulate(node(), 20, record="n.activation", precision="float64", **given)  # type: ignore[arg-type]
+    return data["n.activation"].values
+
+
+def test_each_point_has_its_values_and_its_coordinates() -> None:
+    data = dd.simulate(node(0), 20, record="n.activation", sweep=POINTS, precision="float64")
+    assert data["n.activation"].dims == ("point", "time")
+    assert data["point"].values.tolist() == [0, 1, 2, 3, 4]
+    for path in POINTS[0]:
+        assert data[path].dims == ("point",)
+        assert data[path].values.tolist() == [point[path] for point in POINTS]
+    for k, point in enumerate(POINTS):
+        model = node(0)
+        for path, value in point.items():
+            model.set(path, value)
+        alone = dd.simulate(model, 20, record="n.activation", precision="float64")["n.activation"]
+        np.testing.assert_allclose(data["n.activation"].values[k], alone.values, atol=1e-12)
+
+
+@pytest.mark.parametrize("batch", [1, 2, 3, 5, 7])
+@pytest.mark.parametrize("trials", [None, 3, 8])
+@pytest.mark.parametrize("own", [False, True])
+def test_a_cut_changes_no_value(batch: int, trials: int | None, own: bool) -> None:
+    whole = run(sweep=POINTS, trials=trials, own_noise=own)
+    cut = run(sweep=POINTS, trials=trials, own_noise=own, batch=batch)
+    assert whole.shape == ((5, 21) if trials is None else (5, trials, 21))
+    np.testing.assert_allclose(cut, whole, atol=1e-12)
+
+
+def test_points_share_the_noise_unless_they_have_their_own() -> None:
+    same = [{"n.resting_level": -1.0}] * 4
+    shared, own = run(sweep=same), run(sweep=same, own_noise=True)
+    assert (shared == shared[0]).all()
+    assert all((own[a] != own[b]).any() for a in range(4) for b in range(a))
+    np.testing.assert_allclose(own[0], shared[0], atol=1e-12)
+
+
+def test_the_noise_of_points_is_independent() -> None:
+    points = [{"n.resting_level": 0.0}] * 400
+    data = dd.simulate(node(1.0), 30, record="n.activation", sweep=points, trials=2, own_noise=True)
+    end = data["n.activation"].values[:, :, -1]
+    spread = end - end.mean(0)
+    between = np.corrcoef(np.column_stack([spread[:-1], spread[1:]]).T)
+    # four standard errors of a correlation of 399 pairs
+    assert np.abs(between - np.eye(4)).max() < 4 / np.sqrt(399)
+
+
+def test_a_file_holds_the_points_and_is_run_again(tmp_path: Path) -> None:
+    place = tmp_path / "run.zarr"
+    written = dd.simulate(
+        node(), 20, record="n.activation", sweep=POINTS, trials=2, own_noise=True, batch=4, out=place
+    )
+    memory = dd.simulate(node(), 20, record="n.activation", sweep=POINTS, trials=2, own_noise=True, batch=4)
+    assert written["n.activation"].dims == ("point", "trial", "time")
+    for name in ("n.activation", "point", *POINTS[0]):
+        assert (written[name].values == memory[name].values).all(), name
+    model, settings = repeat.request(written)
+    assert settings["sweep"] == POINTS
+    again = dd.simulate(model, **settings)
+    assert (again["n.activation"].values == memory["n.activation"].values).all()
+
+
+def test_workers_share_the_points(tmp_path: Path) -> None:
+    here = run(sweep=POINTS, trials=2, own_noise=True, batch=4)
+    there = run(sweep=POINTS, trials=2, own_noise=True, batch=4, workers=2)
+    assert (here == there).all()
+    place = tmp_path / "run.zarr"
+    data = dd.simulate(
+        node(), 20, record="n.activation", sweep=POINTS, trials=2, own_noise=True, batch=4, workers=2,
+        out=place, precision="float64",
+    )  # fmt: skip
+    assert (data["n.activation"].values == here).all()
+    assert data["s.amplitude"].values.tolist() == [point["s.amplitude"] for point in POINTS]
+
+
+def test_a_point_that_diverges_is_named_by_its_number() -> None:
+    model = dd.Model("diverges")
+    model.add(dd.Field("n", tau=10, noise=0.0, kernel=[], sigmoid=dd.SemiLinear(slope=1.0)))
+    model.add(dd.Gain(1.0, name="g"))
+    model["n"] >> model["g"] >> model["n"]
+    with pytest.warns(RunWarning, match="1 of 3 copies"):
+        data = dd.simulate(
+            model, 4000, record="n.activation", every=100,
+            sweep=[{"n.resting_level": 1.0, "g.factor": factor} for factor in (0.5, 30.0, 0.1)],
+        )  # fmt: skip
+    assert data["diverged"].dims == ("point",)
+    assert [bool(text) for text in data["diverged"].values] == [False, True, False]
