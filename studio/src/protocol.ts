@@ -756,6 +756,13 @@ export type MeasureCosts = {
   request?: number;
 };
 
+// Measure what a field or node does alone, without noise: the `regime` follows when it is found.
+export type MeasureRegime = {
+  type: "measure_regime";
+  request?: number;
+  element: string;
+};
+
 // Move elements and groups into a group; an empty `group` is the top level.
 //
 // `positions` are those of boxes, which change in the same step of undo.
@@ -1109,6 +1116,36 @@ export type RedoExperiment = {
   session?: number;
 };
 
+// What the field that was measured last does, alone and without noise.
+//
+// `element` is empty before the first measurement. `words` are the regime, the most important first; they are
+// empty while it is measured, and if that was not possible. `stale`: the element has changed since.
+export type Regime = {
+  type: "regime";
+  element: string;
+  measuring: boolean;
+  stale: boolean;
+  words: string[];
+  rows: RegimeRow[];
+  curve: RegimeCurve | null;
+  problems: ListedProblem[];
+};
+
+// Settled activation at its maximum over the strength of a localised input, for growing (`up`) and for
+// falling (`down`) input; a peak exists above `threshold`.
+export type RegimeCurve = {
+  input: number[];
+  up: (number | null)[];
+  down: (number | null)[];
+  threshold: number;
+};
+
+// A measurement of a regime: its name, and its value in words.
+export type RegimeRow = {
+  name: string;
+  text: string;
+};
+
 // End the input of `push`.
 export type Release = {
   type: "release";
@@ -1447,6 +1484,12 @@ export type StopRecord = {
   request?: number;
 };
 
+// End the measurement of a regime.
+export type StopRegime = {
+  type: "stop_regime";
+  request?: number;
+};
+
 // A model that can be added to a document as a group.
 //
 // `room` is `architectures`, published models, or `examples`, documents of the gallery. `picture` is the
@@ -1488,6 +1531,7 @@ export type ToPage =
   | Checked
   | RunClock
   | Costs
+  | Regime
   | WorldScene
   | RobotLink
   | Bodies
@@ -1565,6 +1609,8 @@ export type ToServer =
   | StopRecord
   | SaveFigure
   | MeasureCosts
+  | MeasureRegime
+  | StopRegime
   | PushInput
   | Release
   | UseWorld

@@ -16,6 +16,7 @@ import type {
   SavedFiles,
   Kind,
   ListedProblem,
+  Regime,
   ToPage,
   FileProblems,
   Welcome,
@@ -46,6 +47,8 @@ export type Studio = {
   fileProblems: FileProblems | null;
   clock: RunClock | null;
   costs: Costs | null;
+  // The regime of the field that was measured last; its element is empty before.
+  regime: Regime | null;
   // The comparison of the open record with another one; null: there is none.
   comparison: Comparison | null;
   experiment: ExperimentView | null;
@@ -80,6 +83,7 @@ export const useStudio = create<Studio>((set) => ({
   fileProblems: null,
   clock: null,
   costs: null,
+  regime: null,
   comparison: null,
   experiment: null,
   trials: { run: 0, rows: [] },
@@ -152,6 +156,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { comparison: message.path === "" ? null : message };
     case "costs":
       return { costs: message };
+    case "regime":
+      return { regime: message };
     case "experiment":
       return { experiment: message };
     case "trial_rows": {

@@ -28,6 +28,9 @@ STRONG = 1.2
 """Input that creates peaks in the tests of memory and selection, relative to the detection threshold."""
 STEPS = 31
 
+NOT_ASKED = "not asked for"
+"""Reason why the discretisation error was not measured, where `finer` was not given."""
+
 
 @dataclass(frozen=True)
 class Regimes:
@@ -278,7 +281,7 @@ def regimes(
     swept = ramp(isolated, _span(isolated, found), limit=limit)
     named = {"detection": up, "reverse": found.reverse, "forgetting": lost, "suppression": pressed}
     transitions = {name: t for name, t in named.items() if t is not None}
-    moved, why = None, obstacle(isolated) if finer else "not asked for"
+    moved, why = None, obstacle(isolated) if finer else NOT_ASKED
     if transitions and not why:
         tell("a grid twice as fine")
         moved = discretisation(isolated, transitions, STRONG, accuracy, limit)

@@ -39,6 +39,7 @@ from deodar.server.to_page import (
     Gallery,
     ImportReportView,
     ListedProblem,
+    Regime,
     RobotLink,
     RunClock,
     SavedFiles,
@@ -299,6 +300,7 @@ class PageConnection:
             self._new("checked", project.checker.found, out)
         self._new("import_report", project.report(), out)
         self._new("costs", self._hub.costs(), out)
+        self._new("regime", self._hub.regime(), out)
         self._new("comparison", project.compared(), out)
         self._new("saved_files", project.saved_files, out)
         experiment = self._hub.experiment.view()
@@ -332,6 +334,7 @@ class PageConnection:
         | Checked
         | RunClock
         | Costs
+        | Regime
         | Comparison
         | ExperimentView
         | WorldScene

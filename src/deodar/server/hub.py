@@ -9,10 +9,11 @@ from collections.abc import Awaitable, Callable, Iterable
 from pathlib import Path
 
 from deodar import __version__
-from deodar.errors import UnknownName, WorldError
+from deodar.errors import DocumentError, UnknownName, WorldError
 from deodar.live.compilation import CompileTimes
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
+from deodar.model.model import Model
 from deodar.server import gallery, plots, templates, view
 from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import try_in_file_thread
@@ -20,6 +21,7 @@ from deodar.server.open_experiment import OpenExperiment
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
 from deodar.server.record_frames import RecordFrames
+from deodar.server.regime_measurement import RegimeMeasurement, RegimeReport
 from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
 from deodar.server.to_page import (
@@ -28,6 +30,9 @@ from deodar.server.to_page import (
     CostView,
     Gallery,
     RecordingView,
+    Regime,
+    RegimeCurve,
+    RegimeRow,
     RunClock,
     TimelineView,
     Welcome,
@@ -67,6 +72,8 @@ class Hub:
             self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
         )
         self.experiment = OpenExperiment(self.project, self.workspace, self.from_thread)
+        self.measurement = RegimeMeasurement(self.from_thread)
+        self._sent_regime: tuple[tuple[RegimeReport, bool], Regime] | None = None
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),
@@ -211,6 +218,31 @@ class Hub:
             )
         return self._sent_costs[1]
 
+    def measure_regime(self, element: str) -> None:
+        """Measure the regime of a field or node of the open document.
+
+        Raises:
+            DocumentError: no document is open, or it has no such element.
+            WorkerError: a part of the model cannot be sent to another process.
+        """
+        doc = self.project.document()
+        if element not in doc.by_id():
+            raise DocumentError("the document has no such element", where=element)
+        model = Model(document=doc, trusted=self.project.trust)
+        self.measurement.start(self.project.session, model, element)
+
+    def regime(self) -> Regime:
+        """Return the regime as last measured; an empty one if another document was opened since."""
+        report, model = self.measurement.report, self.project.model
+        if report.element and (model is None or report.session != self.project.session):
+            self.measurement.stop()
+            report = self.measurement.report
+        entry = None if model is None else model.document.by_id().get(report.element)
+        now = report, entry is None or entry.element is not report.measured
+        if self._sent_regime is None or self._sent_regime[0] != now:
+            self._sent_regime = now, _regime(*now)
+        return self._sent_regime[1]
+
     # ----------------------------------------------------------------------------------------------- watching
 
     def new_page(self) -> Page:
@@ -259,6 +291,7 @@ class Hub:
         await self.project.store_edits()
         await self.experiment.store_edits()
         await asyncio.to_thread(self.experiment.end)
+        await asyncio.to_thread(self.measurement.end)
         await asyncio.to_thread(self.engine.close)
         self.embodiment.close()
 
@@ -274,6 +307,22 @@ async def _repeat(work: Callable[[], Awaitable[None]], seconds: float) -> None:
             if repr(error) != reported:
                 logging.getLogger("deodar.studio").exception("%s failed", work.__name__)
             reported = repr(error)
+
+
+def _regime(report: RegimeReport, stale: bool) -> Regime:
+    """Convert the report of a measurement."""
+    found = report.found
+    return Regime(
+        element=report.element,
+        measuring=report.measuring,
+        stale=stale and bool(report.element),
+        words=[] if found is None else list(found.words),
+        rows=[] if found is None else [RegimeRow(name=name, text=text) for name, text in found.rows],
+        curve=None
+        if found is None
+        else RegimeCurve(input=found.strengths, up=found.up, down=found.down, threshold=found.threshold),
+        problems=view.problems(report.problems, None),
+    )
 
 
 def _let_go(session: Session, bodies: Iterable[str]) -> None:

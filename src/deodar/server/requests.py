@@ -399,6 +399,16 @@ async def _measure_costs(hub: Hub, page: Page, m: to_server.MeasureCosts) -> Non
     await _engine(hub, page, hub.engine.measure)
 
 
+@handles(to_server.MeasureRegime)
+async def _measure_regime(hub: Hub, page: Page, m: to_server.MeasureRegime) -> None:
+    hub.measure_regime(m.element)
+
+
+@handles(to_server.StopRegime)
+async def _stop_regime(hub: Hub, page: Page, m: to_server.StopRegime) -> None:
+    hub.measurement.stop()
+
+
 @handles(to_server.PushInput)
 async def _push(hub: Hub, page: Page, m: to_server.PushInput) -> None:
     engine = hub.engine

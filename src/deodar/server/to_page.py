@@ -583,6 +583,41 @@ class Costs(Message, frozen=True, tag="costs"):
     problems: list[ListedProblem]
 
 
+class RegimeRow(Data, frozen=True):
+    """A measurement of a regime: its name, and its value in words."""
+
+    name: str
+    text: str
+
+
+class RegimeCurve(Data, frozen=True):
+    """Settled activation at its maximum over the strength of a localised input, for growing (`up`) and for
+    falling (`down`) input; a peak exists above `threshold`.
+    """
+
+    input: list[float]
+    up: list[float | None]
+    down: list[float | None]
+    threshold: float
+
+
+@MESSAGES.register
+class Regime(Message, frozen=True, tag="regime"):
+    """What the field that was measured last does, alone and without noise.
+
+    `element` is empty before the first measurement. `words` are the regime, the most important first; they
+    are empty while it is measured, and if that was not possible. `stale`: the element has changed since.
+    """
+
+    element: Id
+    measuring: bool
+    stale: bool
+    words: list[str]
+    rows: list[RegimeRow]
+    curve: RegimeCurve | None
+    problems: list[ListedProblem]
+
+
 class BoxView(Data, frozen=True):
     """A solid box of the world: its middle, size and colour (red, green, blue, 0 to 1).
 

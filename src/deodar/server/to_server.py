@@ -639,6 +639,18 @@ class MeasureCosts(Request, frozen=True, kw_only=True, tag="measure_costs"):
 
 
 @MESSAGES.register
+class MeasureRegime(Request, frozen=True, kw_only=True, tag="measure_regime"):
+    """Measure what a field or node does alone, without noise: the `regime` follows when it is found."""
+
+    element: Id
+
+
+@MESSAGES.register
+class StopRegime(Request, frozen=True, kw_only=True, tag="stop_regime"):
+    """End the measurement of a regime."""
+
+
+@MESSAGES.register
 class PushInput(Request, frozen=True, kw_only=True, tag="push"):
     """Add an input to an element until `release`.
 

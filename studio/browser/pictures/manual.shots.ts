@@ -10,7 +10,7 @@ import type { Page } from "playwright-core";
 import { expect, onTestFinished, test } from "vitest";
 
 import { frameOf, toPixels } from "../../src/world/plan";
-import { openExample } from "../hands";
+import { choose, openExample } from "../hands";
 import type { Observer } from "../observer";
 import { python } from "../server";
 import { shot, type Studio, type StudioOptions, startStudio } from "../studio";
@@ -89,6 +89,19 @@ for (const colours of COLOURS) {
     await page.mouse.move(3, 400);
     await page.waitForTimeout(1000); // until the curves are drawn
     await shot(page, name("curves"));
+  });
+
+  test(`regime, ${colours}`, async () => {
+    const { page } = await open(colours, { file: "selection.json", copies: ["examples/selection.json"] });
+    await page.locator(".react-flow__node").first().waitFor(PATIENCE);
+    await select(page, "u");
+    await run(page, 700);
+    await choose(page, "Open panels and plots", "Regime");
+    await page.getByRole("button", { name: "Measure regime" }).click();
+    await page.getByRole("button", { name: "Measure regime again" }).waitFor(PATIENCE);
+    await page.mouse.move(3, 400);
+    await page.waitForTimeout(500);
+    await shot(page, name("regime"));
   });
 
   test(`records, ${colours}`, async () => {

@@ -11,6 +11,7 @@ import { Graph } from "../graph/Graph";
 import { Inspector } from "../inspector/Inspector";
 import { NeedsServer } from "../connection/NeedsServer";
 import { Pins } from "../pins/Pins";
+import { RegimePanel } from "../regime/RegimePanel";
 import { ReportPanel } from "../report/ReportPanel";
 import { request } from "../socket";
 import { useStudio } from "../store";
@@ -38,6 +39,11 @@ const COMPONENTS = {
   costs: () => (
     <NeedsServer>
       <CostsPanel />
+    </NeedsServer>
+  ),
+  regime: () => (
+    <NeedsServer>
+      <RegimePanel />
     </NeedsServer>
   ),
   report: () => <ReportPanel />,

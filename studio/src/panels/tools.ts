@@ -1,6 +1,7 @@
 // The panels that exist once: their names and places.
 
-export type Tool = "graph" | "inspector" | "pins" | "costs" | "world" | "palette" | "experiment" | "report";
+export type Tool =
+  "graph" | "inspector" | "pins" | "costs" | "world" | "palette" | "experiment" | "report" | "regime";
 
 export const TOOLS: Record<Tool, { title: string; direction: "left" | "right"; width: number }> = {
   graph: { title: "Architecture", direction: "left", width: 700 },
@@ -10,6 +11,7 @@ export const TOOLS: Record<Tool, { title: string; direction: "left" | "right"; w
   palette: { title: "Elements", direction: "left", width: 300 },
   world: { title: "World", direction: "right", width: 460 },
   experiment: { title: "Experiment", direction: "right", width: 460 },
+  regime: { title: "Regime", direction: "right", width: 400 },
   report: { title: "Import report", direction: "right", width: 460 },
 };
 
