@@ -120,7 +120,7 @@ MEASURES = [
     *("dd.continuation", "dd.analysis.SteadyBranch", "dd.analysis.Bifurcation", "dd.bifurcation_diagram"),
     *("dd.locus", "dd.analysis.Locus", "dd.analysis.LocusPoint", "dd.locus_figure"),
     *("dd.dynamics", "dd.analysis.Dynamics"),
-    *("dd.regime_map", "dd.analysis.RegimeMap", "dd.regime_map_figure"),
+    *("dd.regime_map", "dd.analysis.RegimeMap", "dd.regime_loci", "dd.regime_map_figure"),
     *("dd.thresholds", "dd.analysis.Thresholds", "dd.analysis.Transition", "dd.descend"),
     *("dd.outlives", "dd.analysis.Memory", "dd.forgetting", "dd.selects", "dd.analysis.Selection"),
     *(

@@ -12,6 +12,7 @@ from deodar.analysis.continuation.continuation import continuation as continuati
 from deodar.analysis.continuation.dynamics import dynamics as dynamics
 from deodar.analysis.continuation.locus import locus as locus
 from deodar.analysis.isolated import isolate as isolate
+from deodar.analysis.maps.borders import regime_loci as regime_loci
 from deodar.analysis.maps.regime_map import regime_map as regime_map
 from deodar.analysis.memory import forgetting as forgetting
 from deodar.analysis.memory import outlives as outlives

@@ -13,6 +13,7 @@ from deodar.cli import _options
 from deodar.cli._bar import Bar
 
 if TYPE_CHECKING:
+    from deodar.analysis.continuation.locus import Locus
     from deodar.analysis.maps.map_result import RegimeMap
 
 HELP = "map the regimes of a field over two parameters: silent, input-driven, self-sustained, selective"
@@ -71,6 +72,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FIGURE",
         help="the figure, .png or .svg (default: FILE-map-001.png, -002, ...)",
     )
+    parser.add_argument(
+        "--loci", action="store_true", help="compute the borders that are folds, and draw them as lines"
+    )
     parser.add_argument("--save", type=Path, metavar="MAP", help="write the map as well, .nc or .zarr")
     _options.add_force(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
@@ -82,6 +86,7 @@ def run(args: argparse.Namespace) -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _options.use_cores(None)
     # start-up time: these bring JAX
+    from deodar.analysis.maps.borders import regime_loci
     from deodar.analysis.maps.regime_map import regime_map
     from deodar.experiments.jobs import Progress
     from deodar.figures import _files
@@ -114,13 +119,17 @@ def run(args: argparse.Namespace) -> int:
             inputs=args.input,
             precision=args.precision,
         )
-    _files.save_figure(regime_map_figure(found), target, args.force)
+    loci = regime_loci(found) if args.loci else []
+    _files.save_figure(regime_map_figure(found, loci), target, args.force)
     if args.save is not None:
         found.save(args.save, args.force)
     if args.json:
-        print(codec.text(found.data() | {"figure": str(target)}))
+        lines = {"loci": [line.data() for line in loci]} if args.loci else {}
+        print(codec.text(found.data() | lines | {"figure": str(target)}))
         return 0
     print(_table(found))
+    if args.loci:
+        print(_lines(found, loci))
     print(f"\nFigure: {target}")
     return 0
 
@@ -141,4 +150,18 @@ def _table(found: RegimeMap) -> str:
         lines.append(
             f"\nThe model itself ({x} {found.at[0]:g}, {y} {found.at[1]:g}): {found.word(*found.at)}"
         )
+    return "\n".join(lines)
+
+
+def _lines(found: RegimeMap, loci: list[Locus]) -> str:
+    """Return the borders that are folds in words, one per line, and the distance of the model from each."""
+    if not loci:
+        return "\nNo border is a fold."
+    lines = ["\nBorders that are folds, and the change of both parameters that reaches them from the model:"]
+    for name in dict.fromkeys(line.of for line in loci):
+        parts = [line for line in loci if line.of == name]
+        distance = "-" if 0 in found.at else f"{min(line.distance(found.at) for line in parts):.1%}"
+        lines.append(f"  {distance:>6}  {name}")
+        for point in dict.fromkeys(point for line in parts for point in line.points):
+            lines.append(f"{'':10}{point.kind} at {point.values[0]:.5g}, {point.values[1]:.5g}")
     return "\n".join(lines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
@@ -20,31 +21,43 @@ MARKS = {"cusp": "^", "Bogdanov-Takens": "*"}
 def locus_figure(*loci: Locus, at: tuple[float, float] | None = None) -> Figure:
     """Draw where bifurcations lie in the plane of two parameters.
 
-    Cusps are triangles, Bogdanov-Takens points stars.
+    Cusps are triangles, Bogdanov-Takens points stars. The first line says which parameter runs across.
 
     Args:
-        loci: lines over the same two parameters.
-        at: values of a model, drawn as a cross; None: none.
+        loci: lines over the same two parameters, in any order.
+        at: values of a model, drawn as a cross, with its distance from the nearest line; None: none.
 
     Raises:
         FigureError: there is no line, or they have different parameters.
     """
     if not loci:
         raise FigureError("there is no locus to draw", fix="Give what dd.locus returned")
-    if len({found.parameters for found in loci}) > 1:
+    first, second = loci[0].parameters
+    if len({frozenset(found.parameters) for found in loci}) > 1:
         raise FigureError("the loci have different parameters", fix="Draw them in figures of their own")
+    turned = tuple(found.over(first, second) for found in loci)
     with _style.style():
         figure = _style.figure(1.3 * _style.SINGLE, 2.8)
         axes = figure.subplots()
-        draw_loci(axes, loci)
+        draw_loci(axes, turned)
         if at is not None:
-            axes.plot(*at, "+", color=COLOR.threshold, markersize=9, label="the model")
-        first, second = loci[0].parameters
+            axes.plot(*at, "+", color=COLOR.threshold, markersize=9, label=model_label(turned, at))
         axes.margins(0.06)
         axes.set_xlabel(first)
         axes.set_ylabel(second)
         axes.legend(loc="best")
         return figure
+
+
+def model_label(loci: Sequence[Locus], at: tuple[float, float]) -> str:
+    """Return the words for the cross of a model: the change of both parameters that reaches a line.
+
+    Without the distance if there is no line, or a parameter is 0, so that no change is relative to it.
+    """
+    if not loci or 0 in at:
+        return "the model"
+    nearest = min(loci, key=lambda found: found.distance(at))
+    return f"the model, {nearest.distance(at):.1%} from\n{nearest.of}"
 
 
 def draw_loci(axes: Axes, loci: tuple[Locus, ...]) -> None:

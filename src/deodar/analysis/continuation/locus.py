@@ -2,37 +2,21 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.dynamics import Dynamics
-from deodar.analysis.continuation.line import DENSE, solved
-from deodar.analysis.continuation.walk import zero
+from deodar.analysis.continuation.fold_plane import FoldPlane
+from deodar.analysis.continuation.line import DENSE, ParameterLine
+from deodar.analysis.continuation.locus_plane import LocusPoint
+from deodar.analysis.continuation.nearest import nearest
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError, ParameterError
 from deodar.parameters import show
-
-ACCURACY = 1e-9
-LONGEST, SHORTEST = 0.5, 1e-6
-MOST = 600
-"""Largest number of points in each direction."""
-
-
-@dataclass(frozen=True)
-class LocusPoint:
-    """A point at which the locus itself changes.
-
-    Attributes:
-        kind: `cusp`, where two folds meet and vanish, or `Bogdanov-Takens`, where a fold meets a Hopf point.
-        values: both parameters.
-    """
-
-    kind: str
-    values: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -44,16 +28,76 @@ class Locus:
         parameters: paths of both.
         values: points of the line, one row each.
         points: cusps and Bogdanov-Takens points on it, in their order.
+        line: the model along the parameter in which the bifurcation was found.
     """
 
     of: str
     parameters: tuple[str, str]
     values: np.ndarray
-    points: tuple[LocusPoint, ...] = field(default=())
+    points: tuple[LocusPoint, ...] = ()
+    line: ParameterLine | None = field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:
         found = "".join(f"\n  {p.kind} {p.values[0]:.6g}, {p.values[1]:.6g}" for p in self.points)
         return f"<{self.of} over {' and '.join(self.parameters)}, {len(self.values)} points{found}>"
+
+    def over(self, first: str, second: str) -> Locus:
+        """Return the same line with its parameters in this order.
+
+        Raises:
+            ParameterError: they are others.
+        """
+        if (first, second) == self.parameters:
+            return self
+        if (second, first) != self.parameters:
+            raise ParameterError(
+                f"the locus is over {' and '.join(self.parameters)}, not over {first} and {second}"
+            )
+        points = tuple(dc.replace(p, values=p.values[::-1]) for p in self.points)
+        return dc.replace(self, parameters=(first, second), values=self.values[:, ::-1], points=points)
+
+    def distance(self, at: Sequence[float], unit: Sequence[float] | None = None) -> float:
+        r"""Return how much both parameters may change before the line is reached.
+
+        With the distance 0.05 and no unit, each of them may change by any share up to 5 % of its value, both
+        at once. Between two points the line is straight.
+
+        Equation:
+            d = \min_{(p, q)} \max\left(\frac{|p - p_0|}{p_u}, \frac{|q - q_0|}{q_u}\right)
+
+        Args:
+            at: values p0 and q0 of both parameters, in the order of `parameters`.
+            unit: changes of both that count as 1; None: the absolute values of `at`.
+
+        Raises:
+            ParameterError: `at` or `unit` are not two numbers, or a unit is not above 0.
+        """
+        return self._nearest(at, unit)[0]
+
+    def nearest(self, at: Sequence[float], unit: Sequence[float] | None = None) -> tuple[float, float]:
+        """Return the values of both parameters on the line that are nearest, in the sense of `distance`.
+
+        Args:
+            at: values of both parameters.
+            unit: changes of both that count as 1; None: the absolute values of `at`.
+
+        Raises:
+            ParameterError: as of `distance`.
+        """
+        first, second = self._nearest(at, unit)[1]
+        return float(first), float(second)
+
+    def _nearest(self, at: Sequence[float], unit: Sequence[float] | None) -> tuple[float, np.ndarray]:
+        place = _pair("at", at)
+        scale = np.abs(place) if unit is None else _pair("unit", unit)
+        for path, size in zip(self.parameters, scale, strict=True):
+            if not size > 0:
+                raise ParameterError(
+                    f"a change of {path} is relative to {size:g}; expected a number above 0",
+                    fix="Give the changes that count as 1: unit=(1, 1)",
+                )
+        distance, found = nearest(self.values / scale, place / scale)
+        return distance, found * scale
 
     def data(self) -> JsonObject:
         """Return the line as plain data."""
@@ -108,15 +152,11 @@ def locus(
         raise ParameterError("is the first parameter", where=parameter, fix="Name another one")
     reach = 10 * max(1.0, abs(of.value))
     box = np.array([_interval(within or (-reach, reach)), _interval(span)])
-    plane = _Plane(of, parameter, box)
-    start = plane.start(of)
-    sides = [plane.follow(start, sign) for sign in (-1.0, 1.0)]
-    walked = [*reversed(sides[0][1:]), *sides[1]]
+    plane = FoldPlane(of, parameter, box)
+    walked = plane.both(of)
     values = np.array([plane.values(z) for z in walked])
     name = f"{of.kind} ({of.instability})" if of.instability else of.kind
-    # at a branch point both tests are 0 by symmetry
-    found = plane.points(walked) if of.kind == "fold" else []
-    return Locus(name, (first, parameter), values, tuple(found))
+    return Locus(name, (first, parameter), values, tuple(plane.points(walked)), line)
 
 
 def _interval(span: tuple[float, float]) -> tuple[float, float]:
@@ -129,160 +169,11 @@ def _interval(span: tuple[float, float]) -> tuple[float, float]:
     return low, high
 
 
-class _Plane:
-    """The augmented equations; a point is z = (w x, p / length, q / length)."""
-
-    def __init__(self, of: Bifurcation, parameter: str, box: np.ndarray) -> None:
-        line = of.line
-        own = line.dynamics
-        self.box = box
-        self.dynamics = Dynamics(
-            own.model, own.doc, [own.parameters[line.index], parameter], own.at, own.held, own.even
-        )
-        # other parameters of the line keep their values
-        for path, value in zip(own.parameters, line.parameters, strict=True):
-            if path not in self.dynamics.parameters and value != _value(own, path):
-                raise AnalysisError(f"{path} has another value on the branch than in the model")
-        self.weight = line.weight
-        self.lengths = np.array([line.length, abs(box[1, 1] - box[1, 0]) / 10])
-        self.left = self.right = np.zeros(0)
-        self.seen = self.right, self.left
-
-    def values(self, z: np.ndarray) -> np.ndarray:
-        """Return both parameters."""
-        return z[-2:] * self.lengths
-
-    def state(self, z: np.ndarray) -> np.ndarray:
-        return z[:-2] / self.weight
-
-    def start(self, of: Bifurcation) -> np.ndarray:
-        """Return the bifurcation as a point, and take its null vectors as borders."""
-        values = np.array([of.value, self.dynamics.values[1]])
-        z = np.append(self.weight * of.state, values / self.lengths)
-        jacobian = self.dynamics.linear(of.state, values)[1]
-        left, _, right = np.linalg.svd(jacobian)
-        self.left, self.right = left[:, -1], right[-1]
-        return z
-
-    def linear(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return residuals and rows of the equations, and the null vectors: right and left."""
-        own, x, p = self.dynamics, self.state(z), self.values(z)
-        rates, jacobian, by = own.linear(x, p)
-        n = x.size
-        bordered = np.zeros((n + 1, n + 1))
-        bordered[:n, :n], bordered[:n, n], bordered[n, :n] = jacobian, self.left, self.right
-        unit = np.append(np.zeros(n), 1.0)
-        v, w = solved(bordered, unit), solved(bordered.T, unit)
-        by_state, by_parameter = own.curvature(x, p, v[:n], w[:n])
-        top = np.column_stack([jacobian / self.weight, by * self.lengths])
-        bottom = np.append(-by_state / self.weight, -by_parameter * self.lengths)
-        return np.append(rates, v[n]), np.vstack([top, bottom]), v[:n], w[:n]
-
-    def direction(self, rows: np.ndarray, before: np.ndarray) -> np.ndarray:
-        found = solved(np.vstack([rows, before]), np.append(np.zeros(len(rows)), 1.0))
-        return found / np.linalg.norm(found)
-
-    def corrected(self, guess: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-        """Return the point of the locus in the plane through a guess across a direction, and its rows."""
-        z = guess
-        for effort in range(8):
-            residual, rows, v, w = self.linear(z)
-            size = np.abs(residual).max()
-            if size < ACCURACY and effort > 0:
-                self.right, self.left = v / np.linalg.norm(v), w / np.linalg.norm(w)
-                return z, rows
-            if not np.isfinite(size) or size > 1e4:
-                return None
-            z = z + solved(np.vstack([rows, row]), -np.append(residual, row @ (z - guess)))
-        return None
-
-    def follow(self, start: np.ndarray, sign: float) -> list[np.ndarray]:
-        """Return the points in one direction of the second parameter, until the box is left."""
-        residual, rows, _, _ = self.linear(start)
-        assert np.isfinite(residual).all()
-        ahead = self.direction(rows, np.append(np.zeros(start.size - 1), sign))
-        points, size = [start], 0.1
-        borders = self.left, self.right
-        while len(points) < MOST:
-            guess = points[-1] + size * ahead
-            kept = self.left, self.right
-            found = self.corrected(guess, ahead)
-            new = self.direction(found[1], ahead) if found is not None else ahead
-            if found is None or new @ ahead < 0.9 or np.linalg.norm(found[0] - guess) > 0.3 * size:
-                self.left, self.right = kept
-                size /= 2
-                if size < SHORTEST:
-                    break
-                continue
-            points.append(found[0])
-            ahead, size = new, min(1.5 * size, LONGEST)
-            values = self.values(points[-1])
-            if (values < self.box[:, 0]).any() or (values > self.box[:, 1]).any():
-                break
-        self.left, self.right = borders
-        return points
-
-    def points(self, walked: list[np.ndarray]) -> list[LocusPoint]:
-        """Return the cusps and Bogdanov-Takens points between points."""
-        out: list[LocusPoint] = []
-        for kind, test in {"cusp": self._bend, "Bogdanov-Takens": self._double}.items():
-            before: float | None = None
-            self.seen = self._null(walked[0])
-            for k, z in enumerate(walked):
-                now = test(z)
-                if before is not None and before * now < 0:
-                    place = self._between(walked[k - 1], z, test)
-                    if place is not None:
-                        out.append(LocusPoint(kind, (float(place[0]), float(place[1]))))
-                before = now
-        return out
-
-    def _vectors(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the null vectors, right and left; their signs follow the line."""
-        v, w = self._null(z)
-        return v * _sign(float(v @ self.seen[0])), w * _sign(float(w @ self.seen[1]))
-
-    def _null(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        left, _, right = np.linalg.svd(self.dynamics.linear(self.state(z), self.values(z))[1])
-        return right[-1], left[:, -1]
-
-    def _bend(self, z: np.ndarray) -> float:
-        """Return w F_xx v v, which is 0 at a cusp."""
-        v, w = self.seen = self._vectors(z)
-        by_state, _ = self.dynamics.curvature(self.state(z), self.values(z), v, w)
-        # the sign of v does not matter, that of w follows the line
-        return float(by_state @ v)
-
-    def _double(self, z: np.ndarray) -> float:
-        """Return w T v, which is 0 where 0 is a double growth rate."""
-        v, w = self.seen = self._vectors(z)
-        return float(w @ (self.dynamics.time_constants * v))
-
-    def _between(
-        self, before: np.ndarray, after: np.ndarray, test: Callable[[np.ndarray], float]
-    ) -> np.ndarray | None:
-        """Return both parameters where a test is 0 between two points."""
-        chord = after - before
-        row = chord / np.linalg.norm(chord)
-        reached: dict[float, np.ndarray] = {}
-
-        def at(share: float) -> float:
-            found = self.corrected(before + share * chord, row)
-            if found is None:
-                raise ValueError
-            reached[share] = found[0]
-            return test(found[0])
-
-        try:
-            share = zero(at)
-        except ValueError:
-            return None
-        return self.values(reached[share]) if share in reached else None
-
-
-def _sign(number: float) -> float:
-    return -1.0 if number < 0 else 1.0
-
-
-def _value(dynamics: Dynamics, path: str) -> float:
-    return float(dynamics.values[dynamics.parameters.index(path)])
+def _pair(name: str, given: Sequence[float]) -> np.ndarray:
+    try:
+        numbers = np.asarray(given, float)
+    except (TypeError, ValueError):
+        numbers = np.zeros(0)
+    if numbers.shape != (2,) or not np.isfinite(numbers).all():
+        raise ParameterError(f"{name} is {show(given)}; expected two numbers, one for each parameter")
+    return numbers

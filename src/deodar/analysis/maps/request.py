@@ -116,7 +116,7 @@ def requested(
         )
     amplitude = STRONG * isolated.scale if strength is None else _positive("strength", strength)
     small = _with_inputs(isolated, model.trusted)
-    leaves = {name: _leaves(doc, small.document, isolated, name) for name in values}
+    leaves = {name: field_leaves(doc, small.document, isolated, name) for name in values}
     first, second = values
     return MapRequest(
         isolated,
@@ -204,7 +204,7 @@ def _with_inputs(isolated: Isolated, trusted: bool) -> Model:
     return small
 
 
-def _leaves(doc: Document, small: Document, isolated: Isolated, path: str) -> tuple[Leaf, ...]:
+def field_leaves(doc: Document, small: Document, isolated: Isolated, path: str) -> tuple[Leaf, ...]:
     """Return the numbers of the isolated field that a parameter of the model drives."""
     ids = {find.element(doc, isolated.path).id: find.element(small, "field").id}
     for kept in isolated.background:
