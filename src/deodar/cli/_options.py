@@ -208,6 +208,19 @@ def figure(out: Path | None, stem: str) -> Path:
     return path
 
 
+def targets(args: argparse.Namespace, stem: str) -> tuple[Path | None, Path | None]:
+    """Return the paths of a figure and of the file of what it shows.
+
+    `--out` names either, `--save` the file; a figure without a name gets a free one.
+    """
+    out: Path | None = args.out
+    if out is None or out.suffix.lower() not in (".nc", ".zarr"):
+        return figure(out, stem), args.save
+    if args.save is not None:
+        args.wrong(f"--out {out} is a file already; leave out --save, or name a figure")
+    return None, out
+
+
 def shown(path: Path) -> str:
     """Return a path for a shell: relative inside the working folder, quoted if a shell would split it."""
     try:

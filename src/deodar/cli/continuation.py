@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,9 +54,12 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--out",
         type=Path,
         metavar="FIGURE",
-        help="the figure, .png or .svg (default: FILE-continuation-001.png, -002, ...)",
+        help="the figure, .png or .svg, or the branch alone, .nc or .zarr"
+        " (default: FILE-continuation-001.png, -002, ...)",
     )
-    parser.add_argument("--force", action="store_true", help="replace the figure if it exists")
+    parser.add_argument("--save", type=Path, metavar="BRANCH", help="write the branch as well, .nc or .zarr")
+    _options.add_force(parser)
+    _options.wrong(parser)
     _options.add_json(parser)
 
 
@@ -70,12 +74,16 @@ def run(args: argparse.Namespace) -> int:
     from deodar.figures import _files
     from deodar.figures.bifurcation import bifurcation_diagram
     from deodar.importers.opening import load
+    from deodar.recording import files
 
     model = load(args.file)
     for path, value in args.set or ():
         model.set(path, value)
-    target = _options.figure(args.out, f"{args.file.stem}-continuation")
-    _files.claim(target, args.force)
+    target, save = _options.targets(args, f"{args.file.stem}-continuation")
+    if target is not None:
+        _files.claim(target, args.force)
+    if save is not None:
+        files.claim(save, files.format_of(save), args.force)
     with Console(stderr=True).status("following steady states"):
         found = continuation(
             model,
@@ -89,17 +97,32 @@ def run(args: argparse.Namespace) -> int:
         )
         points = [b for b in found.bifurcations if b.kind == "branch point"] if args.switch else []
         others = [other for b in points for other in found.switch(b)]
-        figure = bifurcation_diagram(found, *others, shown=args.show)
-    _files.save_figure(figure, target, args.force)
+        figure = None if target is None else bifurcation_diagram(found, *others, shown=args.show)
+    if target is not None and figure is not None:
+        _files.save_figure(figure, target, args.force)
+    written = [] if save is None else _saved([found, *others], save, args.force)
     if args.json:
-        answer = found.data() | {"switched": [other.data() for other in others], "figure": str(target)}
+        answer = found.data() | {"switched": [other.data() for other in others]}
+        answer |= {
+            "figure": None if target is None else str(target),
+            "files": [str(path) for path in written],
+        }
         print(codec.text(answer))
         return 0
     print(_table(found))
     for other in others:
         print(f"\nA branch that leaves a branch point:\n{_table(other)}")
-    print(f"\nFigure: {target}")
+    if target is not None:
+        print(f"\nFigure: {target}")
+    for path in written:
+        print(f"Branch: {path}")
     return 0
+
+
+def _saved(branches: Sequence[SteadyBranch], path: Path, force: bool) -> list[Path]:
+    """Write branches, those after the first under names with a number."""
+    names = [path, *(path.with_name(f"{path.stem}-{k}{path.suffix}") for k in range(2, len(branches) + 1))]
+    return [branch.save(name, force) for branch, name in zip(branches, names, strict=True)]
 
 
 def _table(found: SteadyBranch) -> str:

@@ -70,7 +70,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "--out",
         type=Path,
         metavar="FIGURE",
-        help="the figure, .png or .svg (default: FILE-map-001.png, -002, ...)",
+        help="the figure, .png or .svg, or the map alone, .nc or .zarr"
+        " (default: FILE-map-001.png, -002, ...)",
     )
     parser.add_argument(
         "--loci", action="store_true", help="compute the borders that are folds, and draw them as lines"
@@ -97,10 +98,11 @@ def run(args: argparse.Namespace) -> int:
     model = load(args.file)
     for path, value in args.set or ():
         model.set(path, value)
-    target = _options.figure(args.out, f"{args.file.stem}-map")
-    _files.claim(target, args.force)
-    if args.save is not None:
-        files.claim(args.save, files.format_of(args.save), args.force)
+    target, save = _options.targets(args, f"{args.file.stem}-map")
+    if target is not None:
+        _files.claim(target, args.force)
+    if save is not None:
+        files.claim(save, files.format_of(save), args.force)
     if args.x == args.y:
         args.wrong(f"both parameters are {args.x!r}")
     over = {
@@ -120,17 +122,19 @@ def run(args: argparse.Namespace) -> int:
             precision=args.precision,
         )
     loci = regime_loci(found) if args.loci else []
-    _files.save_figure(regime_map_figure(found, loci), target, args.force)
-    if args.save is not None:
-        found.save(args.save, args.force)
+    if target is not None:
+        _files.save_figure(regime_map_figure(found, loci), target, args.force)
+    if save is not None:
+        found.save(save, args.force)
     if args.json:
         lines = {"loci": [line.data() for line in loci]} if args.loci else {}
-        print(codec.text(found.data() | lines | {"figure": str(target)}))
+        print(codec.text(found.data() | lines | {"figure": None if target is None else str(target)}))
         return 0
     print(_table(found))
     if args.loci:
         print(_lines(found, loci))
-    print(f"\nFigure: {target}")
+    if target is not None:
+        print(f"\nFigure: {target}")
     return 0
 
 

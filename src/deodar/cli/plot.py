@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec
-from deodar.cli import _figure, _options
+from deodar.cli import _analysis, _figure, _options
 from deodar.errors import FigureError, RecordError
 
 if TYPE_CHECKING:
@@ -20,12 +20,18 @@ if TYPE_CHECKING:
     from deodar.figures._file import FigureFile
     from deodar.recording.writer_lock import WriterWatch
 
-HELP = "draw the variables of a record, or the file of a figure, as SVG, PDF or PNG"
+HELP = (
+    "draw the variables of a record, an analysis that was saved, or the file of a figure, as SVG, PDF or PNG"
+)
 EPILOG = """\
 Without --kind each variable gets the kind that suits it: time_course (nodes, or fields at places),
 space_time (one dimension over time), snapshot (one time), snapshots (several), projection (three
 dimensions and more). Several variables become panels of one figure. The file of a figure (.toml) has the
-panels, ranges, labels and sizes of a figure for a paper; --save-as writes one to start from."""
+panels, ranges, labels and sizes of a figure for a paper; --save-as writes one to start from.
+
+A branch or a map that `deodar continuation` or `deodar map` saved, and a locus, are drawn as these commands
+draw them. Further branches, or loci over a map, are drawn into the same figure; a port, such as u.output,
+replaces the activation of a branch."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -73,6 +79,9 @@ def run(args: argparse.Namespace) -> int:
     """Draw the record, write the file and print its path."""
     if args.follow:
         return _followed(args)
+    analysis = _analysis.drawn(args)
+    if analysis is not None:
+        return _drawn_analysis(args, analysis)
     # start-up time: these bring JAX
     from deodar.figures import _files
 
@@ -86,6 +95,21 @@ def run(args: argparse.Namespace) -> int:
         video()
     _files.save_figure(made, out, args.force)
     _say(args, drawn, out)
+    return 0
+
+
+def _drawn_analysis(args: argparse.Namespace, drawn: _analysis.AnalysisDrawing) -> int:
+    """Write the figure of files of analyses and print its path."""
+    # start-up time: these bring matplotlib
+    from deodar.figures import _files
+
+    out = _claimed(args, f"{_figure.stem(args.record)}-plot")
+    _files.save_figure(drawn.figure, out, args.force)
+    if args.json:
+        print(codec.text({"out": str(out), "kinds": {str(path): kind for path, kind in drawn.files}}))
+    else:
+        words = " and ".join(f"the {kind} of {_options.shown(path)}" for path, kind in drawn.files)
+        print(f"Drew {words} into {_options.shown(out)}")
     return 0
 
 

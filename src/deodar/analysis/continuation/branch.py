@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +15,9 @@ from deodar.analysis.continuation.naming import named
 from deodar.analysis.continuation.walk import Walk, growing, with_step_values
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -76,6 +81,48 @@ class SteadyBranch:
         if not found:
             raise AnalysisError(f"no other branch was found at {at!r}")
         return found
+
+    def dataset(self) -> xarray.Dataset:
+        """Return the branch as a Dataset, with the document, its arguments and the versions that made it."""
+        # start-up time: this brings xarray
+        from deodar.analysis.continuation import branch_file
+
+        numbers = {"value": self.values, "rate": self.rates, "growing": self.growing}
+        about = {"parameter": self.parameter, "ended": list(self.ended), "not_refined": self.not_refined}
+        return branch_file.dataset(self.line, numbers, self.states, self.bifurcations, about)
+
+    def save(self, path: str | Path, force: bool = False) -> Path:
+        """Write the branch as NetCDF (.nc) or Zarr (.zarr), with the document, arguments and versions.
+
+        Args:
+            path: the file; its folder must exist.
+            force: whether to replace an existing file.
+
+        Raises:
+            OutputExists: the path exists.
+        """
+        # start-up time: this brings xarray
+        from deodar.recording.files import save_record
+
+        return save_record(self.dataset(), path, force=force)
+
+    @classmethod
+    def load(cls, path: str | Path) -> SteadyBranch:
+        """Read a branch that `save` wrote.
+
+        The model is that of the document in the file, so that the branch can be left at a branch point, its
+        ports can be read, and its folds have sensitivities.
+
+        Args:
+            path: the file.
+
+        Raises:
+            RecordError: the file does not exist, is damaged, or is another record.
+        """
+        # start-up time: this brings xarray
+        from deodar.analysis.continuation import branch_file
+
+        return cls(**branch_file.fields(path))
 
     def data(self) -> JsonObject:
         """Return what was found as plain data, without the states."""

@@ -6,6 +6,8 @@ import dataclasses as dc
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +19,9 @@ from deodar.analysis.continuation.nearest import nearest
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError, ParameterError
 from deodar.parameters import show
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,43 @@ class Locus:
                 )
         distance, found = nearest(self.values / scale, place / scale)
         return distance, found * scale
+
+    def dataset(self) -> xarray.Dataset:
+        """Return the locus as a Dataset, with the document, its arguments and the versions that made it."""
+        # start-up time: this brings xarray
+        from deodar.analysis.continuation import locus_file
+
+        return locus_file.dataset(self.line, self.data())
+
+    def save(self, path: str | Path, force: bool = False) -> Path:
+        """Write the locus as NetCDF (.nc) or Zarr (.zarr), with the document, arguments and versions.
+
+        Args:
+            path: the file; its folder must exist.
+            force: whether to replace an existing file.
+
+        Raises:
+            OutputExists: the path exists.
+        """
+        # start-up time: this brings xarray
+        from deodar.recording.files import save_record
+
+        return save_record(self.dataset(), path, force=force)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Locus:
+        """Read a locus that `save` wrote.
+
+        Args:
+            path: the file.
+
+        Raises:
+            RecordError: the file does not exist, is damaged, or is another record.
+        """
+        # start-up time: this brings xarray
+        from deodar.analysis.continuation import locus_file
+
+        return cls(**locus_file.fields(path))
 
     def data(self) -> JsonObject:
         """Return the line as plain data."""

@@ -1,0 +1,55 @@
+"""A locus as a record: its line, and everything that made it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+
+from deodar import codec
+from deodar.analysis.continuation import line_file
+from deodar.analysis.continuation.line import ParameterLine
+from deodar.analysis.continuation.locus_plane import LocusPoint
+from deodar.codec import JsonObject
+from deodar.recording.provenance import KEY
+
+KIND = "locus"
+"""Name of a locus in the provenance of its record."""
+
+
+def dataset(line: ParameterLine | None, data: JsonObject) -> xarray.Dataset:
+    """Return a locus as a Dataset: `first` and `second` over its points.
+
+    Args:
+        line: the model along a parameter; None: unknown.
+        data: the locus as plain data.
+    """
+    about = {key: value for key, value in data.items() if key != "values"}
+    values = np.array(data["values"], float).reshape(-1, 2)
+    names: Any = data["parameters"]
+    variables: dict[str, Any] = {
+        name: ("point", values[:, k], {"long_name": names[k]}) for k, name in enumerate(("first", "second"))
+    }
+    return xarray.Dataset(variables, attrs={KEY: codec.line({**line_file.made(line), KIND: about})})
+
+
+def fields(path: str | Path) -> dict[str, Any]:
+    """Return the fields of the locus in a file.
+
+    Raises:
+        RecordError: the file does not exist, is damaged, or is another record.
+    """
+    data, made = line_file.opened(path, KIND, "a locus")
+    about = made[KIND]
+    values = np.column_stack([data["first"].values, data["second"].values])
+    points = tuple(LocusPoint(p["kind"], (p["values"][0], p["values"][1])) for p in about["points"])
+    first, second = about["parameters"]
+    return {
+        "of": about["of"],
+        "parameters": (first, second),
+        "values": values,
+        "points": points,
+        "line": line_file.line_of(made),
+    }
