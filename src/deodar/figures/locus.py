@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from deodar.analysis.continuation.locus import Locus
 
 MARKS = {"cusp": "^", "Bogdanov-Takens": "*"}
+SIZES = {"cusp": 4.0, "Bogdanov-Takens": 7.0}
+"""Marks of points on a line, and their sizes."""
 
 
 def locus_figure(*loci: Locus, at: tuple[float, float] | None = None) -> Figure:
@@ -61,12 +63,17 @@ def model_label(loci: Sequence[Locus], at: tuple[float, float]) -> str:
 
 
 def draw_loci(axes: Axes, loci: tuple[Locus, ...]) -> None:
-    """Draw lines, and the points on them, each point once."""
+    """Draw lines, those of one bifurcation in one colour, and the points on them, each point once."""
+    names = list(dict.fromkeys(found.of for found in loci))
     seen: set[tuple[str, float, float]] = set()
-    for found, color in zip(loci, COLORS * (1 + len(loci) // len(COLORS)), strict=False):
-        axes.plot(*found.values.T, color=color, label=found.of)
+    drawn: set[str] = set()
+    for found in loci:
+        color = COLORS[names.index(found.of) % len(COLORS)]
+        axes.plot(*found.values.T, color=color, label="_" * (found.of in drawn) + found.of)
+        drawn.add(found.of)
         for point in found.points:
             key = (point.kind, round(point.values[0], 6), round(point.values[1], 6))
             if key not in seen:
                 seen.add(key)
-                axes.plot(*point.values, MARKS[point.kind], color=COLOR.threshold, markersize=4, zorder=4)
+                mark = axes.plot(*point.values, MARKS[point.kind], color=COLOR.threshold, zorder=4)[0]
+                mark.set_markersize(SIZES[point.kind])

@@ -18,7 +18,7 @@ from deodar.analysis.maps.labels import WORDS, RegimeLabel
 from deodar.errors import FigureError
 from deodar.figures import _style
 from deodar.figures._style import BLACK, BLUE, COLOR, COLORS, GREEN, ORANGE, VERMILION
-from deodar.figures.locus import MARKS, model_label
+from deodar.figures.locus import MARKS, SIZES, model_label
 
 if TYPE_CHECKING:
     from deodar.analysis.continuation.locus import Locus
@@ -106,8 +106,8 @@ def _lines(axes: Axes, lines: Sequence[Locus]) -> list[Line2D]:
         drawn.set_path_effects(halo)
         keys.setdefault(line.of, drawn)
         for point in line.points:
-            mark = axes.plot(*point.values, MARKS[point.kind], color="white", markersize=5, zorder=4)[0]
-            mark.set(markeredgecolor=BLACK, markeredgewidth=0.7)
+            mark = axes.plot(*point.values, MARKS[point.kind], color="white", zorder=4)[0]
+            mark.set(markersize=SIZES[point.kind] + 1, markeredgecolor=BLACK, markeredgewidth=0.7)
     return list(keys.values())
 
 

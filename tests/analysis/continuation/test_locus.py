@@ -71,9 +71,6 @@ def test_the_branch_point_of_a_selection_is_followed():
 
 
 def test_what_cannot_be_followed_is_said():
-    hopf = dd.continuation(oscillator(), "e.resting_level", (-4, 2), finer=False).bifurcations[0]
-    with pytest.raises(AnalysisError, match="a Hopf point cannot be followed"):
-        dd.locus(hopf, "back.factor", (-8, -4))
     large = dd.continuation(plane(), "s.amplitude", (0, 6), finer=False).bifurcations[0]
     with pytest.raises(AnalysisError, match=r"has 900 states, .* at most 600"):
         dd.locus(large, "u.tau", (10, 30))

@@ -210,7 +210,10 @@ def _unit(mode: GrowthRates) -> np.ndarray:
 
 
 def solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solve a linear system; in the sense of least squares and least length where it is singular."""
+    """Solve a linear system; in the sense of least squares and least length where it is singular.
+
+    The right-hand side may have several columns.
+    """
     routines: Any = lapack
     factors, pivots, _ = routines.dgetrf(matrix)
     diagonal = np.abs(np.diag(factors))

@@ -1,4 +1,4 @@
-"""A fold or branch point in two parameters: the line that it draws in their plane."""
+"""A bifurcation in two parameters: the line that it draws in their plane."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.fold_plane import FoldPlane
+from deodar.analysis.continuation.hopf_plane import HopfPlane
 from deodar.analysis.continuation.line import DENSE, ParameterLine
 from deodar.analysis.continuation.locus_plane import LocusPoint
 from deodar.analysis.continuation.nearest import nearest
@@ -34,6 +35,8 @@ class Locus:
         values: points of the line, one row each.
         points: cusps and Bogdanov-Takens points on it, in their order.
         line: the model along the parameter in which the bifurcation was found.
+        frequencies: angular frequency at each point of the line of a Hopf point, per document time; empty for
+            other bifurcations.
     """
 
     of: str
@@ -41,6 +44,7 @@ class Locus:
     values: np.ndarray
     points: tuple[LocusPoint, ...] = ()
     line: ParameterLine | None = field(default=None, repr=False, compare=False)
+    frequencies: np.ndarray = field(default_factory=lambda: np.zeros(0), repr=False)
 
     def __repr__(self) -> str:
         found = "".join(f"\n  {p.kind} {p.values[0]:.6g}, {p.values[1]:.6g}" for p in self.points)
@@ -148,6 +152,7 @@ class Locus:
             "parameters": list(self.parameters),
             "values": self.values.tolist(),
             "points": [{"kind": p.kind, "values": list(p.values)} for p in self.points],
+            "frequencies": self.frequencies.tolist(),
         }
 
 
@@ -157,10 +162,12 @@ def locus(
     span: tuple[float, float],
     within: tuple[float, float] | None = None,
 ) -> Locus:
-    r"""Follow a fold or branch point as a second parameter changes.
+    r"""Follow a fold, a branch point or a Hopf point as a second parameter changes.
 
-    The line is that of minimally augmented equations: F = 0, and the last component of the solution of a
-    bordered system is 0, which is where the derivative of F in the state is singular.
+    The line of a fold or branch point is that of minimally augmented equations: F = 0, and the last component
+    of the solution of a bordered system is 0, which is where the derivative of F in the state is singular. A
+    Hopf point is followed by such a system with two borders, of the square of the growth rates plus that of
+    the frequency. Its line ends in Bogdanov-Takens points, where the frequency is 0.
 
     Equation:
         F(x, p, q) = 0,\quad g(x, p, q) = 0,\quad
@@ -168,21 +175,20 @@ def locus(
         \begin{pmatrix} v \\ g \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}
 
     Args:
-        of: a fold or branch point.
+        of: a bifurcation of a branch.
         parameter: path of the second parameter.
         span: lowest and highest value of it.
         within: lowest and highest value of the first one; None: ten times its distance from 0, at least 10.
 
     Raises:
-        AnalysisError: it is a Hopf point, or the model has more states than are kept as matrices.
+        AnalysisError: the model has more states than are kept as matrices.
         ParameterError: a path is unknown, or a span is not an interval.
 
     Reference:
         Govaerts (2000), Numerical methods for bifurcations of dynamical equilibria, chapter 3 (minimally
-        augmented systems).
+        augmented systems). Kuznetsov (2004), Elements of applied bifurcation theory, section 10.3.1 (Hopf
+        points in two parameters).
     """
-    if of.kind == "Hopf":
-        raise AnalysisError("a Hopf point cannot be followed", fix="Give a fold or a branch point")
     line = of.line
     if line.dynamics.size > DENSE:
         raise AnalysisError(
@@ -194,11 +200,12 @@ def locus(
         raise ParameterError("is the first parameter", where=parameter, fix="Name another one")
     reach = 10 * max(1.0, abs(of.value))
     box = np.array([_interval(within or (-reach, reach)), _interval(span)])
-    plane = FoldPlane(of, parameter, box)
+    plane = (HopfPlane if of.kind == "Hopf" else FoldPlane)(of, parameter, box)
     walked = plane.both(of)
     values = np.array([plane.values(z) for z in walked])
     name = f"{of.kind} ({of.instability})" if of.instability else of.kind
-    return Locus(name, (first, parameter), values, tuple(plane.points(walked)), line)
+    turning = [plane.frequency(z) for z in walked] if isinstance(plane, HopfPlane) else []
+    return Locus(name, (first, parameter), values, tuple(plane.points(walked)), line, np.array(turning))
 
 
 def _interval(span: tuple[float, float]) -> tuple[float, float]:

@@ -20,18 +20,20 @@ KIND = "locus"
 
 
 def dataset(line: ParameterLine | None, data: JsonObject) -> xarray.Dataset:
-    """Return a locus as a Dataset: `first` and `second` over its points.
+    """Return a locus as a Dataset: `first` and `second` over its points, and `frequency` of Hopf points.
 
     Args:
         line: the model along a parameter; None: unknown.
         data: the locus as plain data.
     """
-    about = {key: value for key, value in data.items() if key != "values"}
+    about = {key: value for key, value in data.items() if key not in ("values", "frequencies")}
     values = np.array(data["values"], float).reshape(-1, 2)
     names: Any = data["parameters"]
     variables: dict[str, Any] = {
         name: ("point", values[:, k], {"long_name": names[k]}) for k, name in enumerate(("first", "second"))
     }
+    if frequencies := np.array(data["frequencies"], float).tolist():
+        variables["frequency"] = ("point", frequencies, {"long_name": "angular frequency"})
     return xarray.Dataset(variables, attrs={KEY: codec.line({**line_file.made(line), KIND: about})})
 
 
@@ -52,4 +54,5 @@ def fields(path: str | Path) -> dict[str, Any]:
         "values": values,
         "points": points,
         "line": line_file.line_of(made),
+        "frequencies": data["frequency"].values if "frequency" in data else np.zeros(0),
     }

@@ -259,8 +259,12 @@ def _crossings(
         return []
     more = after if growing(line, after) > growing(line, now) else now
     crossing = more.rates[few:many]
-    if many - few >= 2 and np.abs(crossing.imag).max() > 1e-6 / line.slowest:
-        return [_located(line, now, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real)]
+    turning = np.abs(crossing.imag).max() > 1e-6 / line.slowest
+    if many - few >= 2 and (turning or left >= 2):
+        hopf = _located(line, now, size, index, "Hopf", lambda _, at: at.rates()[few + 1].real)
+        # a pair that oscillates where it crosses may have become two real modes at the next point
+        if turning or hopf.frequency > 1e-6 / line.slowest:
+            return [hopf]
     mode = few + (1 if turns and more is after else 0)
     return [_located(line, now, size, index, "branch point", lambda _, at: at.rates()[mode].real)]
 
