@@ -186,3 +186,15 @@ def test_the_command_prints_folds_and_distances(tmp_path, monkeypatch, capsys):
     assert {curve["of"] for curve in loci} == {f"fold ({name})" for name in EVEN}
     assert main([*call, "--json"]) == 0
     assert "loci" not in json.loads(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_map_from_a_file_has_lines_though_no_sample_is_in_the_middle(tmp_path, periodic):
+    model = line(40, 15, 0.6, periodic=periodic)
+    made = dd.regime_map(model, {EXCITATION: (14, 30, 9), LEVEL: (-8, -3, 15)}, sigma=5)
+    found = dd.analysis.RegimeMap.load(made.save(tmp_path / "map.nc"))
+    loci = dd.regime_loci(found)
+    assert BorderField(found).dynamics.even == ("x",)
+    apart = distances(found, loci)
+    for name in ("detection", "forgetting"):
+        assert len(apart[name]) > 5 and apart[name].max() <= 1
