@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
-import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from deodar.batch.packed import PackedModel
-from deodar.batch.pool import Pool
 from deodar.element import Element
-from deodar.errors import DeodarError, Problem
+from deodar.errors import Problem
 from deodar.model.model import Model
+from deodar.server.worker_task import WorkerTask
 
 
 class MeasuredRegime(NamedTuple):
@@ -36,7 +35,7 @@ class MeasuredRegime(NamedTuple):
     threshold: float
 
 
-@dc.dataclass(frozen=True)
+@dataclass(frozen=True)
 class RegimeReport:
     """How far the measurement is.
 
@@ -67,9 +66,7 @@ class RegimeMeasurement:
     def __init__(self, changed: Callable[[], None]) -> None:
         self.report = RegimeReport()
         self._changed = changed
-        self._attempt = 0
-        self._lock = threading.Lock()
-        self._pool: Pool | None = None
+        self._task = WorkerTask("deodar-regime", keep=True)
 
     def start(self, session: int, model: Model, element: str) -> None:
         """Measure a field of a model, in a thread.
@@ -78,60 +75,27 @@ class RegimeMeasurement:
             WorkerError: a part of the model cannot be sent to another process.
         """
         entry, packed = model.document.by_id()[element], PackedModel.of(model, None)
-        self._attempt += 1
+
+        def ended(found: MeasuredRegime | None, problems: Sequence[Problem]) -> None:
+            self.report = RegimeReport(session, element, entry.element, False, found, problems)
+            self._changed()
+
         self.report = RegimeReport(session, element, entry.element, measuring=True)
-        arguments = self._attempt, packed, entry.path
-        threading.Thread(target=self._work, args=arguments, name="deodar-regime", daemon=True).start()
+        self._task.start(measured, [packed, entry.path], ended)
         self._changed()
 
     def stop(self) -> None:
         """End the measurement; what was found before is gone."""
-        self._attempt += 1
+        self._task.stop()
         self.report = RegimeReport()
         self._changed()
 
     def end(self) -> None:
         """End the measurement and its process, and wait until they have ended."""
-        self._attempt += 1
-        with self._lock:
-            self._close()
-
-    def _work(self, attempt: int, packed: PackedModel, path: str) -> None:
-        with self._lock:  # the attempt before ends first
-            try:
-                found, problems = self._found(attempt, packed, path), ()
-            except DeodarError as error:
-                found, problems = None, error.problems
-            except Exception as error:  # functions that the document names run in the worker
-                found, problems = None, [Problem(path, f"{type(error).__name__}: {error}")]
-        if attempt == self._attempt:
-            self.report = dc.replace(self.report, measuring=False, found=found, problems=problems)
-            self._changed()
-
-    def _found(self, attempt: int, packed: PackedModel, path: str) -> MeasuredRegime | None:
-        """Return what the worker finds; None if another attempt began meanwhile."""
-        if attempt != self._attempt:
-            return None
-        try:
-            if self._pool is None:
-                self._pool = Pool(1).__enter__()
-            self._pool.give(0, measured, packed, path)
-            while attempt == self._attempt:
-                for _, result in self._pool.wait(0.2):
-                    return result
-        except BaseException:
-            self._close()
-            raise
-        self._close()
-        return None
-
-    def _close(self) -> None:
-        pool, self._pool = self._pool, None
-        if pool is not None:
-            pool.__exit__(KeyboardInterrupt, None, None)
+        self._task.end()
 
 
-def measured(packed: PackedModel, path: str) -> MeasuredRegime:
+def measured(send: Callable[[object], None], packed: PackedModel, path: str) -> MeasuredRegime:
     """Measure a field; called in the worker process."""
     # start-up time of the studio: this brings SciPy
     from deodar.analysis import regime_words
