@@ -121,8 +121,11 @@ MEASURES = [
     *("dd.locus", "dd.analysis.Locus", "dd.analysis.LocusPoint", "dd.locus_figure"),
     *("dd.dynamics", "dd.analysis.Dynamics"),
     *("dd.regime_map", "dd.analysis.RegimeMap", "dd.regime_loci", "dd.regime_map_figure"),
+    *("dd.detects", "dd.reverse", "dd.remembers", "dd.forgets", "dd.rests", "dd.relaxes_within"),
+    *("dd.selects", "dd.multi_peak", "dd.peak_width", "dd.peak_amplitude"),
+    *("dd.Requirement", "dd.FieldInput", "dd.analysis.FieldResponse", "dd.analysis.SettledBatch"),
     *("dd.thresholds", "dd.analysis.Thresholds", "dd.analysis.Transition", "dd.descend"),
-    *("dd.outlives", "dd.analysis.Memory", "dd.forgetting", "dd.selects", "dd.analysis.Selection"),
+    *("dd.outlives", "dd.analysis.Memory", "dd.forgetting", "dd.selection", "dd.analysis.Selection"),
     *(
         "dd.phase",
         "dd.analysis.Phase",
@@ -475,7 +478,8 @@ def _unpacked(obj: Any, found: list[inspect.Parameter]) -> list[inspect.Paramete
         return found
     (keys,) = typing.get_args(typing.get_type_hints(obj)[found[-1].name])
     module = vars(importlib.import_module(keys.__module__)).values()
-    taken = [inspect.signature(f).parameters for f in module if inspect.isfunction(f)]
+    functions = [(f, list(inspect.signature(f).parameters.values())) for f in module if inspect.isfunction(f)]
+    taken = [{p.name: p for p in _unpacked(f, own)} for f, own in functions]
     takes = next(parameters for parameters in taken if keys.__annotations__.keys() <= parameters.keys())
     return [*found[:-1], *(takes[key] for key in keys.__annotations__)]
 

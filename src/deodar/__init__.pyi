@@ -24,7 +24,7 @@ from deodar.analysis.peaks import peaks as peaks
 from deodar.analysis.phase import phase as phase
 from deodar.analysis.ramp import ramp as ramp
 from deodar.analysis.regimes import regimes as regimes
-from deodar.analysis.selection import selects as selects
+from deodar.analysis.selection import selection as selection
 from deodar.analysis.settle import settle as settle
 from deodar.analysis.shortest import arena_grid as arena_grid
 from deodar.analysis.shortest import shortest_path as shortest_path
@@ -34,6 +34,18 @@ from deodar.analysis.statistics import median_interval as median_interval
 from deodar.analysis.statistics import wilson as wilson
 from deodar.analysis.thresholds import descend as descend
 from deodar.analysis.thresholds import thresholds as thresholds
+from deodar.analysis.tuning.instabilities import detects as detects
+from deodar.analysis.tuning.instabilities import forgets as forgets
+from deodar.analysis.tuning.instabilities import relaxes_within as relaxes_within
+from deodar.analysis.tuning.instabilities import remembers as remembers
+from deodar.analysis.tuning.instabilities import rests as rests
+from deodar.analysis.tuning.instabilities import reverse as reverse
+from deodar.analysis.tuning.peak_form import multi_peak as multi_peak
+from deodar.analysis.tuning.peak_form import peak_amplitude as peak_amplitude
+from deodar.analysis.tuning.peak_form import peak_width as peak_width
+from deodar.analysis.tuning.peak_form import selects as selects
+from deodar.analysis.tuning.requirement import Requirement as Requirement
+from deodar.analysis.tuning.response import FieldInput as FieldInput
 from deodar.batch.cores import use_cores as use_cores
 from deodar.batch.resume import resume as resume
 from deodar.batch.simulate import simulate as simulate

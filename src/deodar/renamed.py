@@ -70,6 +70,7 @@ RENAMED = {
     ),
     "dd.carry_out": "dd.run_jobs",
     "dd.demos": "dd.papers",
+    "dd.selects(isolated=...)": "dd.selection(isolated=...)",
     "deodar.analysis.paths.divergence": "dd.path_divergence",
     "deodar.analysis.paths.length": "dd.path_length",
     "deodar.analysis.paths.until": "dd.path_until",

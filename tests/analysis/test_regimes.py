@@ -18,7 +18,7 @@ from deodar.analysis.memory import forgetting, suppression
 from deodar.analysis.phase import COARSE, phase
 from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
-from deodar.analysis.selection import selects
+from deodar.analysis.selection import selection
 from deodar.analysis.settle import settle
 from deodar.analysis.thresholds import thresholds
 from deodar.cli import main
@@ -116,7 +116,7 @@ def test_separation_is_the_smallest_distance_at_which_two_peaks_coexist() -> Non
     assert near.separation is not None and 0.1 < near.separation < 0.5 and selective.separation is None
     one = isolate(lateral(11, 6))
     for off, count in ((-0.04, 1), (0.02, 2)):
-        found = selects(one, 1.2 * near.detection, 0.0, near.separation + off)  # type: ignore[operator]
+        found = selection(one, 1.2 * near.detection, 0.0, near.separation + off)  # type: ignore[operator]
         assert len(found.equal) == count
 
 

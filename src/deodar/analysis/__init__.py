@@ -20,16 +20,18 @@ from deodar.analysis.peaks import Peak, Peaks, peaks
 from deodar.analysis.phase import FixedPoint, Phase, phase
 from deodar.analysis.ramp import Branch, SettledRamp, ramp
 from deodar.analysis.regimes import Regimes, regimes
-from deodar.analysis.selection import Selection, selects
+from deodar.analysis.selection import Selection, selection
 from deodar.analysis.settle import Settled, settle
 from deodar.analysis.shortest import Grid, arena_grid, shortest_path
 from deodar.analysis.statistics import anova, mean_interval, median_interval, wilson
 from deodar.analysis.thresholds import Thresholds, Transition, descend, thresholds
+from deodar.analysis.tuning.response import FieldResponse, SettledBatch
 
 __all__ = [
     "Bifurcation",
     "Branch",
     "Dynamics",
+    "FieldResponse",
     "FixedPoint",
     "Grid",
     "Isolated",
@@ -43,6 +45,7 @@ __all__ = [
     "Regimes",
     "Selection",
     "Settled",
+    "SettledBatch",
     "SettledRamp",
     "SteadyBranch",
     "Thresholds",
@@ -63,7 +66,7 @@ __all__ = [
     "phase",
     "ramp",
     "regimes",
-    "selects",
+    "selection",
     "settle",
     "shortest_path",
     "thresholds",

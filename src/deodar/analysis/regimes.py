@@ -15,7 +15,8 @@ from deodar.analysis.memory import Memory, forgetting, outlives, suppression
 from deodar.analysis.peaks import Peak, Peaks
 from deodar.analysis.preshape import SHARES, Boosted, boosted
 from deodar.analysis.ramp import SettledRamp, ramp
-from deodar.analysis.selection import Selection, selects, separation
+from deodar.analysis.selection import Selection, separation
+from deodar.analysis.selection import selection as measured_selection
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Thresholds, Transition, thresholds
 from deodar.codec import JsonObject
@@ -269,7 +270,7 @@ def regimes(
         above, driven = isolated.activation(), isolated.peaks()
         if isolated.axes:
             tell("selection")
-            selection = selects(isolated, STRONG * up.after, limit=limit)
+            selection = measured_selection(isolated, STRONG * up.after, limit=limit)
             apart = separation(isolated, STRONG * up.after, limit)
             tell("forgetting")
             lost = forgetting(isolated, STRONG * up.after, accuracy, limit)

@@ -42,7 +42,7 @@ class Selection:
     activation: np.ndarray
 
 
-def selects(
+def selection(
     isolated: Isolated,
     amplitude: float,
     difference: float = 0.1,

@@ -41,7 +41,7 @@ def measured(excitation: float, inhibition: float, strength: float, **axis) -> s
     memory = dd.outlives(isolated, strength)
     if isolated.covers(memory.driven) or isolated.covers(memory.left):
         return "unbounded"
-    one = len(dd.selects(isolated, strength).equal) == 1
+    one = len(dd.selection(isolated, strength).equal) == 1
     both = {(False, False): "input-driven", (True, False): "self-sustained"}
     return (both | {(False, True): "selective", (True, True): "self-sustained and selective"})[
         memory.outlives, one
@@ -169,7 +169,7 @@ def test_noise_is_off():
     grid = {EXCITATION: [4, 8, 16], INHIBITION: [0.1, 0.2, 0.4]}
     noisy, quiet = (dd.regime_map(line(noise=noise), grid) for noise in (3.0, 0.0))
     assert (noisy.labels == quiet.labels).all()
-    with pytest.raises(AnalysisError, match="noise is off in a map"):
+    with pytest.raises(AnalysisError, match="noise is off in the measurement"):
         dd.regime_map(line(noise=3.0), {"u.noise": [0.1, 0.2], INHIBITION: [0.1, 0.2]})
 
 

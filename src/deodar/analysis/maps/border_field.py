@@ -15,7 +15,7 @@ from deodar.analysis.continuation.nearest import nearest
 from deodar.analysis.continuation.walk import begun, walk
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.maps.map_result import RegimeMap
-from deodar.analysis.maps.request import field_leaves
+from deodar.analysis.maps.request import driven_alone
 from deodar.analysis.peaks import peaks
 from deodar.errors import AnalysisError
 from deodar.model import edit, find
@@ -91,7 +91,7 @@ class BorderField:
                 fix="Map the field on a coarser grid",
             )
         threshold = (find.element(small.document, "field").id, "sigmoid.threshold")
-        driven = [threshold in field_leaves(doc, small.document, isolated, path) for path in found.parameters]
+        driven = [threshold in driven_alone(doc, small.document, isolated, path) for path in found.parameters]
         self._threshold_of = driven.index(True) if any(driven) else None
         self._threshold = isolated.threshold
         cells = [np.diff(values).max() / 2 for values in found.values]
@@ -199,7 +199,7 @@ def _small(isolated: Isolated, doc: Document, parameters: tuple[str, str]) -> Mo
         small.set("input.center", middle[0])
     changed = small.document
     for path in parameters:
-        leaves = field_leaves(doc, small.document, isolated, path)
+        leaves = driven_alone(doc, small.document, isolated, path)
         own = find.element(small.document, "field")
         if any(path == f"{own.path}.{leaf}" for ident, leaf in leaves if ident == own.id):
             continue  # a field that is called so has the path already

@@ -100,7 +100,7 @@ def requested(
     """
     isolation, limit = _divided(**options)
     doc = model.document
-    path = field or _only_field(doc)
+    path = field or only_field(doc)
     if len(over) != 2:
         raise ParameterError(
             f"a map has two parameters, not {len(over)}",
@@ -114,9 +114,9 @@ def requested(
             where=isolated.path,
             fix="Measure one cell with dd.regimes, or map the same field over one axis",
         )
-    amplitude = STRONG * isolated.scale if strength is None else _positive("strength", strength)
-    small = _with_inputs(isolated, model.trusted)
-    leaves = {name: field_leaves(doc, small.document, isolated, name) for name in values}
+    amplitude = STRONG * isolated.scale if strength is None else positive("strength", strength)
+    small = with_inputs(isolated, model.trusted)
+    leaves = {name: driven_alone(doc, small.document, isolated, name) for name in values}
     first, second = values
     return MapRequest(
         isolated,
@@ -125,7 +125,7 @@ def requested(
         (values[first], values[second]),
         (leaves[first], leaves[second]),
         amplitude,
-        _positive("limit", limit),
+        positive("limit", limit),
         isolated.session.precision,
     )
 
@@ -143,7 +143,12 @@ def _divided(
     return {"sigma": sigma, "center": center, "precision": precision, "dt": dt, "inputs": inputs}, limit
 
 
-def _only_field(doc: Document) -> str:
+def only_field(doc: Document) -> str:
+    """Return the path of the only field of a document.
+
+    Raises:
+        AnalysisError: the document has none, or several.
+    """
     fields = [e.path for e in doc.entries if isinstance(e.element, Field)]
     if len(fields) != 1:
         raise AnalysisError(
@@ -153,7 +158,12 @@ def _only_field(doc: Document) -> str:
     return fields[0]
 
 
-def _positive(name: str, value: Any) -> float:
+def positive(name: str, value: Any) -> float:
+    """Return a finite number above 0.
+
+    Raises:
+        ParameterError: the value is none.
+    """
     number = real(value)
     if number is None or not 0 < number < float("inf"):
         raise ParameterError(f"{name} is {show(value)}; expected a number above 0")
@@ -187,7 +197,7 @@ def _values(doc: Document, path: str, given: Any) -> np.ndarray:
     return numbers
 
 
-def _with_inputs(isolated: Isolated, trusted: bool) -> Model:
+def with_inputs(isolated: Isolated, trusted: bool) -> Model:
     """Return the isolated field with the inputs of the protocol."""
     small = Model(document=isolated.session.document, trusted=trusted)
     for name in ("input", "second", "boost"):
@@ -204,7 +214,7 @@ def _with_inputs(isolated: Isolated, trusted: bool) -> Model:
     return small
 
 
-def field_leaves(doc: Document, small: Document, isolated: Isolated, path: str) -> tuple[Leaf, ...]:
+def driven_alone(doc: Document, small: Document, isolated: Isolated, path: str) -> tuple[Leaf, ...]:
     """Return the numbers of the isolated field that a parameter of the model drives."""
     ids = {find.element(doc, isolated.path).id: find.element(small, "field").id}
     for kept in isolated.background:
@@ -215,13 +225,13 @@ def field_leaves(doc: Document, small: Document, isolated: Isolated, path: str) 
         raise AnalysisError(
             f"does not belong to {isolated.path}, which is measured alone",
             where=path,
-            fix="Map parameters of the field, or keep the stimulus as constant input: inputs=[PATH]",
+            fix="Name parameters of the field, or keep the stimulus as constant input: inputs=[PATH]",
         )
     own = find.element(small, "field").id
     for ident, leaf in found:
         name = leaf.split(".")[0]
         if ident == own and name in ("noise", "noise_length"):
-            raise AnalysisError("changes no regime: noise is off in a map", where=path)
+            raise AnalysisError("changes no regime: noise is off in the measurement", where=path)
         if ident == own and name == "tau":
             raise AnalysisError(
                 "changes no regime: the steady states of a field do not depend on it", where=path

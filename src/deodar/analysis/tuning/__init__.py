@@ -1,0 +1,1 @@
+"""Tuning: values of parameters at which a field has a stated regime."""

@@ -1,0 +1,211 @@
+"""What is tuned: one field alone, its parameters, its requirements, and the inputs of the protocol."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any, Unpack
+
+import numpy as np
+
+from deodar.analysis.isolated import Isolated, Isolation, isolate
+from deodar.analysis.maps.request import STRONG, TOLERANCE, driven_alone, only_field, positive, with_inputs
+from deodar.analysis.selection import DISTANCE, places
+from deodar.analysis.tuning.candidates import CandidateSpace, candidate_space
+from deodar.analysis.tuning.instabilities import DetectionRequirement
+from deodar.analysis.tuning.requirement import Requirement
+from deodar.compiler.plan import Leaf
+from deodar.elements.boost import Boost
+from deodar.errors import AnalysisError, ParameterError
+from deodar.model import find
+from deodar.model.model import Model
+from deodar.parameters import show
+
+LIMIT = 300.0
+"""Longest stage, in time constants."""
+
+BUDGET = 8000
+"""Candidates of the search."""
+
+STEPS = 10
+"""Euler steps in a time constant, the fewest that `isolate` takes."""
+
+INPUTS = ("middle", "first", "second", "boost")
+"""The inputs of the protocol."""
+
+
+class TuneOptions(Isolation, total=False):
+    """Keyword arguments of `tune`: those of `isolate`, and of the search."""
+
+    strength: float | None
+    seed: int
+    budget: int
+    limit: float
+
+
+@dataclass(frozen=True)
+class SearchOptions:
+    """Arguments of the search; see `tune`."""
+
+    strength: float | None
+    seed: int
+    budget: int
+    limit: float
+
+
+@dataclass(frozen=True)
+class TuningRequest:
+    """One field alone, with the inputs of the protocol, and what is wanted of it.
+
+    Attributes:
+        original: the whole model.
+        isolated: the field, as other measurements see it.
+        model: the same field with the inputs of the protocol; document parameters drive what is tuned.
+        space: the parameters and their bounds.
+        names: names of these document parameters.
+        leaves: numbers of `model` that each parameter drives.
+        requirements: what the field is to do.
+        strength: amplitude of the inputs.
+        limit: longest stage, in time constants.
+        seed: seed of the search.
+        budget: most candidates of the search.
+    """
+
+    original: Model
+    isolated: Isolated
+    model: Model
+    space: CandidateSpace
+    names: tuple[str, ...]
+    leaves: tuple[tuple[Leaf, ...], ...]
+    requirements: tuple[Requirement, ...]
+    strength: float
+    limit: float
+    seed: int
+    budget: int
+
+    @property
+    def samples(self) -> tuple[int, ...]:
+        """The samples of the two inputs; none on a node."""
+        if not self.isolated.axes:
+            return ()
+        points = self.isolated.axes[0].points
+        return tuple(int(np.abs(points - at).argmin()) for (at,) in places(self.isolated, DISTANCE))
+
+    @property
+    def tolerance(self) -> float:
+        """The largest change of activation per time constant that counts as settled."""
+        return TOLERANCE * self.isolated.scale
+
+    @property
+    def threshold_of(self) -> int | None:
+        """Which parameter is the threshold above which a peak exists; None if none is."""
+        ident = find.element(self.model.document, "field").id
+        return next((k for k, own in enumerate(self.leaves) if (ident, "sigmoid.threshold") in own), None)
+
+
+def requested(
+    model: Model,
+    parameters: Sequence[str],
+    requirements: Sequence[Requirement],
+    field: str,
+    bounds: Mapping[str, Any] | None,
+    options: TuneOptions,
+) -> TuningRequest:
+    """Return what is tuned.
+
+    Raises:
+        AnalysisError: the element is no field with one axis or none, a parameter changes nothing there, or
+            requirements contradict each other.
+        ParameterError: a path or value is not one.
+    """
+    isolation, search = _divided(**options)
+    for name, number in (("seed", search.seed), ("budget", search.budget)):
+        if not isinstance(number, int) or isinstance(number, bool) or number < 0:
+            raise ParameterError(f"{name} is {show(number)}; expected an integer of 0 or above")
+    doc = model.document
+    path = field or only_field(doc)
+    space = candidate_space(doc, parameters, bounds)
+    isolated = isolate(model, path, **isolation)
+    if isolation.get("dt") is None:
+        # what a field settles to does not depend on the step
+        isolation["dt"] = isolated.field.tau / STEPS
+        isolated = isolate(model, path, **isolation)
+    if len(isolated.axes) > 1:
+        raise AnalysisError(
+            f"has {len(isolated.axes)} axes; dd.tune counts peaks on one axis, or measures a node",
+            where=isolated.path,
+            fix="Tune the same field over one axis",
+        )
+    wanted = _possible(requirements, bool(isolated.axes))
+    small = with_inputs(isolated, model.trusted)
+    small.add(Boost("boost", isolated.axes, amplitude=0.0)) >> small["field"]
+    leaves = tuple(driven_alone(doc, small.document, isolated, name) for name in space.paths)
+    for a, b in combinations(range(len(leaves)), 2):
+        if set(leaves[a]) & set(leaves[b]):
+            raise ParameterError(
+                f"drives the same number as {space.paths[a]}", where=space.paths[b], fix="Name one of both"
+            )
+    names = tuple(f"tuned {k}" for k in range(len(leaves)))
+    for name, own, value in zip(names, leaves, space.present, strict=True):
+        small.parameter(name, float(value))
+        for ident, leaf in own:
+            small.link(f"{small.document.by_id()[ident].path}.{leaf}", name)
+    strength = search.strength
+    amplitude = _amplitude(wanted, isolated) if strength is None else positive("strength", strength)
+    return TuningRequest(
+        model,
+        isolated,
+        small,
+        space,
+        names,
+        leaves,
+        wanted,
+        amplitude,
+        positive("limit", search.limit),
+        search.seed,
+        search.budget,
+    )
+
+
+def _divided(
+    *,
+    strength: float | None = None,
+    seed: int = 0,
+    budget: int = BUDGET,
+    limit: float = LIMIT,
+    **isolation: Unpack[Isolation],
+) -> tuple[Isolation, SearchOptions]:
+    """Return the arguments of `isolate`, and those of the search."""
+    return isolation, SearchOptions(strength, seed, budget, limit)
+
+
+def _amplitude(wanted: Sequence[Requirement], isolated: Isolated) -> float:
+    """Return the amplitude of the inputs: 1.2 times the detection threshold, if one is required above 0."""
+    for requirement in wanted:
+        if isinstance(requirement, DetectionRequirement) and requirement.at > 0:
+            return STRONG * requirement.at
+    return STRONG * isolated.scale
+
+
+def _possible(requirements: Sequence[Requirement], axis: bool) -> tuple[Requirement, ...]:
+    """Return requirements that may be met together."""
+    wanted = () if isinstance(requirements, Requirement) else tuple(requirements)
+    if not wanted:
+        raise ParameterError(
+            "no requirement is given", fix="Give one or more: [dd.detects(at=3, within=0.2), dd.remembers()]"
+        )
+    for requirement in wanted:
+        if not isinstance(requirement, Requirement):
+            raise ParameterError(
+                f"expected a requirement, not {show(requirement)}",
+                fix="Give such as dd.detects(at=3, within=0.2)",
+            )
+        if requirement.needs_axis and not axis:
+            raise AnalysisError(f"{requirement} has no meaning on a node, which has no axis")
+    for a, b in combinations(wanted, 2):
+        if str(a) == str(b):
+            raise ParameterError(f"{a} is required twice", fix="Give it once")
+        if why := a.contradicts(b) or b.contradicts(a):
+            raise AnalysisError(f"{a} contradicts {b}: {why}", fix="Leave one of both out, or change values")
+    return wanted
