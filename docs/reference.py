@@ -121,6 +121,7 @@ MEASURES = [
     *("dd.locus", "dd.analysis.Locus", "dd.analysis.LocusPoint", "dd.locus_figure"),
     *("dd.dynamics", "dd.analysis.Dynamics"),
     *("dd.regime_map", "dd.analysis.RegimeMap", "dd.regime_loci", "dd.regime_map_figure"),
+    *("dd.tune", "dd.analysis.Tuned", "dd.analysis.RegionSize"),
     *("dd.detects", "dd.reverse", "dd.remembers", "dd.forgets", "dd.rests", "dd.relaxes_within"),
     *("dd.selects", "dd.multi_peak", "dd.peak_width", "dd.peak_amplitude"),
     *("dd.Requirement", "dd.FieldInput", "dd.analysis.FieldResponse", "dd.analysis.SettledBatch"),

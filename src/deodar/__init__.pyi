@@ -46,6 +46,7 @@ from deodar.analysis.tuning.peak_form import peak_width as peak_width
 from deodar.analysis.tuning.peak_form import selects as selects
 from deodar.analysis.tuning.requirement import Requirement as Requirement
 from deodar.analysis.tuning.response import FieldInput as FieldInput
+from deodar.analysis.tuning.tune import tune as tune
 from deodar.batch.cores import use_cores as use_cores
 from deodar.batch.resume import resume as resume
 from deodar.batch.simulate import simulate as simulate

@@ -25,7 +25,9 @@ from deodar.analysis.settle import Settled, settle
 from deodar.analysis.shortest import Grid, arena_grid, shortest_path
 from deodar.analysis.statistics import anova, mean_interval, median_interval, wilson
 from deodar.analysis.thresholds import Thresholds, Transition, descend, thresholds
+from deodar.analysis.tuning.centring import RegionSize
 from deodar.analysis.tuning.response import FieldResponse, SettledBatch
+from deodar.analysis.tuning.tuned import Tuned
 
 __all__ = [
     "Bifurcation",
@@ -43,6 +45,7 @@ __all__ = [
     "Phase",
     "RegimeMap",
     "Regimes",
+    "RegionSize",
     "Selection",
     "Settled",
     "SettledBatch",
@@ -50,6 +53,7 @@ __all__ = [
     "SteadyBranch",
     "Thresholds",
     "Transition",
+    "Tuned",
     "anova",
     "arena_grid",
     "clearance",

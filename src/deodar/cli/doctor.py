@@ -22,6 +22,7 @@ EXTRAS = {
     "events": "aedat",
     "network": "rosbags",
     "test": "pytest",
+    "tune": "cma",
     "video": "imageio-ffmpeg",
     "vision": "opencv-python-headless",
 }
