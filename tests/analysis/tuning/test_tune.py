@@ -41,6 +41,16 @@ def test_all_requirements_are_met_and_stated_values_exact(tuned):
     assert tuned.reached["peak_width(width=8, within=0.5)"] == pytest.approx(8, abs=1e-7)
 
 
+def test_the_result_says_how_it_was_measured(tuned):
+    data = tuned.data()
+    assert data["met"] and data["not_exact"] is None and data["precision"] == "float32"
+    assert data["strength"] == pytest.approx(3.6) and data["places"] == [10.0, 30.0]
+    assert (data["sigma"], data["dt"]) == ([4.0], 2.0)
+    assert data["bounds"][WIDTH] == [1.5, 8.0] and data["candidates"] >= 512
+    # plain data, and a sentence for each requirement
+    assert repr(tuned).startswith("<Tuned u: meets all requirements") and repr(tuned).count("  met") == 4
+
+
 def test_regimes_measures_the_same(tuned):
     found = dd.regimes(tuned.model, "u", sigma=4, accuracy=1e-3, precision="float64")
     assert found.detection == pytest.approx(3, abs=3e-3)

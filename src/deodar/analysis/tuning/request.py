@@ -85,12 +85,14 @@ class TuningRequest:
     budget: int
 
     @property
+    def places(self) -> tuple[float, ...]:
+        """The positions of the two inputs; none on a node."""
+        return tuple(at for (at,) in places(self.isolated, DISTANCE)) if self.isolated.axes else ()
+
+    @property
     def samples(self) -> tuple[int, ...]:
         """The samples of the two inputs; none on a node."""
-        if not self.isolated.axes:
-            return ()
-        points = self.isolated.axes[0].points
-        return tuple(int(np.abs(points - at).argmin()) for (at,) in places(self.isolated, DISTANCE))
+        return tuple(int(np.abs(self.isolated.axes[0].points - at).argmin()) for at in self.places)
 
     @property
     def tolerance(self) -> float:

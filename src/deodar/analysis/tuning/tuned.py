@@ -225,7 +225,7 @@ def _about(request: TuningRequest, why: str) -> JsonObject:
         "strength": request.strength,
         "sigma": list(isolated.sigma),
         "center": list(isolated.center),
-        "places": list(request.samples),
+        "places": list(request.places),
         "limit": request.limit,
         "dt": isolated.session.dt,
         "precision": isolated.session.precision,
