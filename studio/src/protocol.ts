@@ -121,6 +121,13 @@ export type ApplyPresetText = {
   text: string;
 };
 
+// Give the parameters of the field the values that were found, as one change.
+export type ApplyTuning = {
+  type: "apply_tuning";
+  request?: number;
+  session?: number;
+};
+
 // Change parts of the layout: each key replaces that key of the document's layout, None removes it.
 export type Arrange = {
   type: "arrange";
@@ -1219,6 +1226,15 @@ export type ReportLineView = {
   group: string[];
 };
 
+// A requirement of a tuned field: its text, its margin (0 or above: it is met, 1: in the middle of its
+// tolerance), its value if it has one, and whether that is exact.
+export type RequirementView = {
+  text: string;
+  margin: number | null;
+  value: number | null;
+  exact: boolean;
+};
+
 // Reset state, time and noise to the start, with another seed if one is given. Parameters stay.
 export type ResetRun = {
   type: "reset";
@@ -1490,6 +1506,12 @@ export type StopRegime = {
   request?: number;
 };
 
+// End the tuning of a field, and forget what was found.
+export type StopTuning = {
+  type: "stop_tuning";
+  request?: number;
+};
+
 // A model that can be added to a document as a group.
 //
 // `room` is `architectures`, published models, or `examples`, documents of the gallery. `picture` is the
@@ -1532,6 +1554,7 @@ export type ToPage =
   | RunClock
   | Costs
   | Regime
+  | Tuning
   | WorldScene
   | RobotLink
   | Bodies
@@ -1611,6 +1634,9 @@ export type ToServer =
   | MeasureCosts
   | MeasureRegime
   | StopRegime
+  | TuneField
+  | StopTuning
+  | ApplyTuning
   | PushInput
   | Release
   | UseWorld
@@ -1646,6 +1672,44 @@ export type TrialRows = {
   run: number;
   first: number;
   rows: (Record<string, unknown>)[];
+};
+
+// Find values of parameters at which a field meets requirements: `tuning` follows.
+//
+// `parameters` are names of parameters of the field, such as `kernel.0.sigma`. A requirement is a name, or an
+// object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`.
+export type TuneField = {
+  type: "tune_field";
+  request?: number;
+  element: string;
+  parameters: string[];
+  requirements: unknown[];
+};
+
+// A parameter of a tuned field, by path.
+export type TunedValue = {
+  path: string;
+  before: number;
+  value: number;
+};
+
+// The tuning of a field to a stated regime.
+//
+// `element` is empty before the first one. `candidates` counts what was tried; `requirements` and `values`
+// are empty while it runs, and if that was not possible. `tolerated` is the relative change that all
+// parameters may have at once; `reasons` say why not all requirements are met. `applied`: the document has
+// these values.
+export type Tuning = {
+  type: "tuning";
+  element: string;
+  tuning: boolean;
+  candidates: number;
+  requirements: RequirementView[];
+  values: TunedValue[];
+  tolerated: number;
+  reasons: string[];
+  applied: boolean;
+  problems: ListedProblem[];
 };
 
 // Undo the last change.
@@ -1852,6 +1916,7 @@ export const MEANT: readonly ToServer["type"][] = [
   "apply_kept_preset",
   "apply_preset",
   "apply_preset_text",
+  "apply_tuning",
   "arrange",
   "change_axis",
   "close",

@@ -18,6 +18,7 @@ import type {
   ListedProblem,
   Regime,
   ToPage,
+  Tuning,
   FileProblems,
   Welcome,
 } from "./protocol";
@@ -49,6 +50,8 @@ export type Studio = {
   costs: Costs | null;
   // The regime of the field that was measured last; its element is empty before.
   regime: Regime | null;
+  // The field that was tuned last; its element is empty before.
+  tuning: Tuning | null;
   // The comparison of the open record with another one; null: there is none.
   comparison: Comparison | null;
   experiment: ExperimentView | null;
@@ -84,6 +87,7 @@ export const useStudio = create<Studio>((set) => ({
   clock: null,
   costs: null,
   regime: null,
+  tuning: null,
   comparison: null,
   experiment: null,
   trials: { run: 0, rows: [] },
@@ -158,6 +162,8 @@ function taken(state: Studio, message: ToPage): Partial<Studio> {
       return { costs: message };
     case "regime":
       return { regime: message };
+    case "tuning":
+      return { tuning: message };
     case "experiment":
       return { experiment: message };
     case "trial_rows": {

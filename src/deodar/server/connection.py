@@ -44,6 +44,7 @@ from deodar.server.to_page import (
     RunClock,
     SavedFiles,
     TimelineView,
+    Tuning,
     WorldScene,
 )
 from deodar.server.to_server import MESSAGES, Drawn, RepeatTrial, RunRecordFrom
@@ -300,7 +301,8 @@ class PageConnection:
             self._new("checked", project.checker.found, out)
         self._new("import_report", project.report(), out)
         self._new("costs", self._hub.costs(), out)
-        self._new("regime", self._hub.regime(), out)
+        for analysis in self._hub.analyses():
+            self._new(type(analysis).__name__, analysis, out)
         self._new("comparison", project.compared(), out)
         self._new("saved_files", project.saved_files, out)
         experiment = self._hub.experiment.view()
@@ -335,6 +337,7 @@ class PageConnection:
         | RunClock
         | Costs
         | Regime
+        | Tuning
         | Comparison
         | ExperimentView
         | WorldScene

@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from collections.abc import Awaitable, Callable, Iterable
+from collections.abc import Awaitable, Callable, Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 from deodar import __version__
 from deodar.errors import DocumentError, UnknownName, WorldError
@@ -14,14 +15,15 @@ from deodar.live.compilation import CompileTimes
 from deodar.live.cost_report import CostReport
 from deodar.live.engine import Engine
 from deodar.model.model import Model
-from deodar.server import gallery, plots, templates, view
+from deodar.server import analyses, gallery, plots, templates, view
 from deodar.server.embodiment import Embodiment, signals
+from deodar.server.field_tuning import FieldTuning
 from deodar.server.file_thread import try_in_file_thread
 from deodar.server.open_experiment import OpenExperiment
 from deodar.server.page import Page
 from deodar.server.project import OpenProject
 from deodar.server.record_frames import RecordFrames
-from deodar.server.regime_measurement import RegimeMeasurement, RegimeReport
+from deodar.server.regime_measurement import RegimeMeasurement
 from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
 from deodar.server.to_page import (
@@ -31,10 +33,9 @@ from deodar.server.to_page import (
     Gallery,
     RecordingView,
     Regime,
-    RegimeCurve,
-    RegimeRow,
     RunClock,
     TimelineView,
+    Tuning,
     Welcome,
 )
 from deodar.server.workspace import Workspace
@@ -73,7 +74,8 @@ class Hub:
         )
         self.experiment = OpenExperiment(self.project, self.workspace, self.from_thread)
         self.measurement = RegimeMeasurement(self.from_thread)
-        self._sent_regime: tuple[tuple[RegimeReport, bool], Regime] | None = None
+        self.field_tuning = FieldTuning(self.from_thread)
+        self._analyses: tuple[tuple[Any, ...], list[Regime | Tuning]] | None = None
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),
@@ -225,23 +227,41 @@ class Hub:
             DocumentError: no document is open, or it has no such element.
             WorkerError: a part of the model cannot be sent to another process.
         """
+        self.measurement.start(self.project.session, self._copied(element), element)
+
+    def tune_field(self, element: str, parameters: Sequence[str], requirements: Sequence[Any]) -> None:
+        """Tune a field of the open document.
+
+        Raises:
+            DocumentError: no document is open, or it has no such element.
+            WorkerError: a part of the model cannot be sent to another process.
+        """
+        model = self._copied(element)
+        self.field_tuning.start(self.project.session, model, element, parameters, requirements)
+
+    def _copied(self, element: str) -> Model:
+        """Return the model of the open document, which has this element."""
         doc = self.project.document()
         if element not in doc.by_id():
             raise DocumentError("the document has no such element", where=element)
-        model = Model(document=doc, trusted=self.project.trust)
-        self.measurement.start(self.project.session, model, element)
+        return Model(document=doc, trusted=self.project.trust)
 
-    def regime(self) -> Regime:
-        """Return the regime as last measured; an empty one if another document was opened since."""
-        report, model = self.measurement.report, self.project.model
-        if report.element and (model is None or report.session != self.project.session):
-            self.measurement.stop()
-            report = self.measurement.report
-        entry = None if model is None else model.document.by_id().get(report.element)
-        now = report, entry is None or entry.element is not report.measured
-        if self._sent_regime is None or self._sent_regime[0] != now:
-            self._sent_regime = now, _regime(*now)
-        return self._sent_regime[1]
+    def analyses(self) -> list[Regime | Tuning]:
+        """Return the regime and the tuning as last computed; empty ones if another document was opened
+        since.
+        """
+        model, session = self.project.model, self.project.session
+        for one in (self.measurement, self.field_tuning):
+            if one.report.element and (model is None or one.report.session != session):
+                one.stop()
+        key = self.measurement.report, self.field_tuning.report, None if model is None else model.document
+        if self._analyses is None or any(a is not b for a, b in zip(self._analyses[0], key, strict=True)):
+            views: list[Regime | Tuning] = [
+                analyses.regime(self.measurement.report, key[2]),
+                analyses.tuning(self.field_tuning.report, key[2]),
+            ]
+            self._analyses = key, views
+        return self._analyses[1]
 
     # ----------------------------------------------------------------------------------------------- watching
 
@@ -292,6 +312,7 @@ class Hub:
         await self.experiment.store_edits()
         await asyncio.to_thread(self.experiment.end)
         await asyncio.to_thread(self.measurement.end)
+        await asyncio.to_thread(self.field_tuning.end)
         await asyncio.to_thread(self.engine.close)
         self.embodiment.close()
 
@@ -307,22 +328,6 @@ async def _repeat(work: Callable[[], Awaitable[None]], seconds: float) -> None:
             if repr(error) != reported:
                 logging.getLogger("deodar.studio").exception("%s failed", work.__name__)
             reported = repr(error)
-
-
-def _regime(report: RegimeReport, stale: bool) -> Regime:
-    """Convert the report of a measurement."""
-    found = report.found
-    return Regime(
-        element=report.element,
-        measuring=report.measuring,
-        stale=stale and bool(report.element),
-        words=[] if found is None else list(found.words),
-        rows=[] if found is None else [RegimeRow(name=name, text=text) for name, text in found.rows],
-        curve=None
-        if found is None
-        else RegimeCurve(input=found.strengths, up=found.up, down=found.down, threshold=found.threshold),
-        problems=view.problems(report.problems, None),
-    )
 
 
 def _let_go(session: Session, bodies: Iterable[str]) -> None:

@@ -12,7 +12,7 @@ from deodar.batch.packed import PackedModel
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.model.model import Model
-from deodar.server.worker_task import WorkerTask
+from deodar.server.background import BackgroundTask
 
 
 class MeasuredRegime(NamedTuple):
@@ -66,7 +66,7 @@ class RegimeMeasurement:
     def __init__(self, changed: Callable[[], None]) -> None:
         self.report = RegimeReport()
         self._changed = changed
-        self._task = WorkerTask("deodar-regime", keep=True)
+        self._task = BackgroundTask("deodar-regime", keep=True)
 
     def start(self, session: int, model: Model, element: str) -> None:
         """Measure a field of a model, in a thread.

@@ -409,6 +409,21 @@ async def _stop_regime(hub: Hub, page: Page, m: to_server.StopRegime) -> None:
     hub.measurement.stop()
 
 
+@handles(to_server.TuneField)
+async def _tune_field(hub: Hub, page: Page, m: to_server.TuneField) -> None:
+    hub.tune_field(m.element, m.parameters, m.requirements)
+
+
+@handles(to_server.StopTuning)
+async def _stop_tuning(hub: Hub, page: Page, m: to_server.StopTuning) -> None:
+    hub.field_tuning.stop()
+
+
+@handles(to_server.ApplyTuning)
+async def _apply_tuning(hub: Hub, page: Page, m: to_server.ApplyTuning) -> Answer:
+    return Answer(request=m.request, cost=await hub.project.change(hub.field_tuning.applied))
+
+
 @handles(to_server.PushInput)
 async def _push(hub: Hub, page: Page, m: to_server.PushInput) -> None:
     engine = hub.engine

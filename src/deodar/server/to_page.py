@@ -618,6 +618,46 @@ class Regime(Message, frozen=True, tag="regime"):
     problems: list[ListedProblem]
 
 
+class RequirementView(Data, frozen=True):
+    """A requirement of a tuned field: its text, its margin (0 or above: it is met, 1: in the middle of its
+    tolerance), its value if it has one, and whether that is exact.
+    """
+
+    text: str
+    margin: float | None
+    value: float | None
+    exact: bool
+
+
+class TunedValue(Data, frozen=True):
+    """A parameter of a tuned field, by path."""
+
+    path: str
+    before: float
+    value: float
+
+
+@MESSAGES.register
+class Tuning(Message, frozen=True, tag="tuning"):
+    """The tuning of a field to a stated regime.
+
+    `element` is empty before the first one. `candidates` counts what was tried; `requirements` and `values`
+    are empty while it runs, and if that was not possible. `tolerated` is the relative change that all
+    parameters may have at once; `reasons` say why not all requirements are met. `applied`: the document has
+    these values.
+    """
+
+    element: Id
+    tuning: bool
+    candidates: int
+    requirements: list[RequirementView]
+    values: list[TunedValue]
+    tolerated: float
+    reasons: list[str]
+    applied: bool
+    problems: list[ListedProblem]
+
+
 class BoxView(Data, frozen=True):
     """A solid box of the world: its middle, size and colour (red, green, blue, 0 to 1).
 

@@ -651,6 +651,29 @@ class StopRegime(Request, frozen=True, kw_only=True, tag="stop_regime"):
 
 
 @MESSAGES.register
+class TuneField(Request, frozen=True, kw_only=True, tag="tune_field"):
+    """Find values of parameters at which a field meets requirements: `tuning` follows.
+
+    `parameters` are names of parameters of the field, such as `kernel.0.sigma`. A requirement is a name, or
+    an object such as `{"detects": {"at": 3, "within": 0.2}}`, as in the files of `deodar tune`.
+    """
+
+    element: Id
+    parameters: list[Text]
+    requirements: list[Any]
+
+
+@MESSAGES.register
+class StopTuning(Request, frozen=True, kw_only=True, tag="stop_tuning"):
+    """End the tuning of a field, and forget what was found."""
+
+
+@MESSAGES.register
+class ApplyTuning(DocumentRequest, frozen=True, kw_only=True, tag="apply_tuning"):
+    """Give the parameters of the field the values that were found, as one change."""
+
+
+@MESSAGES.register
 class PushInput(Request, frozen=True, kw_only=True, tag="push"):
     """Add an input to an element until `release`.
 

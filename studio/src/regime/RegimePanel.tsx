@@ -10,20 +10,22 @@ import { ProblemText } from "../problems/ProblemText";
 import { request } from "../socket";
 import { useStudio } from "../store";
 import { CurvePicture } from "./CurvePicture";
+import { TuneSection } from "./TuneSection";
 
 export function RegimePanel() {
   const regime = useStudio((state) => state.regime);
   const elements = useStudio((state) => state.elements);
   const selected = useStudio((state) => state.selected);
-  const [wish, setWish] = useState("");
+  const [asked, setAsked] = useState("");
   const fields = [...elements.values()].filter((element) => element.kind === "Field");
-  const found = [wish, regime?.element, selected[0]].find((id) => fields.some((field) => field.id === id));
+  const found = [asked, regime?.element, selected[0]].find((id) => fields.some((field) => field.id === id));
   const chosen = found ?? fields[0]?.id ?? "";
   if (fields.length === 0) {
     return <p className="regime dim">A document with a field or a node can be measured.</p>;
   }
   const measured = regime !== null && regime.element === chosen ? regime : null;
   const words = measured?.words ?? [];
+  const field = elements.get(chosen);
   return (
     <div className="regime">
       <div className="regime-head">
@@ -31,7 +33,7 @@ export function RegimePanel() {
           size="xs"
           aria-label="Field or node"
           value={chosen}
-          onChange={(event) => setWish(event.currentTarget.value)}
+          onChange={(event) => setAsked(event.currentTarget.value)}
           data={fields.map((field) => ({ value: field.id, label: field.path }))}
         />
         {measured?.measuring === true ? (
@@ -88,6 +90,7 @@ export function RegimePanel() {
           </p>
         )
       )}
+      {field !== undefined && <TuneSection key={chosen} field={field} />}
     </div>
   );
 }

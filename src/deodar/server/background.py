@@ -13,7 +13,7 @@ Ended = Callable[[Any, Sequence[Problem]], None]
 """A function that gets the result, or None and the problems."""
 
 
-class WorkerTask:
+class BackgroundTask:
     """Runs a function in a worker process; a new one ends the one before.
 
     Args:
