@@ -1,10 +1,10 @@
-"""What cores and batches bring: `python benchmarks/batches.py [cores] [sizes] [sweeps] [workers]`.
+"""What cores and batches bring: `python benchmarks/batches.py [cores] [rounding] [sizes] [sweeps] [workers]`.
 
-`cores`: wall and CPU time of a step of one run on one core and on all, each in a process of its own. `sizes`:
-CPU time of a step for each copy over the number of copies in one batch, on one core. `sweeps`: the same for
-400 points of a sweep, by the parameter that differs between them. `workers`: wall time of
-64 trials in this process, and shared among as many workers as there are cores, their start included. Medians
-of three; nothing is asserted.
+`cores`: wall and CPU time of a step of one run on one core and on all, each in a process of its own.
+`rounding`: the same on one core with separate rounding. `sizes`: CPU time of a step for each copy over the
+number of copies in one batch, on one core. `sweeps`: the same for 400 points of a sweep, by the parameter
+that differs between them. `workers`: wall time of 64 trials in this process, and shared among as many
+workers as there are cores, their start included. Medians of three; nothing is asserted.
 """
 
 from __future__ import annotations
@@ -56,19 +56,28 @@ def step(run: Callable[[int], Any], n: int) -> tuple[float, float]:
     return wall, cpu
 
 
-def one_run(cores: int) -> None:
+def one_run(cores: int, separate: bool) -> None:
     """In a process of its own: a step of each workload."""
     dd.use_cores(cores)
+    if separate:
+        dd.use_separate_rounding()
+    about = f"{cores:3} cores" + (", separate rounding" if separate else "")
     for name, n in SINGLE.items():
         model = workloads.WORKLOADS[name].model()
         wall, cpu = step(lambda n, model=model: dd.simulate(model, n, progress=False), n)
-        print(f"{name:8} {cores:3} cores: wall {wall:9.2f} us, CPU {cpu:9.2f} us", flush=True)
+        print(f"{name:8} {about}: wall {wall:9.2f} us, CPU {cpu:9.2f} us", flush=True)
 
 
 def cores() -> None:
     environment = {name: value for name, value in os.environ.items() if name != "NPROC"}
     for n in dict.fromkeys((1, available())):
         subprocess.run([sys.executable, __file__, "--one-run", str(n)], check=True, env=environment)
+
+
+def rounding() -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "NPROC"}
+    for more in ([], ["--separate"]):
+        subprocess.run([sys.executable, __file__, "--one-run", "1", *more], check=True, env=environment)
 
 
 def sizes() -> None:
@@ -114,7 +123,13 @@ def workers() -> None:
             )
 
 
-PARTS: dict[str, Callable[[], None]] = {"cores": cores, "sizes": sizes, "sweeps": sweeps, "workers": workers}
+PARTS: dict[str, Callable[[], None]] = {
+    "cores": cores,
+    "rounding": rounding,
+    "sizes": sizes,
+    "sweeps": sweeps,
+    "workers": workers,
+}
 
 
 def main() -> None:
@@ -127,9 +142,10 @@ def main() -> None:
         help=f"all of them, or some of: {', '.join(PARTS)}",
     )
     parser.add_argument("--one-run", type=int, metavar="CORES", help=argparse.SUPPRESS)
+    parser.add_argument("--separate", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.one_run:
-        return one_run(given.one_run)
+        return one_run(given.one_run, given.separate)
     dd.use_cores(1)
     for name, part in PARTS.items():
         if not given.names or name in given.names:

@@ -77,6 +77,7 @@ SCRIPT = [
     "draw",
     "quote",
     "use_cores",
+    "use_separate_rounding",
 ]
 """What a script calls, under `dd`."""
 

@@ -49,6 +49,7 @@ from deodar.analysis.tuning.response import FieldInput as FieldInput
 from deodar.analysis.tuning.tune import tune as tune
 from deodar.batch.cores import use_cores as use_cores
 from deodar.batch.resume import resume as resume
+from deodar.batch.rounding import use_separate_rounding as use_separate_rounding
 from deodar.batch.simulate import simulate as simulate
 from deodar.couplings.adaptive_weights import AdaptiveWeights as AdaptiveWeights
 from deodar.couplings.attractor_velocity import AttractorVelocity as AttractorVelocity

@@ -139,7 +139,7 @@ class CoresError(DeodarError):
 
 
 class DeviceError(DeodarError):
-    """Raised when a requested device does not exist."""
+    """Raised when a requested device does not exist, or JAX has started it in another way."""
 
 
 class WorkerError(DeodarError):

@@ -98,8 +98,31 @@ def use_cores(cores: int | None, wanted: int = 1) -> None:
         setting.use_cores(wanted)
 
 
+def use_rounding(separate: bool) -> None:
+    """Round products and sums separately if `--separate-rounding` is given, or a record was made so."""
+    # start-up time: these bring JAX
+    from deodar.batch.rounding import use_separate_rounding
+
+    if separate:
+        use_separate_rounding()
+
+
+def add_rounding(parser: argparse.ArgumentParser) -> None:
+    """Add `--separate-rounding`."""
+    parser.add_argument(
+        "--separate-rounding",
+        action="store_true",
+        help=(
+            "round a product before it is added to something, so that parts of a model in other processes"
+            " give the same bits as the whole (x86 only; takes longer)"
+        ),
+    )
+
+
 def add_run(parser: argparse.ArgumentParser) -> None:
-    """Add `--seed`, `--precision`, `--device`, `--cores` and `--no-progress`."""
+    """Add `--seed`, `--precision`, `--accuracy`, `--device`, `--cores`, `--separate-rounding` and
+    `--no-progress`.
+    """
     parser.add_argument(
         "--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)"
     )
@@ -119,6 +142,7 @@ def add_run(parser: argparse.ArgumentParser) -> None:
         ),
     )
     add_cores(parser)
+    add_rounding(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
 
 

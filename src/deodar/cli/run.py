@@ -150,6 +150,7 @@ def run(args: argparse.Namespace) -> int:
     if args.duration is None and examples.holds(args.file):
         args.duration = examples.duration(args.file.stem)
     if not _is_record(args.file):
+        _options.use_rounding(args.separate_rounding)
         _options.use_cores(args.cores)
     if args.live or args.cost:
         return _live.run(args)
@@ -245,6 +246,7 @@ def _resume(args: argparse.Namespace) -> int:
     old = files.open_record(args.file)
     made, doc = about(old), provenance.document(about(old))
     old.close()
+    _options.use_rounding(args.separate_rounding or provenance.rounds_separately(made))
     _options.use_cores(args.cores, provenance.cores_of(made))
     stopped = ""
     try:
@@ -323,7 +325,9 @@ def _repeat(args: argparse.Namespace) -> int:
             " instead"
         )
     old = files.load_record(args.file)
-    _options.use_cores(args.cores, provenance.cores_of(about(old)))
+    made = about(old)
+    _options.use_rounding(args.separate_rounding or provenance.rounds_separately(made))
+    _options.use_cores(args.cores, provenance.cores_of(made))
     place = _Place(args, str(old.attrs.get("title") or "record"))
     stopped = ""
 

@@ -54,6 +54,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         ("authority", "certificate of the authority; only models with a certificate that it signed connect"),
     ):
         parser.add_argument(f"--{name}", metavar="FILE", default="", help=what)
+    _options.add_rounding(parser)
     _options.add_json(parser)
     _options.wrong(parser)
 
@@ -65,6 +66,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.worlds.zenoh.server import WorldServer, free_name
     from deodar.worlds.zenoh.tls_files import TlsFiles
 
+    _options.use_rounding(args.separate_rounding)
     ended: list[int] = []
 
     def end(number: int, frame: FrameType | None) -> None:

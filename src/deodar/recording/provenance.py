@@ -10,6 +10,7 @@ from typing import Any
 
 from deodar.codec import Json, JsonObject
 from deodar.compiler.device import cores
+from deodar.compiler.rounding import SEPARATELY, separate_rounding
 from deodar.model import files
 from deodar.model.document import Document
 from deodar.numerics import native
@@ -48,7 +49,8 @@ def stored(doc: Document) -> JsonObject:
 
 
 def made_by(device: Any, precision: str = "float32") -> dict[str, str]:
-    """Return versions, device and machine, and the cores, because their number changes the order of sums.
+    """Return versions, device and machine, the cores, because their number changes the order of sums, and the
+    rounding if it is not the default one.
 
     The compiled kernels are named where programs of this precision call them.
     """
@@ -58,7 +60,13 @@ def made_by(device: Any, precision: str = "float32") -> dict[str, str]:
     where = {"device": f"{device.platform} {device.device_kind}"} | (
         {"cores": str(cores())} if device.platform == "cpu" else {}
     )
-    return versions | {"python": platform.python_version(), **where, "machine": machine()}
+    rounding = {"rounding": SEPARATELY} if separate_rounding() else {}
+    return versions | {"python": platform.python_version(), **where, **rounding, "machine": machine()}
+
+
+def rounds_separately(about: Mapping[str, Any]) -> bool:
+    """Return whether a record was made with separate rounding of products and sums."""
+    return (about.get("made_by") or {}).get("rounding") == SEPARATELY
 
 
 def cores_of(about: Mapping[str, Any]) -> int:

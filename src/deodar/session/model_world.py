@@ -22,8 +22,8 @@ class ModelWorld(World):
     r"""A model that another one moves: its sensors are the motors of this world, its motors the sensors.
 
     Both models exchange in every step, and both read what the other one sent one step before. So a model that
-    is divided into two computes what it computes with `delayed` connections in their place, up to rounding:
-    two programs may add in another order.
+    is divided into two computes what it computes with `delayed` connections in their place: up to rounding,
+    and to the bit where both processes use `dd.use_separate_rounding`.
 
     Equation:
         y(t) = m_{\mathrm{model}}(t - dt),\quad s_{\mathrm{model}}(t) = m(t - dt)
