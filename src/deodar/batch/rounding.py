@@ -16,8 +16,8 @@ def use_separate_rounding() -> None:
     By default XLA computes both by one instruction, with one rounding, where they are part of one loop. Which
     loops it makes depends on the whole model, and so do the last digits. With separate rounding parts of a
     model that run in other processes give the same bits as the whole, for example two halves of which one is
-    served by `deodar serve --model`. Programs use narrower vectors then, and take up to several times as
-    long: `python benchmarks/batches.py rounding` prints it.
+    served by `deodar serve --model`. Programs use narrower vectors then, and take longer: `python
+    benchmarks/batches.py rounding` prints how much.
 
     Call it before the first run, in every process of the model.
 
