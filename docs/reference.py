@@ -429,9 +429,17 @@ def attributes(read: docstring.Docstring) -> str:
     return "\n".join(tables)
 
 
+SAVED = "deodar.analysis.saved"
+"""The module of the base class of results that have a file, whose methods are theirs."""
+
+
 def members(cls: type) -> Iterator[tuple[str, Any]]:
-    """Public methods and properties that the class itself declares and documents."""
-    for name, value in vars(cls).items():
+    """Public methods and properties that the class itself declares and documents; also those of SAVED."""
+    declared = dict(vars(cls))
+    for base in cls.__mro__:
+        if base.__module__ == SAVED:
+            declared = {**declared, **{n: v for n, v in vars(base).items() if n not in declared}}
+    for name, value in declared.items():
         if (
             not name.startswith("_")
             and (inspect.isfunction(value) or isinstance(value, property))

@@ -13,6 +13,7 @@ from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.naming import named
 from deodar.analysis.continuation.walk import Walk, growing, with_step_values
+from deodar.analysis.saved import SavedAnalysis
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class SteadyBranch:
+class SteadyBranch(SavedAnalysis):
     """Steady states of a model, stable or not, in the order in which they were found.
 
     Attributes:
@@ -90,21 +91,6 @@ class SteadyBranch:
         numbers = {"value": self.values, "rate": self.rates, "growing": self.growing}
         about = {"parameter": self.parameter, "ended": list(self.ended), "not_refined": self.not_refined}
         return branch_file.dataset(self.line, numbers, self.states, self.bifurcations, about)
-
-    def save(self, path: str | Path, force: bool = False) -> Path:
-        """Write the branch as NetCDF (.nc) or Zarr (.zarr), with the document, arguments and versions.
-
-        Args:
-            path: the file; its folder must exist.
-            force: whether to replace an existing file.
-
-        Raises:
-            OutputExists: the path exists.
-        """
-        # start-up time: this brings xarray
-        from deodar.recording.files import save_record
-
-        return save_record(self.dataset(), path, force=force)
 
     @classmethod
     def load(cls, path: str | Path) -> SteadyBranch:

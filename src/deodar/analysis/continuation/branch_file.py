@@ -14,6 +14,7 @@ from deodar.analysis.continuation import line_file
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.line import ParameterLine
+from deodar.analysis.saved import opened
 from deodar.codec import JsonObject
 from deodar.numerics.axes import Axis
 from deodar.recording.provenance import KEY
@@ -78,7 +79,7 @@ def fields(path: str | Path) -> dict[str, Any]:
     Raises:
         RecordError: the file does not exist, is damaged, or is another record.
     """
-    data, made = line_file.opened(path, KIND, "a branch of steady states")
+    data, made = opened(path, KIND, "a branch of steady states")
     line, about = line_file.line_of(made), made[KIND]
     assert line is not None
     own = line.dynamics

@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from deodar import codec
 from deodar.analysis.continuation.dynamics import dynamics
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.codec import JsonObject
 from deodar.compiler import device as devices
 from deodar.compiler.pure_step import PRECISION
-from deodar.errors import RecordError
 from deodar.model.model import Model
 from deodar.recording import provenance
-
-if TYPE_CHECKING:
-    import xarray
 
 
 def made(line: ParameterLine | None) -> JsonObject:
@@ -49,20 +43,3 @@ def line_of(about: Mapping[str, Any]) -> ParameterLine | None:
     model = Model(document=provenance.document(about))
     found = dynamics(model, own["parameters"], own["at"], own["hold"], own["even"])
     return ParameterLine(found, own["index"], np.array(own["values"], float), own["length"])
-
-
-def opened(path: str | Path, kind: str, words: str) -> tuple[xarray.Dataset, Mapping[str, Any]]:
-    """Return a record and its provenance.
-
-    Raises:
-        RecordError: the file does not exist, is damaged, or its provenance lacks `kind`; `words` say what it
-            should be.
-    """
-    # start-up time: this brings xarray
-    from deodar.recording.files import load_record
-
-    data = load_record(path)
-    about = codec.parse(data.attrs[provenance.KEY])
-    if kind not in about:
-        raise RecordError(f"is a record without {words}", where=str(path))
-    return data, about

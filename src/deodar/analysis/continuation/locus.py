@@ -17,6 +17,7 @@ from deodar.analysis.continuation.hopf_plane import HopfPlane
 from deodar.analysis.continuation.line import DENSE, ParameterLine
 from deodar.analysis.continuation.locus_plane import LocusPoint
 from deodar.analysis.continuation.nearest import nearest
+from deodar.analysis.saved import SavedAnalysis
 from deodar.codec import JsonObject
 from deodar.errors import AnalysisError, ParameterError
 from deodar.parameters import show
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Locus:
+class Locus(SavedAnalysis):
     """Where a bifurcation lies in the plane of two parameters.
 
     Attributes:
@@ -114,21 +115,6 @@ class Locus:
         from deodar.analysis.continuation import locus_file
 
         return locus_file.dataset(self.line, self.data())
-
-    def save(self, path: str | Path, force: bool = False) -> Path:
-        """Write the locus as NetCDF (.nc) or Zarr (.zarr), with the document, arguments and versions.
-
-        Args:
-            path: the file; its folder must exist.
-            force: whether to replace an existing file.
-
-        Raises:
-            OutputExists: the path exists.
-        """
-        # start-up time: this brings xarray
-        from deodar.recording.files import save_record
-
-        return save_record(self.dataset(), path, force=force)
 
     @classmethod
     def load(cls, path: str | Path) -> Locus:

@@ -12,6 +12,7 @@ from deodar import codec
 from deodar.analysis.continuation import line_file
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.locus_plane import LocusPoint
+from deodar.analysis.saved import opened
 from deodar.codec import JsonObject
 from deodar.recording.provenance import KEY
 
@@ -43,7 +44,7 @@ def fields(path: str | Path) -> dict[str, Any]:
     Raises:
         RecordError: the file does not exist, is damaged, or is another record.
     """
-    data, made = line_file.opened(path, KIND, "a locus")
+    data, made = opened(path, KIND, "a locus")
     about = made[KIND]
     values = np.column_stack([data["first"].values, data["second"].values])
     points = tuple(LocusPoint(p["kind"], (p["values"][0], p["values"][1])) for p in about["points"])

@@ -12,6 +12,7 @@ import numpy as np
 from deodar import codec
 from deodar.analysis.maps.labels import WORDS
 from deodar.analysis.maps.request import MapRequest
+from deodar.analysis.saved import SavedAnalysis, opened
 from deodar.codec import JsonObject
 from deodar.compiler import device as devices
 from deodar.errors import RecordError
@@ -27,7 +28,7 @@ KIND = "regime_map"
 
 
 @dataclass(frozen=True)
-class RegimeMap:
+class RegimeMap(SavedAnalysis):
     """What a field does with its input, in each cell of a grid over two parameters.
 
     Attributes:
@@ -131,21 +132,6 @@ class RegimeMap:
             {KEY: codec.line(made)},
         )
 
-    def save(self, path: str | Path, force: bool = False) -> Path:
-        """Write the map as NetCDF (.nc) or Zarr (.zarr), with the document, arguments and versions.
-
-        Args:
-            path: the file; its folder must exist.
-            force: whether to replace an existing file.
-
-        Raises:
-            OutputExists: the path exists.
-        """
-        # start-up time: this brings xarray
-        from deodar.recording.files import save_record
-
-        return save_record(self.dataset(), path, force=force)
-
     @classmethod
     def load(cls, path: str | Path) -> RegimeMap:
         """Read a map that `save` wrote.
@@ -153,15 +139,9 @@ class RegimeMap:
         Raises:
             RecordError: the file does not exist, is damaged, or is another record.
         """
-        # start-up time: this brings xarray
-        from deodar.recording.files import load_record
-        from deodar.recording.provenance import KEY
-
-        data = load_record(path)
-        if KIND not in data:
-            raise RecordError("is a record without a map of regimes", where=str(path))
-        made = codec.parse(data.attrs[KEY])
-        about = made.pop(KIND)
+        data, found = opened(path, KIND, "a map of regimes")
+        made, about = dict(found), dict(found[KIND])
+        del made[KIND]
         first, second = (str(name) for name in data[KIND].dims)
         if about.pop("words") != list(WORDS):
             raise RecordError("has labels of another version of deodar", where=str(path))
