@@ -267,6 +267,28 @@ def test_a_camera_in_a_process_of_its_own_has_its_login(peer: PeerServer) -> Non
     camera.close()
 
 
+def test_a_program_that_ends_while_a_picture_is_read_is_not_aborted() -> None:
+    # OpenCV is entered again and again, so that the thread is inside it when the program ends
+    program = """
+import sys
+from deodar.worlds import _capture
+from deodar.worlds._camera_reader import CameraReader, CameraSource, CameraTimes, _Stream
+def watch(self, opened):
+    cv2 = _capture.opencv("a camera")
+    self.newest = opened.read()[1]
+    self.ready.set()
+    while not self.closing.is_set():
+        cv2.blur(self.newest, (99, 99))
+_Stream._watch = watch
+reader = CameraReader(CameraSource("file", "film", sys.argv[1]), CameraTimes(60.0, 60.0))
+print(reader.running)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(_capture.example())], capture_output=True, text=True, timeout=300
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "True\n", "")
+
+
 def test_a_robot_file_names_an_address_and_nothing_outside_its_folder(
     tmp_path: Path, made: Callable[..., Camera]
 ) -> None:

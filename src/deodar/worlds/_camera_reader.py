@@ -16,6 +16,9 @@ from deodar.worlds import _capture
 from deodar.worlds._address import Address
 from deodar.worlds._reachable import Unreachable, unreachable
 
+LEAVING = 1.0
+"""s that the end of a program waits for a picture that is being read (a guessed constant)."""
+
 CameraForm = Literal["device", "file", "address"]
 
 
@@ -79,6 +82,7 @@ class CameraReader:
         self._thread = threading.Thread(target=self._stream.run, name=source.where, daemon=True)
         self._thread.start()
         weakref.finalize(self, self._stream.closing.set)
+        weakref.finalize(self._stream, _leave, self._thread, self._stream.closing)
         began = time.monotonic()
         # the last tenth is for the question why no picture came
         answered = self._stream.ready.wait(0.9 * times.opening)
@@ -193,6 +197,16 @@ class _Stream:
             if pace > 0:
                 due += 1.0 / pace
                 self.closing.wait(max(0.0, due - time.monotonic()))
+
+
+def _leave(thread: threading.Thread, closing: threading.Event) -> None:
+    """Wait for the end of a reading thread before the interpreter ends.
+
+    A thread that returns from OpenCV to an interpreter that is ending aborts the process.
+    """
+    closing.set()
+    if thread is not threading.current_thread():
+        thread.join(timeout=LEAVING)
 
 
 def _opened(source: CameraSource, times: CameraTimes, wanted: tuple[int, int] | None) -> Any:
