@@ -6,8 +6,9 @@ import contextlib
 import logging
 import os
 import socket
+import sys
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from urllib.parse import urlsplit
 
 import uvicorn
@@ -24,6 +25,11 @@ PORT = 8430
 """First port that is tried; if it is in use, the next free one is taken."""
 
 TRIED = 20
+TURN = 5e-4
+"""s after which a thread of the interpreter lets another one run (the interpreter's own is 5e-3). Edits that
+follow one another while 50 elements run and compile then reach the page in about 20 ms instead of 50.
+"""
+
 MOST_MESSAGE = 64 * 2**20
 """Longest message from a page, in bytes: a dropped document, or a picture as base64."""
 
@@ -57,8 +63,24 @@ def serve(service: Service, browser: bool, say: Callable[[str], None]) -> None:
             redirect.remove()
 
     server, bound = prepare(service, ready, ended)
-    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is the normal end, after the server has closed
+    # Ctrl-C is the normal end, after the server has closed
+    with contextlib.suppress(KeyboardInterrupt), short_turns():
         server.run(sockets=[bound])
+
+
+@contextlib.contextmanager
+def short_turns() -> Generator[None]:
+    """Make the threads of this process take turns at intervals of `TURN`, and restore the interval after it.
+
+    An edit passes several times between the server's thread and the engine's; each time it waits for a turn
+    while a third thread traces the new program.
+    """
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(TURN)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(before)
 
 
 def prepare(
