@@ -9,27 +9,37 @@ endif
 # files over two processes, in the order that tests/conftest.py gives them
 SPREAD := -n 2 --dist loadfile --no-loadscope-reorder
 
-.PHONY: demo test quick optimised browser fast lint types studio page docs schema bench native lowest lock audit clean
+# what `make whole` runs and `make test` leaves out: tests that cost much time
+LONG := yes
+ifeq ($(LONG),no)
+  SHORT := and not long
+endif
+
+.PHONY: demo test whole quick optimised browser fast lint types studio page docs schema bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
 
 test: .venv/installed-test
+	$(MAKE) LONG=no whole
+
+# everything
+whole: .venv/installed-test
 	$(MAKE) -j 2 lint types page
 	VITEST_MAX_WORKERS=1 $(MAKE) -j 2 quick browser
 	$(MAKE) optimised
 
 # tests whose programs are compiled in a quicker way than deodar does, and those that need optimised programs
 quick: .venv/installed-test
-	$(BIN)/python -m pytest $(SPREAD) --durations 30 -m "not default_program"
+	$(BIN)/python -m pytest $(SPREAD) --durations 30 -m "not default_program $(SHORT)"
 
 optimised: .venv/installed-test
-	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m default_program --default-programs
+	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m "default_program $(SHORT)" --default-programs
 
 # the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
 # time, so `make test` runs them beside others; one file at a time there, because pytest uses two cores too
 browser: studio
-	$(BIN)/python studio/build.py browser firefox webkit
+	$(BIN)/python studio/build.py $(if $(SHORT),short,browser) firefox webkit
 
 # a verdict in about a minute
 fast: .venv/installed-test

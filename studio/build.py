@@ -6,6 +6,7 @@ python studio/build.py lint       the formatting of the files (prettier), and th
 python studio/build.py format     format the files, lines of at most 110 columns (prettier)
 python studio/build.py test       the tests of the page's logic
 python studio/build.py browser    the tests in a real browser, before a running studio
+python studio/build.py short      the same without the files that take long
 python studio/build.py firefox    the page in an installed Firefox, before a running studio; else a line
 python studio/build.py webkit     the same in an installed WebKit (the MiniBrowser of WebKitGTK)
 python studio/build.py bench      what the page promises about time, measured in a real browser and printed
@@ -53,6 +54,7 @@ TOOLS: dict[str, list[list[str]]] = {
     "format": [[PRETTIER, "--write", "."]],
     "test": [[VITEST, "run"]],
     "browser": [[VITEST, "run", "--config", "vitest.browser.ts"]],
+    "short": [[VITEST, "run", "--config", "vitest.short.ts"]],
     "firefox": [[VITEST, "run", "--config", "vitest.engines.ts", "firefox.engine"]],
     "webkit": [[VITEST, "run", "--config", "vitest.engines.ts", "webkit.engine"]],
     "bench": [[VITEST, "run", "--config", "vitest.bench.ts"]],
@@ -60,7 +62,7 @@ TOOLS: dict[str, list[list[str]]] = {
 }
 
 # Words whose tests depend on how fast the machine is: see `again`.
-TWICE = {"browser", "firefox", "webkit"}
+TWICE = {"browser", "short", "firefox", "webkit"}
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,7 @@ DEFAULT_PROGRAM = (
     "tests/session/test_resolution.py",
 )
 """Tests that judge the bits of programs or compare them with stored ones, and tests that run so long that
-optimised steps save more time than their compilation takes: `make test` runs them with
+optimised steps save more time than their compilation takes: `make optimised` runs them with
 `--default-programs`.
 """
 
@@ -119,7 +119,7 @@ def pytest_collection() -> Iterator[None]:
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Read only the files of DEFAULT_PROGRAM if nothing else was asked for."""
-    if config.option.markexpr != "default_program" or collection_path.is_dir():
+    if not config.option.markexpr.startswith("default_program") or collection_path.is_dir():
         return None
     place = collection_path.relative_to(config.rootpath).as_posix()
     return not any(place.startswith(name.partition("::")[0]) for name in DEFAULT_PROGRAM) or None
@@ -129,7 +129,10 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark tests; in a process of xdist the longest files come first, so that all processes end together."""
     seconds = durations.seconds()
+    long = durations.long_cases((item.nodeid for item in items), seconds)
     for item in items:
+        if item.nodeid in long:
+            item.add_marker(pytest.mark.long)
         if item.nodeid.startswith(DEFAULT_PROGRAM):
             item.add_marker(pytest.mark.default_program)
         elif durations.function(item.nodeid) not in seconds:

@@ -1,4 +1,4 @@
-"""CPU seconds of the slow tests, from which the marker `fast` follows.
+"""CPU seconds of the slow tests, from which the markers `fast` and `long` follow.
 
 `pytest --write-durations` measures the tests that it runs, in one process, and replaces their rows in
 `durations.csv`; rows of other tests are kept. The seconds of a function are those of all its cases,
@@ -19,8 +19,11 @@ FILE = Path(__file__).with_name("durations.csv")
 LIMIT = 0.2
 """CPU seconds of all cases of a function above which it is slow."""
 
-LONG = 2.0
+CLOCK = 2.0
 """Seconds by the clock of all cases of a function above which it is slow, also on a busy machine."""
+
+SHARE = 3.0
+"""Most CPU seconds of a function outside of the marker `long`."""
 
 
 def function(nodeid: str) -> str:
@@ -42,12 +45,28 @@ def files(rows: dict[str, float]) -> Counter[str]:
     return out
 
 
+def long_cases(cases: Iterable[str], rows: dict[str, float]) -> set[str]:
+    """Return the cases that have the marker `long`.
+
+    Of a function with more than `SHARE` CPU seconds as many cases lack it as take `SHARE` together, at
+    regular distances; none where a single case takes longer.
+    """
+    of: dict[str, list[str]] = {}
+    for case in cases:
+        of.setdefault(function(case), []).append(case)
+    out: set[str] = set()
+    for name, members in of.items():
+        share = SHARE / max(rows.get(name, 0.0), SHARE)
+        out |= {case for i, case in enumerate(members) if int((i + 1) * share) == int(i * share)}
+    return out
+
+
 def unlisted(reports: Iterable[pytest.TestReport]) -> list[str]:
-    """Return the files of test functions that counted as fast and took longer than `LONG`."""
+    """Return the files of test functions that counted as fast and took longer than `CLOCK`."""
     taken: Counter[str] = Counter()
     for report in reports:
         taken[function(report.nodeid)] += report.duration
-    return sorted({test.split("::")[0] for test, s in taken.items() if s > LONG})
+    return sorted({test.split("::")[0] for test, s in taken.items() if s > CLOCK})
 
 
 def exists(test: str) -> bool:

@@ -1,8 +1,11 @@
-"""The marker `fast` follows from measured CPU time; programs compile quickly unless tests judge bits."""
+"""The markers `fast` and `long` follow from measured CPU time; programs compile quickly unless tests judge
+bits.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -38,6 +41,23 @@ def test_a_measured_function_replaces_its_row_and_others_keep_theirs(tmp_path: P
 def test_the_cases_of_a_function_count_together() -> None:
     assert durations.function("tests/a/test_b.py::test_c[x-1]") == "tests/a/test_b.py::test_c"
     assert durations.files({"a.py::x": 1.0, "a.py::y": 2.0, "b.py::x": 4.0}) == {"a.py": 3.0, "b.py": 4.0}
+
+
+def test_a_function_spends_its_share_and_the_other_cases_are_long() -> None:
+    cases = [f"a.py::many[{k}]" for k in range(10)]
+    all_cases = [*cases, "a.py::quick", "a.py::whole", *(f"a.py::heavy[{k}]" for k in range(3))]
+    rows = {"a.py::many": 2 * durations.SHARE, "a.py::whole": durations.SHARE + 1, "a.py::heavy": 90.0}
+    long = durations.long_cases(all_cases, rows)
+    assert set(cases) - long == set(cases[1::2]), "half of the cases, at regular distances"
+    assert "a.py::quick" not in long, "a function without a row"
+    assert long - set(cases) == {"a.py::whole", *(f"a.py::heavy[{k}]" for k in range(3))}
+
+
+def test_every_long_file_of_browser_tests_exists() -> None:
+    studio = Path(conftest.__file__).parents[1] / "studio"
+    listed = re.findall(r'^  "(\w+)",$', (studio / "vitest.short.ts").read_text(), re.MULTILINE)
+    assert listed and listed == sorted(listed)
+    assert [name for name in listed if not (studio / "browser" / f"{name}.test.ts").is_file()] == []
 
 
 def test_the_files_of_slow_tests_without_a_row_are_named() -> None:
