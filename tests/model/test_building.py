@@ -169,6 +169,18 @@ def test_an_ungrouped_element_may_have_the_name_of_its_group_and_of_others() -> 
     assert new.groups == (("u2",),)
 
 
+def test_a_group_of_the_same_name_takes_the_place_of_its_ungrouped_parent() -> None:
+    unit = Model("unit")
+    unit.add(dd.Field("u", [X]))
+    model = Model("m")
+    model.group("a.a.b")
+    model.insert(unit, "a.a", link=True)
+    new = building.ungroup(model.document, ("a",))
+    assert new.groups == (("a",), ("a", "b"))
+    assert [e.names for e in new.entries] == [("a", "u")]
+    assert [u.group for u in new.uses] == [("a",)]
+
+
 def test_moving_into_a_group_moves_each_thing_once_and_frees_names() -> None:
     model = pair()
     model.add(dd.Field("u"))

@@ -179,7 +179,7 @@ def ungroup(doc: Document, group: PathNames) -> Document:
     free = _FreeNames(doc, parent, without=group[-1])
     elements = {e.id: (*parent, free.take(e.names[-1])) for e in doc.entries if e.group == group}
     inner = {g: (*parent, free.take(g[-1])) for g in doc.groups if g[:-1] == group}
-    return edit.relocate(doc, elements, {**inner, group: parent})
+    return edit.relocate(doc, elements, {**inner, group: parent}, {group})
 
 
 def excerpt(doc: Document, ids: Iterable[str], groups: Iterable[PathNames] = ()) -> Document:

@@ -142,24 +142,26 @@ def move_group(doc: Document, group: PathNames, to: PathNames) -> Document:
 
 def ungroup(doc: Document, group: PathNames) -> Document:
     """Return a document in which the content of a group has moved to the parent of the group."""
-    return relocate(doc, {}, {group: group[:-1]})
+    return relocate(doc, {}, {group: group[:-1]}, {group})
 
 
 def relocate(
-    doc: Document, elements: Mapping[str, PathNames], groups: Mapping[PathNames, PathNames]
+    doc: Document,
+    elements: Mapping[str, PathNames],
+    groups: Mapping[PathNames, PathNames],
+    dissolved: Collection[PathNames] = (),
 ) -> Document:
     """Return a document in which elements and groups with their content have other paths, all at once.
 
     Args:
         doc: the document.
         elements: new paths by id.
-        groups: new paths by path; a group whose new path is that of its parent is removed, and its content
-            moves to the parent.
+        groups: new paths by path.
+        dissolved: groups among them that are removed; their content moves to their new path.
     """
     for group, to in groups.items():
         if to[: len(group)] == group and to != group:
             raise ModelError(f"the group {display(group)!r} cannot be moved into itself")
-    dissolved = {g for g, to in groups.items() if to == g[:-1]}
 
     def new_path(names: PathNames) -> PathNames:
         inner = next((names[:k] for k in range(len(names), 0, -1) if names[:k] in groups), None)
