@@ -152,8 +152,7 @@ def _session(args: argparse.Namespace) -> Session:
     from deodar.session.session import Session
 
     model = load(args.file, trust=args.trust)
-    for path, value in args.set or ():
-        model.set(path, value)
+    _options.apply_set(model, args)
     return Session(
         model,
         args.dt,

@@ -13,6 +13,7 @@ from deodar.errors import UnknownName
 from deodar.importers import examples
 
 if TYPE_CHECKING:
+    from deodar.model.model import Model
     from deodar.neuromorphic.prepare import SpikingOptions
     from deodar.worlds._base import World
 
@@ -164,6 +165,19 @@ def add_document(
 ) -> None:
     """Add `FILE`: a document, or an example by its name."""
     parser.add_argument("file", type=document, metavar="FILE", help=meaning, **how)
+
+
+def add_set(parser: argparse.ArgumentParser) -> None:
+    """Add `--set`, which `apply_set` applies."""
+    parser.add_argument(
+        "--set", type=setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
+    )
+
+
+def apply_set(model: Model, args: argparse.Namespace) -> None:
+    """Change the parameters of a model that `--set` names."""
+    for path, value in args.set or ():
+        model.set(path, value)
 
 
 def whole(text: str) -> int:

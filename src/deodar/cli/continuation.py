@@ -23,9 +23,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("parameter", metavar="PARAMETER", help="path of the parameter, as s.amplitude")
     parser.add_argument("first", type=float, metavar="FIRST", help="its first value")
     parser.add_argument("last", type=float, metavar="LAST", help="its last value")
-    parser.add_argument(
-        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
-    )
+    _options.add_set(parser)
     parser.add_argument(
         "--induced-by",
         type=_options.setting,
@@ -77,8 +75,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.recording import files
 
     model = load(args.file)
-    for path, value in args.set or ():
-        model.set(path, value)
+    _options.apply_set(model, args)
     target, save = _options.targets(args, f"{args.file.stem}-continuation")
     if target is not None:
         _files.claim(target, args.force)

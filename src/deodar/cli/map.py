@@ -34,9 +34,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--field", default="", metavar="PATH", help="the field or node (default: the only one)"
     )
-    parser.add_argument(
-        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
-    )
+    _options.add_set(parser)
     parser.add_argument(
         "--strength",
         type=_options.positive,
@@ -96,8 +94,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.recording import files
 
     model = load(args.file)
-    for path, value in args.set or ():
-        model.set(path, value)
+    _options.apply_set(model, args)
     target, save = _options.targets(args, f"{args.file.stem}-map")
     if target is not None:
         _files.claim(target, args.force)

@@ -105,9 +105,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="with --points: each point has noise of its own",
     )
-    parser.add_argument(
-        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
-    )
+    _options.add_set(parser)
     parser.add_argument(
         "--format", choices=("zarr", "netcdf", "csv"), default="zarr", help="of the record (default zarr)"
     )
@@ -185,8 +183,7 @@ def _simulate(args: argparse.Namespace) -> int:
     _once(args, "set")
     _once(args, "sweep")
     model = load(args.file, trust=args.trust)
-    for path, value in args.set or ():
-        model.set(path, value)
+    _options.apply_set(model, args)
     world = _options.world(args.world)
     if world is not None and world.wall_clock:
         args.wrong(f"the world {args.world} follows the wall clock, so the run needs --live")

@@ -24,9 +24,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "requirements", type=Path, metavar="REQUIREMENTS", help="parameters and requirements, as JSON"
     )
-    parser.add_argument(
-        "--set", type=_options.setting, action="append", metavar="PATH=VALUE", help="change a parameter first"
-    )
+    _options.add_set(parser)
     parser.add_argument("--field", metavar="PATH", help="the field or node (default: the only one)")
     parser.add_argument("--seed", type=_options.whole, metavar="N", help="seed of the search (default 0)")
     parser.add_argument(
@@ -58,8 +56,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.model.model import save
 
     model = load(args.file)
-    for path, value in args.set or ():
-        model.set(path, value)
+    _options.apply_set(model, args)
     try:
         content = args.requirements.read_bytes()
     except OSError as error:
