@@ -9,7 +9,7 @@ import { shot, startStudio, type Studio } from "./studio";
 
 const FIELDS = 48;
 const EDITS = 5;
-/** Further edits, during which every picture is looked at. */
+/** Further edits, during which every picture of the browser is read back. */
 const WATCHED = 2;
 const SHOWN_MS = 100;
 const PROGRAM_MS = 5000;
