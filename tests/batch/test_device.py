@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 import jax
 import pytest
 
 import deodar as dd
 from deodar.compiler import cache, device
+from deodar.errors import DeviceError
 from deodar.recording.record import about
 from deodar.recording.repeat import repeat
 
@@ -50,6 +54,115 @@ def test_a_program_runs_on_the_device_that_is_named(monkeypatch: pytest.MonkeyPa
     for _ in range(2):
         done = subprocess.run([sys.executable, "-c", SECOND], capture_output=True, text=True, timeout=600)
         assert done.stdout == "good\n", done.stderr
+
+
+DIVIDED = """
+import re, jax, numpy as np, deodar as dd
+from deodar.errors import DeodarError
+from tests.batch.test_device import model
+from deodar.recording.record import about
+def bits(one, other):
+    assert one.sizes == other.sizes, (one.sizes, other.sizes)
+    return np.array_equal(one["u.activation"].values, other["u.activation"].values)
+def run(made, **given):
+    return dd.simulate(made, 30, record=["u"], every=10, progress=False, **given)
+values = [1.0, 1.5, 2.0, 2.5, 3.0]
+for precision in ("float64", "float32"):
+    made = model()
+    whole = run(made, trials=16, precision=precision)
+    divided = run(made, trials=16, precision=precision, devices=8)
+    assert bits(divided, run(made, trials=16, precision=precision, batch=2))
+    assert abs(whole - divided)["u.activation"].max() < (1e-10 if precision == "float64" else 1e-4)
+    assert np.array_equal(whole["u.activation"] > -5, divided["u.activation"] > -5)
+    assert bits(run(made, trials=13, precision=precision, devices="all"), divided.isel(trial=slice(13)))
+    grid = {"u.kernel.0.sigma": values, "u.tau": [20.0, 30.0, 40.0]}
+    few = {name: found[:2] for name, found in grid.items()}
+    one = run(made, trials=2, precision=precision, sweep=grid, devices=8)
+    two = run(made, trials=2, precision=precision, sweep=few, batch=4)
+    chosen = one.isel({"u.kernel.0.sigma": [0, 1], "u.tau": [0, 1]})
+    assert bits(chosen, two), float(abs(chosen - two)["u.activation"].max())
+    programs = [p for p in made.programs.values() if p.distribution is not None]
+    assert {p.distribution.along for p in programs} == {"trials", "points"}
+    for p in programs:
+        for compiled in (p.chunk(())[0], p.reader([p.port(model().document.entries[0].id, "output")])):
+            text = compiled.as_text()
+            used = {len(s.device_set) for s in jax.tree.leaves(compiled.input_shardings)}
+            assert used == {len(p.distribution.devices)}
+            assert not re.search("all-reduce|all-gather|all-to-all|collective-permute|reduce-scatter", text)
+assert about(one)["devices"] == 8 and about(one)["made_by"]["devices"] == "8"
+three = run(model(), trials=3, devices=8)
+assert about(three)["devices"] == 8 and about(three)["made_by"]["devices"] == "3"
+for given, text in (
+    (dict(devices=9), "9 devices of the kind cpu are asked for, and this computer has 8: cpu:0"),
+    (dict(devices=2, device="cpu:1"), "names one device, and devices=2 asks for several"),
+    (dict(devices=2, workers=2), "not on 2 devices. Leave out workers, or devices"),
+    (dict(devices=2, trials=1), "a batch of one copy cannot be divided among 2 devices"),
+):
+    try:
+        run(model(), **{"trials": 4, **given})
+    except DeodarError as error:
+        assert text in str(error), error
+    else:
+        raise AssertionError(given)
+print("good")
+"""
+
+
+def test_copies_are_divided_among_devices_without_traffic(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On 8 devices of the CPU a copy has the bits that it has in a batch of the size of one part."""
+    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=8")
+    done = subprocess.run([sys.executable, "-c", DIVIDED], capture_output=True, text=True, timeout=600)
+    assert done.stdout == "good\n", done.stderr
+
+
+INTERRUPTED = """
+import sys, numpy as np, deodar as dd
+from deodar.errors import Interrupted
+from tests.batch.test_device import model
+from deodar.recording.repeat import repeat
+def stop(done):
+    if done > 30:
+        raise KeyboardInterrupt
+given = dict(record=["u"], every=1, trials=5, devices=4)
+try:
+    dd.simulate(model(), 400, out=sys.argv[1] + "/run", snapshots=10, progress=stop, **given)
+except Interrupted:
+    pass
+else:
+    raise AssertionError("not stopped")
+whole = dd.simulate(model(), 400, **given)
+resumed = dd.resume(sys.argv[1] + "/run")
+assert np.array_equal(whole["u.activation"].values, resumed["u.activation"].values)
+again = repeat(whole, dd.simulate)
+assert again.same_bits and not again.differences, again
+print("good")
+"""
+
+
+def test_a_divided_run_is_resumed_and_repeated(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("XLA_FLAGS", "--xla_force_host_platform_device_count=4")
+    command = [sys.executable, "-c", INTERRUPTED, str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert done.stdout == "good\n", done.stderr
+
+
+@pytest.mark.parametrize(
+    ("devices", "text"),
+    [
+        (0, "devices is 0; expected a number of devices, at least 1, or 'all'"),
+        (True, "devices is True"),
+        ("many", "devices is 'many'"),
+        (999, "999 devices of the kind cpu are asked for, and this computer has 1: cpu:0. Type devices=1"),
+    ],
+)
+def test_an_invalid_number_of_devices_is_an_error(devices: Any, text: str) -> None:
+    with pytest.raises(DeviceError, match=re.escape(text)):
+        dd.simulate(model(), 10, trials=4, devices=devices)
+
+
+def test_devices_of_a_kind_that_is_not_there_are_an_error() -> None:
+    with pytest.raises(DeviceError, match="this computer has no device 'tpu'"):
+        dd.simulate(model(), 10, trials=4, device="tpu", devices=2)
 
 
 ELSEWHERE = """
@@ -123,10 +236,10 @@ def test_matrix_products_use_the_full_precision(precision: str, monkeypatch: pyt
     compile_ = cache.compile
 
     def listen(
-        lowered: jax.stages.Lowered, options: dict[str, object] | None, place: object, kernels: str
+        lowered: jax.stages.Lowered, options: cache.CompilerOptions | None, *others: Any
     ) -> tuple[object, bool]:
         texts.append(lowered.as_text())
-        return compile_(lowered, options, place, kernels)
+        return compile_(lowered, options, *others)
 
     monkeypatch.setattr(cache, "compile", listen)
     dd.simulate(model(), 5, precision=precision, trials=3)

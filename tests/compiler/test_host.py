@@ -13,7 +13,8 @@ from jax import Array, lax
 
 import deodar as dd
 from deodar.compiler import host
-from deodar.compiler.executable import Batch, Executable
+from deodar.compiler.batch import Batch
+from deodar.compiler.executable import Executable
 from tests.contracts import build
 
 RNG = np.random.default_rng(3)

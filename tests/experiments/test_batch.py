@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.executable import Batch
+from deodar.compiler.batch import Batch
 from deodar.elements.sensor import Sensor
 from deodar.errors import ParameterError, WorldError
 from deodar.experiments import copies

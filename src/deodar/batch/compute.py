@@ -16,7 +16,9 @@ from deodar.batch.points import Points
 from deodar.batch.progress import Shown, bar
 from deodar.batch.request import SimulationRequest
 from deodar.compiler import device as devices
-from deodar.compiler.executable import Batch, Executable, executable
+from deodar.compiler import division
+from deodar.compiler.batch import Batch
+from deodar.compiler.executable import Executable, executable
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
 from deodar.errors import Interrupted, NotFinite, ParameterError, TimeError, WorkerError
@@ -66,6 +68,7 @@ def compute(
     none.
     """
     sweep, precision, device = request.sweep, request.precision, request.device
+    places = devices.several(request.devices, device)
     doc = require_model(model).document
     model.require()
     step = doc.step if request.dt is None else request.dt
@@ -85,7 +88,7 @@ def compute(
     copies = Batch(points.size if swept else None, len(numbers) if names else None)
     nodes, _ = resolve(doc)
     size = memory.copy_bytes(nodes, precision, points.rebuilt(), len(numbers))
-    cut = _cut(size, names, points, request)
+    cut = _cut(size, names, points, request, places)
     kept = 0 if out is not None else count * copies.size
     recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * kept
     beside = min(request.workers or 0, cut.count) if cut.count > 1 else 0
@@ -103,6 +106,7 @@ def compute(
     request = dc.replace(request, record=list(map(str, paths)) or None)
     labels, listed = list(numbers) if names else None, points.asked
     asked = {"trials": labels, "sweep": listed, "workers": request.workers, "device": device}
+    asked |= {"devices": len(places)} if request.devices is not None else {}
     asked |= {"own_noise": True} if own_noise else {}
     if isinstance(out, RunOutput):
         out.plan(points, cut, asked)
@@ -117,6 +121,14 @@ def compute(
     stopped, nothing = False, None
     with stoppable() as check:
         more_points, more_trials = _missing(request.width, points, len(numbers))
+        distribution = None
+        if len(places) > 1:
+            whole_batch = Batch(
+                points.size + more_points if swept else None, len(numbers) + more_trials if names else None
+            )
+            distribution, full = division.distributed(whole_batch, places)
+            more_points = (full.points or points.size) - points.size
+            more_trials = (full.trials or len(numbers)) - len(numbers)
         filled = Batch(
             points.size + more_points if swept else None,
             len(numbers) + more_trials if names else None,
@@ -131,6 +143,7 @@ def compute(
             device,
             request.accuracy,
             embodied(doc, world),
+            distribution,
         )
         values = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values]
         numbered = [*numbers, *[numbers[-1]] * more_trials]
@@ -259,19 +272,22 @@ def _cut(
     trials: Sequence[int] | None,
     points: Points,
     request: SimulationRequest,
+    places: Sequence[devices.Device],
 ) -> pieces.Pieces:
     lengths = ({} if trials is None else {"trial": len(trials)}) | {
         path: len(values) for path, values in points.grid.items()
     }
     workers, device = request.workers, request.device
-    on_cpu = device is None or devices.find(device).platform == devices.DEFAULT
-    if workers is not None and not on_cpu:
+    on_cpu = places[0].platform == devices.DEFAULT
+    if workers is not None and (not on_cpu or len(places) > 1):
+        given = "device" if not on_cpu else "devices"
+        named = repr(device) if not on_cpu else f"{len(places)} devices"
         raise WorkerError(
-            f"worker processes run on the cores of the CPU, not on {device!r}",
-            fix="Leave out workers, or device",
+            f"worker processes run on the cores of the CPU, not on {named}",
+            fix=f"Leave out workers, or {given}",
         )
     count = 1 if workers is None else require_workers(workers)
-    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, count, request.batch)
+    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, count, request.batch, len(places))
 
 
 def require_workers(workers: int) -> int:

@@ -95,7 +95,13 @@ class Pieces:
         return out
 
 
-def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: int | None = None) -> Pieces:
+def cut(
+    lengths: Mapping[str, int],
+    bytes_a_copy: int,
+    workers: int = 1,
+    batch: int | None = None,
+    devices: int = 1,
+) -> Pieces:
     """Cut a run so that a piece fits into the cache, and all workers have equal work.
 
     Args:
@@ -104,6 +110,7 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
         workers: number of processes that share the pieces.
         batch: copies in one piece; none: as many as fit into `BATCH_BYTES`, fewer where that gives every
             worker as many pieces.
+        devices: number of devices that share a piece, each with a cache of its own.
     """
     if batch is not None and (
         isinstance(batch, bool) or not isinstance(batch, (int, np.integer)) or batch < 1
@@ -114,7 +121,8 @@ def cut(lengths: Mapping[str, int], bytes_a_copy: int, workers: int = 1, batch: 
     dimension = max(lengths, key=lambda name: lengths[name], default="")
     total = lengths.get(dimension, 1)
     rest = math.prod(lengths.values()) // total
-    most = int(batch) if batch is not None else BATCH_BYTES // bytes_a_copy if bytes_a_copy else total * rest
+    fitting = devices * (BATCH_BYTES // bytes_a_copy) if bytes_a_copy else total * rest
+    most = int(batch) if batch is not None else fitting
     length = max(1, min(total, most // rest))
     if batch is None:
         count = math.ceil(math.ceil(total / length) / workers) * workers

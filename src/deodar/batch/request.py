@@ -29,6 +29,7 @@ class SimulationRequest:
         workers: number of processes that share the copies; none: only this process.
         batch: copies that run at once in one process; none: as many as fit into the cache.
         device: where it runs; none: the CPU.
+        devices: number of devices that share the copies, or the fields of a single copy; none: one device.
         accuracy: default or exact.
         width: of a piece, a dimension and its length in the other pieces. The piece is filled up to it with
             copies of its last one, whose results are dropped: the last digits in single precision depend on
@@ -48,6 +49,7 @@ class SimulationRequest:
     workers: int | None = None
     batch: int | None = None
     device: str | None = None
+    devices: int | str | None = None
     accuracy: str = "default"
     width: tuple[str, int] | None = None
     first: int = 0

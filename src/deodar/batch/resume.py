@@ -75,8 +75,9 @@ def resume(
         raise RecordError(
             "is complete", where=str(path), fix="Give a longer duration, for example --duration 1000"
         )
-    device = devices.find(settings["device"])
-    now = {**made, "made_by": provenance.made_by(device, settings["precision"])}
+    device = devices.several(settings["devices"], settings["device"])[0]
+    used = provenance.devices_of(made)  # it follows from the request
+    now = {**made, "made_by": provenance.made_by(device, settings["precision"], used)}
     found = differences(made, now)
     if settings["workers"] is not None:  # a worker process uses one core, however many this one uses
         found = tuple(d for d in found if d.what != "cores")

@@ -57,6 +57,7 @@ def simulate(
     snapshots: float | None = None,
     force: bool = False,
     own_noise: bool = False,
+    devices: int | str | None = None,
 ) -> xarray.Dataset:
     """Run a model and return its record.
 
@@ -104,6 +105,8 @@ def simulate(
         force: with `out`: whether to replace an existing record.
         own_noise: whether each point of a list has noise of its own instead; point 0 has that of a run
             without a sweep.
+        devices: number of devices of the kind of `device` that share the copies in equal parts, or "all" of
+            them. A copy has the bits that it has in a batch of the size of one part. None: one device.
 
     Returns:
         A Dataset with one variable for each path; dimensions: those of the sweep (its paths, or `point`, with
@@ -115,7 +118,7 @@ def simulate(
         NotFinite: a single run diverges, or all copies diverge.
         Interrupted: on Ctrl-C; its `data` holds the samples recorded before; of a run in pieces the complete
             pieces, if any.
-        DeviceError: the device does not exist.
+        DeviceError: the device does not exist, or fewer devices than `devices`.
         WorkerError: a part of the model cannot be sent to another process, or a process has died.
         OutputExists: `out` exists.
         OutputError: samples cannot be written; those before are in the file.
@@ -134,7 +137,7 @@ def simulate(
     agreement.warn(model.document, world, stacklevel=2)
     copies = trials, sweep, own_noise
     request = SimulationRequest(
-        duration, dt, seed, record, every, *copies, precision, workers, batch, device, accuracy
+        duration, dt, seed, record, every, *copies, precision, workers, batch, device, devices, accuracy
     )
     file = None if out is None else RunOutput(Path(out), force, snapshots)
     return warned(model, request, world, progress, file)

@@ -108,6 +108,19 @@ def use_rounding(separate: bool) -> None:
         use_separate_rounding()
 
 
+def add_devices(parser: argparse.ArgumentParser) -> None:
+    """Add `--devices`."""
+    parser.add_argument(
+        "--devices",
+        type=several,
+        metavar="N",
+        help=(
+            "share trials and sweep points, or the fields of a single run, among N devices of the kind of"
+            " --device, or all"
+        ),
+    )
+
+
 def add_rounding(parser: argparse.ArgumentParser) -> None:
     """Add `--separate-rounding`."""
     parser.add_argument(
@@ -189,6 +202,14 @@ def whole(text: str) -> int:
 
 
 whole.__name__ = "whole number"
+
+
+def several(text: str) -> int | str:
+    """Parse an integer, 0 or above, or `all`."""
+    return text if text == "all" else whole(text)
+
+
+several.__name__ = "whole number or all"
 
 
 def positive(text: str) -> float:

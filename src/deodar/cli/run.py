@@ -44,6 +44,7 @@ OF_A_RECORD = (
     "set",
     "precision",
     "workers",
+    "devices",
     "accuracy",
     "snapshots",
 )
@@ -86,6 +87,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="share trials and sweep points among N processes of one core each",
     )
+    _options.add_devices(parser)
     parser.add_argument(
         "--sweep",
         type=_options.values,
@@ -212,6 +214,7 @@ def _simulate(args: argparse.Namespace) -> int:
             progress=progress,
             workers=args.workers,
             device=args.device,
+            devices=args.devices,
             accuracy=args.accuracy or "default",
             **into,
         )

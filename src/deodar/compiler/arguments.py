@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NotRequired, TypeAlias, TypedDict
+from collections.abc import Mapping
+from typing import NamedTuple, NotRequired, TypeAlias, TypedDict
 
 import numpy as np
 from jax import Array
 
+from deodar.compiler.functions import Constants
 from deodar.element import Arrays
 from deodar.numerics.exact import Exact
 from deodar.numerics.pytree import PyTree
@@ -67,3 +69,21 @@ class ProgramClock(TypedDict):
     records: Array
     start: Exact
     dt: Exact
+
+
+class ProgramArguments(NamedTuple):
+    """The arguments of a chunk and of a reader, in their order; a JAX PyTree.
+
+    Attributes:
+        values, constants, keys, sensed: as of `Chunk`, before `hoist`; batched like the copies.
+        state: state of the copies.
+        whole, real: the clock, as `packed` gives it.
+    """
+
+    values: ProgramValues
+    constants: list[Constants]
+    state: ProgramState
+    keys: NoiseKeys
+    sensed: Mapping[str, EitherArray]
+    whole: EitherArray
+    real: EitherArray

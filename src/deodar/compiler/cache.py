@@ -12,6 +12,7 @@ import functools
 import hashlib
 import os
 import platform
+from collections.abc import Sequence
 from pathlib import Path
 from typing import cast
 
@@ -42,9 +43,15 @@ def folder() -> Path | None:
 
 
 def compile(
-    lowered: Lowered, options: CompilerOptions | None, device: Device, kernels: str = ""
+    lowered: Lowered,
+    options: CompilerOptions | None,
+    device: Device,
+    kernels: str = "",
+    others: Sequence[Device] = (),
 ) -> tuple[Compiled, bool]:
     """Return the executable of a program lowered for a device, and whether it was compiled.
+
+    `others` are the further devices of a program that runs on several.
 
     `kernels` is the version of the compiled kernels that the program may call. XLA knows them by name when a
     program that calls them is read, because tracing it made them known.
@@ -53,8 +60,8 @@ def compile(
     given = cast("dict[str, str | bool] | None", options)  # JAX accepts whole numbers, too
     if place is None:
         return lowered.compile(compiler_options=given), True
-    path = place / key(lowered, options, device, kernels)
-    found = _read(path, lowered, device)
+    path = place / key(lowered, options, device, kernels, others)
+    found = _read(path, lowered, (device, *others))
     if found is not None:
         return found, False
     compiled = lowered.compile(compiler_options=given)
@@ -62,14 +69,20 @@ def compile(
     return compiled, True
 
 
-def key(lowered: Lowered, options: CompilerOptions | None, device: Device, kernels: str = "") -> str:
+def key(
+    lowered: Lowered,
+    options: CompilerOptions | None,
+    device: Device,
+    kernels: str = "",
+    others: Sequence[Device] = (),
+) -> str:
     """Return the file name of a program, equal for equal programs, devices and versions."""
     about = [
         jax.__version__,
         jaxlib.version.__version__,
         device.platform,
         device.device_kind,
-        str(device.id),
+        " ".join(str(d.id) for d in (device, *others)),
         platform.machine(),
         _processor(),
     ]
@@ -107,13 +120,13 @@ def _processor() -> str:
     return platform.processor()
 
 
-def _read(path: Path, lowered: Lowered, device: Device) -> Compiled | None:
+def _read(path: Path, lowered: Lowered, devices: Sequence[Device]) -> Compiled | None:
     try:
         payload = path.read_bytes()
         with contextlib.suppress(OSError):
             os.utime(path)  # mark the file as used: the longest unused files are dropped first
         return serialize_executable.deserialize_and_load(
-            payload, lowered.in_tree, lowered.out_tree, device.client, [device]
+            payload, lowered.in_tree, lowered.out_tree, devices[0].client, [*devices]
         )
     except FileNotFoundError:
         return None

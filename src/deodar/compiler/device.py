@@ -6,6 +6,7 @@ import os
 from typing import Any, Protocol
 
 import jax
+import numpy as np
 
 from deodar.errors import DeviceError
 from deodar.parameters import show
@@ -24,6 +25,12 @@ the process.
 """
 
 INSTALL = "For a graphics processor of NVIDIA type: pip install 'jax[cuda12]'"
+
+ALL = "all"
+"""Every device of a kind, where a number of devices is expected."""
+
+HOST_DEVICES = "XLA_FLAGS=--xla_force_host_platform_device_count"
+"""Setting in the environment that lets the CPU count as several devices."""
 
 
 class Device(Protocol):
@@ -55,6 +62,39 @@ def find(name: str | None = None) -> Device:
             fix="" if _of("gpu") else INSTALL,
         )
     return devices[index]
+
+
+def several(count: int | str | None, kind: str | None = None) -> tuple[Device, ...]:
+    """The first `count` devices of a kind (`cpu`, `gpu`, `cuda`, `rocm`, `tpu`), `all` of them, or with None
+    the one that `find` returns.
+
+    Raises:
+        DeviceError: the number is not valid, or the computer has fewer devices of that kind.
+    """
+    first = find(kind)
+    if count is None:
+        return (first,)
+    wanted = DEFAULT if kind is None else kind.lower()
+    if ":" in wanted and count != 1:
+        raise DeviceError(
+            f"{kind!r} names one device, and devices={count!r} asks for several",
+            fix=f"Give the kind: device={wanted.partition(':')[0]!r}",
+        )
+    if ":" in wanted:
+        return (first,)
+    found = _of(wanted)
+    if isinstance(count, str) and count == ALL:
+        return tuple(found)
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
+        raise DeviceError(f"devices is {show(count)}; expected a number of devices, at least 1, or {ALL!r}")
+    if count > len(found):
+        more = f"; {HOST_DEVICES}={count} in the environment of Python divides the CPU into {count}"
+        raise DeviceError(
+            f"{count} devices of the kind {wanted} are asked for, and this computer has {len(found)}:"
+            f" {', '.join(map(name, found))}",
+            fix=f"Type devices={len(found)} or devices={ALL!r}{more if wanted == 'cpu' else ''}",
+        )
+    return tuple(found[: int(count)])
 
 
 def name(device: Device) -> str:

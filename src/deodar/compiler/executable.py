@@ -9,22 +9,31 @@ from __future__ import annotations
 import contextlib
 import dataclasses as dc
 import functools
-import math
 import time
 from collections.abc import Callable, Generator, Hashable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
+from jax.sharding import Sharding
 from jax.stages import Compiled, Traced
 
 from deodar.compiler import cache, host
 from deodar.compiler import device as devices
-from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
+from deodar.compiler.arguments import (
+    EitherArray,
+    NoiseKeys,
+    ProgramArguments,
+    ProgramClock,
+    ProgramState,
+    ProgramValues,
+)
+from deodar.compiler.batch import Batch
 from deodar.compiler.body import Body, batched
 from deodar.compiler.device import Device
+from deodar.compiler.division import Distribution, DividedCopies, Division
 from deodar.compiler.functions import Constants
 from deodar.compiler.layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
@@ -85,72 +94,15 @@ BUFFER_BYTES = 16 * 2**20
 """Size of the recording buffer of a chunk."""
 
 
-@dc.dataclass(frozen=True)
-class Batch:
-    """The copies of a model that run at once.
-
-    Attributes:
-        points: number of points of a sweep; None without a sweep.
-        trials: number of trials; None without such an axis.
-        sweep: the leaves that differ between points, for each entry of the sweep.
-        begun: number of copies with which a batch began that has fewer now; 0: those that it has. The
-            operations are those of that number, so that the state of the larger batch fits.
-        restarts: whether each copy has a tick of its own at which its time began, under `BEGUN` of the keys.
-        own_noise: whether each point has trial numbers of its own: (points, trials) instead of (trials).
-    """
-
-    points: int | None = None
-    trials: int | None = None
-    sweep: tuple[tuple[Leaf, ...], ...] = ()
-    begun: int = 0
-    restarts: bool = False
-    own_noise: bool = False
-
-    @property
-    def numbered(self) -> tuple[int, ...]:
-        """The shape of the trial numbers."""
-        return (self.points or 1, self.trials or 1) if self.own_noise else (self.trials or 1,)
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The leading axes of batched arrays."""
-        return tuple(n for n in (self.points, self.trials) if n is not None)
-
-    @property
-    def size(self) -> int:
-        """The number of copies."""
-        return math.prod(self.shape)
-
-    @property
-    def planned(self) -> int:
-        """The number of copies for which operations are chosen."""
-        return self.begun or self.size
-
-
-class ProgramArguments(NamedTuple):
-    """The arguments of a chunk and of a reader, in their order; a JAX PyTree.
-
-    Attributes:
-        values, constants, keys, sensed: as of `Chunk`, before `hoist`; batched like the copies.
-        state: state of the copies.
-        whole, real: the clock, as `packed` gives it.
-    """
-
-    values: ProgramValues
-    constants: list[Constants]
-    state: ProgramState
-    keys: NoiseKeys
-    sensed: Mapping[str, EitherArray]
-    whole: EitherArray
-    real: EitherArray
-
-
 class Executable:
     """The compiled functions of one document structure, precision and batch.
 
     Attributes:
         plan: the plan they compute.
-        device: where they run.
+        device: where they run; of several devices the first.
+        distribution: the devices among which a program is divided; None: it runs on one.
+        division: how it is divided among them.
+        part: the copies that one device computes.
         exact: whether every kernel is applied by its matrix, by choice or because of double precision.
         kernels: the compiled kernels that it calls, if there are any.
         traced: how many functions were traced so far; running does not change it.
@@ -166,20 +118,23 @@ class Executable:
         device: Device | None = None,
         exact: bool = False,
         body: Body | None = None,
+        distribution: Distribution | None = None,
     ) -> None:
         began = time.process_time()
+        self.distribution = distribution
         self.device: Device = device or devices.find()
         self.precision, self.exact = precision, exact
         self.batch = batch
+        self.part = batch if distribution is None else distribution.part(batch)
         self.kernels = native.kernels(self.device.platform, precision)
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
             doc,
             lifted,
             exact or precision == "float64",
-            batch.planned,
+            self.part.planned,
             readings="constant" if body is None else "held" if body.holds else "changing",
-            trials=batch.trials or 1,
+            trials=self.part.trials or 1,
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
         self.program = Program(
@@ -187,16 +142,21 @@ class Executable:
             precision,
             self.layout.swept,
             body,
-            copies=batch.size if self.device.platform == "cpu" else 0,
+            copies=self.part.size if self.device.platform == "cpu" else 0,
             kernels=self.kernels,
-            pictures=body is None and batch.points is None,
+            pictures=body is None and batch.points is None and distribution is None,
         )
+        self.division: Division | None = None
+        if distribution is not None:
+            self.division = DividedCopies(distribution, batch, self.program.rebuilt)
         self.body = body
         self.traced = 0
         self.compiled = 0
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
-        values, seed, trials = self.values(doc), np.uint32(0), np.zeros(batch.numbered, np.uint32)
+        seed, trials = np.uint32(0), np.zeros(batch.numbered, np.uint32)
+        values: ProgramValues = self.values(doc)
+        self._example: ProgramArguments | None = None
         self._prepare, constants = self.once(self.program.prepare, values)
         self._init, (state, keys) = self.once(self._start, values, seed, trials)
         if body is not None:
@@ -205,8 +165,13 @@ class Executable:
             shared, state, keys = self.embodied(body.world, state, keys)
             values = {**values, "world": shared}
         sensed = {**self.blind(), **self.program.unseen()}
-        example = (values, constants, state, keys, sensed, *packed({"period": 1}, self.program.dtype))
-        self._example = jax.tree.map(_form, example)
+        now = packed({"period": 1}, self.program.dtype)
+        example = ProgramArguments(values, constants, state, keys, sensed, *now)
+        self._example = (
+            jax.tree.map(_form, example)
+            if self.division is None
+            else jax.tree.map(_form, example, self.division.shardings(example))
+        )
         self.seconds = time.process_time() - began
 
     # ------------------------------------------------------------------------------------------------- values
@@ -223,7 +188,7 @@ class Executable:
 
     def prepare(self, values: ProgramValues) -> list[Constants]:
         """Return the constants of the groups."""
-        return self.call(self._prepare, values)
+        return self._placed(self.call(self._prepare, values), "constants")
 
     def embodied(
         self, world: World, state: ProgramState, keys: NoiseKeys
@@ -249,7 +214,17 @@ class Executable:
 
     def init(self, values: ProgramValues, seed: int, trials: TrialNumbers) -> tuple[ProgramState, NoiseKeys]:
         """Return the state at the start and the noise keys, for the given trials of a seed."""
-        return self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
+        state, keys = self.call(self._init, values, np.uint32(seed), np.asarray(trials, np.uint32))
+        return self._placed(state, "state"), self._placed(keys, "keys")
+
+    def _placed(self, tree: Result, part: str) -> Result:
+        """Return arrays on the devices where a part of the arguments is expected."""
+        if self.division is None or self._example is None:
+            return tree
+        forms: PyTree = getattr(self._example, part)
+        own = {key: forms[key] for key in tree} if isinstance(tree, dict) else forms
+        with precision_context(self.precision):
+            return jax.tree.map(lambda a, form: jax.device_put(a, form.sharding), tree, own)
 
     def chunk(self, ports: Sequence[Port], most: int | None = None) -> tuple[Compiled, int]:
         """Return the executable that steps and records, and the capacity of its buffer in records.
@@ -259,9 +234,7 @@ class Executable:
         key = ("chunk", tuple(ports), most)
         if key not in self._known:
             capacity = min(self.capacity(ports), most or 2**31)
-            chunk, _ = self.compile(
-                lambda *a: self._chunk(ports, capacity, ProgramArguments(*a)), *self._example
-            )
+            chunk = self._divided(lambda *a: self._chunk(ports, capacity, ProgramArguments(*a)))
             self._known[key] = (chunk, capacity)
         return self._known[key]
 
@@ -274,7 +247,13 @@ class Executable:
 
     def new_reader(self, ports: Sequence[Port]) -> Compiled:
         """The same, for a caller that keeps it itself."""
-        return self.compile(lambda *a: self._read(ports, ProgramArguments(*a)), *self._example)[0]
+        return self._divided(lambda *a: self._read(ports, ProgramArguments(*a)))
+
+    def _divided(self, function: Callable[..., Any]) -> Compiled:
+        """Compile a function of the arguments of a program, divided among the devices."""
+        assert self._example is not None
+        whole = function if self.division is None else self.division.divided(function)
+        return self.compile(whole, *self._example)[0]
 
     def look(
         self, values: ProgramValues, constants: list[Constants], sensed: Mapping[str, EitherArray]
@@ -283,7 +262,8 @@ class Executable:
         if not self.program.pictured:
             return {}
         if "look" not in self._known:
-            given = ProgramArguments(*self._example)
+            assert self._example is not None
+            given = self._example
             readings = {ident: given.sensed[ident] for ident in self.program.pictures}
             self._known["look"] = self.compile(
                 lambda values, *rest: self.program.look(_unswept(values), *rest),
@@ -375,11 +355,11 @@ class Executable:
 
     def _batched(self, one: OneCopy[Result], given: ProgramArguments) -> Result:
         values, constants, state, keys = given[:4]
-        if self.batch.trials == 1:
+        if self.part.trials == 1:
             one = _alone(one)
-        elif self.batch.trials is not None:
+        elif self.part.trials is not None:
             # also for models without state and noise
-            one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.batch.trials)
+            one = jax.vmap(one, in_axes=(None, None, 0, 0), axis_size=self.part.trials)
         if self.batch.points is None:
             return one(_unswept(values), constants, state, keys)
         rebuilt = [0 if swept else None for swept in self.program.rebuilt]
@@ -515,6 +495,7 @@ class Executable:
             {**cache.options(self.device), **(options or {})},
             self.device,
             native.version(self.kernels),
+            () if self.distribution is None else self.distribution.devices[1:],
         )
         self.compiled += fresh
         return executable, traced.out_info
@@ -523,8 +504,8 @@ class Executable:
         function, tree = traced.jaxpr, jax.tree.structure(traced.out_info)
 
         def evaluate(*args: Any) -> Any:
-            found = host.evaluate(function, jax.tree.leaves(args))
-            return jax.device_put(jax.tree.unflatten(tree, found), self.device)
+            found = jax.tree.unflatten(tree, host.evaluate(function, jax.tree.leaves(args)))
+            return found if self.division is not None else jax.device_put(found, self.device)
 
         return evaluate
 
@@ -541,9 +522,11 @@ def _unswept(values: ProgramValues) -> ProgramValues:
     return {**values, "swept": ()}
 
 
-def _form(a: Array) -> jax.ShapeDtypeStruct:
-    """Shape and type of an array: all that compiling asks for, so that an executable keeps no state alive."""
-    return jax.ShapeDtypeStruct(a.shape, a.dtype)
+def _form(a: Array, sharding: Sharding | None = None) -> jax.ShapeDtypeStruct:
+    """Shape, type and place of an array: all that compiling asks for, so that an executable keeps no state
+    alive.
+    """
+    return jax.ShapeDtypeStruct(a.shape, a.dtype, sharding=sharding)
 
 
 def _alone(one: OneCopy[Result]) -> OneCopy[Result]:
@@ -566,14 +549,17 @@ def executable(
     device: str | None = None,
     accuracy: str = "default",
     body: Body | None = None,
+    distribution: Distribution | None = None,
 ) -> Executable:
-    """The executable of a document, by default the model's present one, for the CPU or a device; kept by the
-    model, so that it compiles once.
+    """The executable of a document, by default the model's present one, for the CPU, a device or several;
+    kept by the model, so that it compiles once.
 
     `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may
     take what is cheaper and errs by less than 1e-4 in activation.
     """
     batch, doc, place = batch or Batch(), doc or model.document, devices.find(device)
+    if distribution is not None:
+        place = distribution.devices[0]
     if precision not in PRECISIONS:
         raise ParameterError(f"precision is {precision!r}; expected float32 or float64")
     if accuracy not in ACCURACIES:
@@ -583,7 +569,8 @@ def executable(
     lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
-    strategies = () if exact else tuple(strategies_of(doc, lifted, batch.planned, body is not None).items())
+    part = batch if distribution is None else distribution.part(batch)
+    strategies = () if exact else tuple(strategies_of(doc, lifted, part.planned, body is not None).items())
     key = (
         signature(doc),
         strategies,
@@ -595,13 +582,14 @@ def executable(
         devices.name(place),
         native.version(native.kernels(place.platform, precision)),
         body and body.key,
+        distribution and distribution.key,
     )
     if key not in model.programs:
         if doc is model.document:
             model.require()
         elif found := problems(doc):
             raise ModelError(found)
-        request = _Request(key, doc, precision, batch, place, exact, body)
+        request = _Request(key, doc, precision, batch, place, exact, body, distribution)
         while len(model.programs) >= MOST_KEPT:
             del model.programs[next(iter(model.programs))]
         model.programs[key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
@@ -619,9 +607,12 @@ class _Request:
     device: Device | None = dc.field(compare=False)
     exact: bool = dc.field(compare=False)
     body: Body | None = dc.field(compare=False)
+    distribution: Distribution | None = dc.field(compare=False)
 
     def make(self) -> Executable:
-        return Executable(self.doc, self.precision, self.batch, self.device, self.exact, self.body)
+        return Executable(
+            self.doc, self.precision, self.batch, self.device, self.exact, self.body, self.distribution
+        )
 
 
 @functools.lru_cache(maxsize=48)

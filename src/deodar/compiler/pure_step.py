@@ -9,7 +9,8 @@ import numpy as np
 from jax import Array
 
 from deodar.compiler.arguments import ProgramState, ProgramValues
-from deodar.compiler.executable import Batch, executable
+from deodar.compiler.batch import Batch
+from deodar.compiler.executable import executable
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf
 from deodar.compiler.program import Chunk, Port, precision_context

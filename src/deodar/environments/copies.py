@@ -10,7 +10,8 @@ import jax
 import numpy as np
 
 from deodar.batch.driven import driven
-from deodar.compiler.executable import BEGUN, RARELY, Batch, executable
+from deodar.compiler.batch import Batch
+from deodar.compiler.executable import BEGUN, RARELY, executable
 from deodar.environments.loop import ClosedLoop
 from deodar.experiments.observable import Observable
 from deodar.experiments.reader import ReadPlace, with_readers

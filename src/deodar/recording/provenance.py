@@ -37,7 +37,11 @@ def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
         "precision": run.program.precision,
         "world": described(run.world),
         **settings,
-        "made_by": made_by(run.program.device, run.program.precision),
+        "made_by": made_by(
+            run.program.device,
+            run.program.precision,
+            1 if run.program.distribution is None else len(run.program.distribution.devices),
+        ),
     }
 
 
@@ -48,9 +52,9 @@ def stored(doc: Document) -> JsonObject:
     return {"document": data, "arrays": packed}
 
 
-def made_by(device: Any, precision: str = "float32") -> dict[str, str]:
-    """Return versions, device and machine, the cores, because their number changes the order of sums, and the
-    rounding if it is not the default one.
+def made_by(device: Any, precision: str = "float32", devices: int = 1) -> dict[str, str]:
+    """Return versions, device and machine, the cores and the number of devices of a divided program, because
+    they change the order of sums, and the rounding if it is not the default one.
 
     The compiled kernels are named where programs of this precision call them.
     """
@@ -60,6 +64,7 @@ def made_by(device: Any, precision: str = "float32") -> dict[str, str]:
     where = {"device": f"{device.platform} {device.device_kind}"} | (
         {"cores": str(cores())} if device.platform == "cpu" else {}
     )
+    where |= {"devices": str(devices)} if devices > 1 else {}
     rounding = {"rounding": SEPARATELY} if separate_rounding() else {}
     return versions | {"python": platform.python_version(), **where, **rounding, "machine": machine()}
 
@@ -73,6 +78,11 @@ def cores_of(about: Mapping[str, Any]) -> int:
     """Return the number of cores that a record was made with; 1 if it states none."""
     cores = str((about.get("made_by") or {}).get("cores", ""))
     return max(1, int(cores)) if cores.isdecimal() else 1
+
+
+def devices_of(about: Mapping[str, Any]) -> int:
+    """Return the number of devices that shared the run of a record; 1 if it states none."""
+    return int((about.get("made_by") or {}).get("devices", 1))
 
 
 def machine() -> str:

@@ -124,7 +124,7 @@ def request(data: xarray.Dataset, trust: bool = False) -> tuple[Model, dict[str,
         model = Model(document=provenance.document(made), trusted=trust)
         settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
         settings |= {"record": _recorded(made, model), "sweep": made["sweep"] or None}
-        settings |= {key: made.get(key) for key in ("workers", "batch", "device")}
+        settings |= {key: made.get(key) for key in ("workers", "batch", "device", "devices")}
         settings |= {"accuracy": made.get("accuracy", "default"), "own_noise": made.get("own_noise", False)}
     except (KeyError, TypeError, ValueError) as error:
         raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None

@@ -11,8 +11,9 @@ import jax
 import numpy as np
 from jax.typing import DTypeLike
 
+from deodar.compiler.batch import Batch
 from deodar.compiler.body import Body
-from deodar.compiler.executable import Batch, TrialNumbers
+from deodar.compiler.executable import TrialNumbers
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, WorldError

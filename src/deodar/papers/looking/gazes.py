@@ -14,7 +14,8 @@ import numpy as np
 
 from deodar.architectures.looking import looking
 from deodar.batch.simulate import simulate
-from deodar.compiler.executable import Batch, executable
+from deodar.compiler.batch import Batch
+from deodar.compiler.executable import executable
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis

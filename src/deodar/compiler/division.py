@@ -1,0 +1,141 @@
+"""The division of the copies of a batch among several devices."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable, Hashable, Sequence
+from typing import Any, Literal, Protocol
+
+import jax
+import numpy as np
+from jax.sharding import Mesh, NamedSharding, PartitionSpec
+
+from deodar.compiler.arguments import ProgramArguments
+from deodar.compiler.batch import Batch, Divided
+from deodar.compiler.device import Device, name
+from deodar.errors import DeviceError
+
+DEVICES = "devices"
+"""Name of the axis of devices in a mesh."""
+
+
+@dc.dataclass(frozen=True)
+class Distribution:
+    """The request to run one program on several devices.
+
+    Attributes:
+        devices: the devices, at least two of one kind.
+        along: what is divided: the points of a sweep, the trials, or the fields of a single copy.
+    """
+
+    devices: tuple[Device, ...]
+    along: Divided | Literal["field"]
+
+    @property
+    def key(self) -> Hashable:
+        """A key whose change requires a new program."""
+        return (self.along, tuple(map(name, self.devices)))
+
+    def part(self, batch: Batch) -> Batch:
+        """Return the copies that one device computes."""
+        return batch if self.along == "field" else batch.share(self.along, len(self.devices))
+
+    @property
+    def mesh(self) -> Mesh:
+        """The devices as a mesh with one axis."""
+        return Mesh(np.array(self.devices), (DEVICES,))
+
+
+class Division(Protocol):
+    """The division of the programs of an executable: where each array is, and how functions are divided."""
+
+    def shardings(self, given: ProgramArguments) -> ProgramArguments:
+        """Return the sharding of every array of these arguments."""
+        ...
+
+    def divided(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function of the same arguments that computes the same on all devices together."""
+        ...
+
+
+class DividedCopies:
+    """The copies of a batch in equal parts, one for each device.
+
+    Each device runs the program of its own part, and no number passes between devices. A copy has the bits
+    that it has in a batch as large as one part.
+
+    Args:
+        distribution: the devices, and whether they divide points or trials.
+        batch: all copies.
+        rebuilt: for each group of the plan whether its constants differ between points.
+    """
+
+    def __init__(self, distribution: Distribution, batch: Batch, rebuilt: Sequence[bool]) -> None:
+        self._mesh = distribution.mesh
+        shared, first = PartitionSpec(), PartitionSpec(DEVICES)
+        points = first if distribution.along == "points" else shared
+        self._own = first if points is first or batch.points is None else PartitionSpec(None, DEVICES)
+        self._shared, self._points = shared, points
+        self._constants = [points if own else shared for own in rebuilt]
+
+    def shardings(self, given: ProgramArguments) -> ProgramArguments:
+        """Return the sharding of every array of these arguments."""
+        return jax.tree.map(
+            lambda spec, part: jax.tree.map(lambda _: NamedSharding(self._mesh, spec), part),
+            self._specs(given),
+            given,
+            is_leaf=lambda part: isinstance(part, PartitionSpec),
+        )
+
+    def divided(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function of the same arguments that computes the same on all devices together."""
+
+        def whole(*given: Any) -> Any:
+            specs = tuple(self._specs(ProgramArguments(*given)))
+            # without the check of replication: loops carry arrays that begin as equal zeros everywhere
+            return jax.shard_map(
+                function, mesh=self._mesh, in_specs=specs, out_specs=self._own, check_vma=False
+            )(*given)
+
+        return whole
+
+    def _specs(self, given: ProgramArguments) -> Any:
+        """Return for each part of the arguments how it is divided; a part may be a whole PyTree."""
+        values = {**dict.fromkeys(given.values, self._shared), "swept": self._points}
+        return ProgramArguments(
+            values,  # pyright: ignore[reportArgumentType]  # prefixes of the arguments
+            self._constants,  # pyright: ignore[reportArgumentType]
+            self._own,  # pyright: ignore[reportArgumentType]
+            self._own,  # pyright: ignore[reportArgumentType]
+            self._shared,  # pyright: ignore[reportArgumentType]
+            self._shared,  # pyright: ignore[reportArgumentType]
+            self._shared,  # pyright: ignore[reportArgumentType]
+        )
+
+
+def distributed(batch: Batch, devices: tuple[Device, ...]) -> tuple[Distribution | None, Batch]:
+    """Return the distribution of a batch among devices, and the batch with the copies that fill it up.
+
+    The larger number of points or trials is divided. All parts have the size of the largest, and devices that
+    would get none are left out. A single copy has its fields divided.
+
+    Raises:
+        DeviceError: the batch has one trial or point, which is computed as a batch.
+    """
+    if not batch.shape:
+        raise DeviceError(
+            f"a single run cannot be divided among {len(devices)} devices",
+            fix="Give trials or a sweep, whose copies are divided; or leave out devices",
+        )
+    if batch.size == 1:
+        raise DeviceError(
+            f"a batch of one copy cannot be divided among {len(devices)} devices",
+            fix="Leave out trials and sweep, so that the fields are divided; or leave out devices",
+        )
+    points, trials = batch.points or 1, batch.trials or 1
+    copies = max(points, trials)
+    part = -(-copies // len(devices))
+    used = -(-copies // part)
+    if points >= trials:
+        return Distribution(devices[:used], "points"), dc.replace(batch, points=used * part)
+    return Distribution(devices[:used], "trials"), dc.replace(batch, trials=used * part)
