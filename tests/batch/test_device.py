@@ -60,6 +60,7 @@ DIVIDED = """
 import re, jax, numpy as np, deodar as dd
 from deodar.errors import DeodarError
 from tests.batch.test_device import model
+from tests.worlds.arena.test_arena import avoiding
 from deodar.recording.record import about
 def bits(one, other):
     assert one.sizes == other.sizes, (one.sizes, other.sizes)
@@ -90,6 +91,10 @@ for precision in ("float64", "float32"):
             assert used == {len(p.distribution.devices)}
             assert not re.search("all-reduce|all-gather|all-to-all|collective-permute|reduce-scatter", text)
 assert about(one)["devices"] == 8 and about(one)["made_by"]["devices"] == "8"
+robot, loop = avoiding(), dict(record=["pose.output"], every=64, world=dd.Arena("blocks"))
+ways = dict(devices=4), dict(batch=2)
+one, two = (dd.simulate(robot, 64 * 10, trials=8, **loop, **given) for given in ways)
+assert np.array_equal(one["pose.output"].values, two["pose.output"].values)
 three = run(model(), trials=3, devices=8)
 assert about(three)["devices"] == 8 and about(three)["made_by"]["devices"] == "3"
 for given, text in (

@@ -106,7 +106,8 @@ def simulate(
         own_noise: whether each point of a list has noise of its own instead; point 0 has that of a run
             without a sweep.
         devices: number of devices of the kind of `device` that share the copies in equal parts, or "all" of
-            them. A copy has the bits that it has in a batch of the size of one part. None: one device.
+            them. A copy has the bits that it has in a batch of the size of one part. The fields of a single
+            run are divided along an axis. None: one device.
 
     Returns:
         A Dataset with one variable for each path; dimensions: those of the sweep (its paths, or `point`, with
@@ -118,7 +119,8 @@ def simulate(
         NotFinite: a single run diverges, or all copies diverge.
         Interrupted: on Ctrl-C; its `data` holds the samples recorded before; of a run in pieces the complete
             pieces, if any.
-        DeviceError: the device does not exist, or fewer devices than `devices`.
+        DeviceError: the device does not exist, or fewer devices than `devices`; or the fields cannot be
+            divided.
         WorkerError: a part of the model cannot be sent to another process, or a process has died.
         OutputExists: `out` exists.
         OutputError: samples cannot be written; those before are in the file.

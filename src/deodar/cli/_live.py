@@ -161,6 +161,7 @@ def _session(args: argparse.Namespace) -> Session:
         _options.world(args.world),
         device=args.device,
         accuracy=args.accuracy or "default",
+        devices=args.devices,
     )
 
 

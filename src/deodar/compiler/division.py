@@ -122,11 +122,10 @@ def distributed(batch: Batch, devices: tuple[Device, ...]) -> tuple[Distribution
     Raises:
         DeviceError: the batch has one trial or point, which is computed as a batch.
     """
+    if len(devices) == 1:
+        return None, batch
     if not batch.shape:
-        raise DeviceError(
-            f"a single run cannot be divided among {len(devices)} devices",
-            fix="Give trials or a sweep, whose copies are divided; or leave out devices",
-        )
+        return Distribution(devices, "field"), batch
     if batch.size == 1:
         raise DeviceError(
             f"a batch of one copy cannot be divided among {len(devices)} devices",

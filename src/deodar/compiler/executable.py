@@ -39,6 +39,7 @@ from deodar.compiler.layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
 from deodar.compiler.program import Chunk, Port, Program, precision_context
+from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
 from deodar.errors import ModelError, ParameterError, Untrusted
 from deodar.leaves import arrays, resting, structure
@@ -102,6 +103,7 @@ class Executable:
         device: where they run; of several devices the first.
         distribution: the devices among which a program is divided; None: it runs on one.
         division: how it is divided among them.
+        fields: the same, if the fields of one copy are divided.
         part: the copies that one device computes.
         exact: whether every kernel is applied by its matrix, by choice or because of double precision.
         kernels: the compiled kernels that it calls, if there are any.
@@ -126,7 +128,9 @@ class Executable:
         self.precision, self.exact = precision, exact
         self.batch = batch
         self.part = batch if distribution is None else distribution.part(batch)
-        self.kernels = native.kernels(self.device.platform, precision)
+        fields = distribution if distribution is not None and distribution.along == "field" else None
+        # a call of a kernel cannot be divided
+        self.kernels = None if fields is not None else native.kernels(self.device.platform, precision)
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
             doc,
@@ -135,6 +139,10 @@ class Executable:
             self.part.planned,
             readings="constant" if body is None else "held" if body.holds else "changing",
             trials=self.part.trials or 1,
+            devices=1 if fields is None else len(fields.devices),
+        )
+        self.fields = (
+            None if fields is None else DividedFields(fields, self.plan, np.dtype(precision).itemsize)
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
         self.program = Program(
@@ -145,9 +153,10 @@ class Executable:
             copies=self.part.size if self.device.platform == "cpu" else 0,
             kernels=self.kernels,
             pictures=body is None and batch.points is None and distribution is None,
+            tapped=None if self.fields is None else self.fields.tapped,
         )
-        self.division: Division | None = None
-        if distribution is not None:
+        self.division: Division | None = self.fields
+        if distribution is not None and self.fields is None:
             self.division = DividedCopies(distribution, batch, self.program.rebuilt)
         self.body = body
         self.traced = 0
@@ -172,6 +181,8 @@ class Executable:
             if self.division is None
             else jax.tree.map(_form, example, self.division.shardings(example))
         )
+        if self.fields is not None:
+            self.fields.require(self.chunk(())[0].as_text() or "")
         self.seconds = time.process_time() - began
 
     # ------------------------------------------------------------------------------------------------- values
@@ -386,6 +397,8 @@ class Executable:
 
         # between steps arrays have one axis: loops over a short last axis cost up to three times as much
         def flat(state: ProgramState) -> ProgramState:
+            if self.fields is not None:
+                return self.fields.constrained(state)
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
         def steps(n: Array, given: Stepped) -> Stepped:
@@ -432,9 +445,10 @@ class Executable:
 
         begun = clock["tick"], flat(state), program.undrawn(), program.unperceived()
         if not ports:
-            state = full(steps(head, begun)[1])
+            state = self._parts(full(steps(head, begun)[1]))
             return state, (), program.finite(state)
         buffers = tuple(jnp.zeros((capacity, *shape(self.axes(p))), program.dtype) for p in ports)
+        buffers = self._recorded(ports, buffers)
 
         def segment(r: Array, carry: Recorded) -> Recorded:
             stepped, buffers = carry
@@ -448,8 +462,17 @@ class Executable:
             )
 
         (_, state, *_), buffers = lax.fori_loop(0, records, segment, (begun, buffers))
-        state = full(state)
-        return state, buffers, program.finite(state)
+        state = self._parts(full(state))
+        return state, self._recorded(ports, buffers), program.finite(state)
+
+    def _parts(self, state: ProgramState) -> ProgramState:
+        return state if self.fields is None else self.fields.constrained(state)
+
+    def _recorded(self, ports: Sequence[Port], values: tuple[Array, ...]) -> tuple[Array, ...]:
+        if self.fields is None:
+            return values
+        pairs = zip(ports, values, strict=True)
+        return tuple(self.fields.recorded(p.group, p.name, a) for p, a in pairs)
 
     # ---------------------------------------------------------------------------------------------- compiling
 
@@ -570,7 +593,9 @@ def executable(
     neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
     outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
     part = batch if distribution is None else distribution.part(batch)
-    strategies = () if exact else tuple(strategies_of(doc, lifted, part.planned, body is not None).items())
+    devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
+    about = (doc, lifted, part.planned, body is not None, devices_of)
+    strategies = () if exact else tuple(strategies_of(*about).items())
     key = (
         signature(doc),
         strategies,

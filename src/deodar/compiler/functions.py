@@ -5,7 +5,8 @@ kernels.
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping
+import functools
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from jax import Array
@@ -16,6 +17,9 @@ from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
 from deodar.numerics.choice import Choice
 from deodar.numerics.native import Kernels
+
+TappedOver = Callable[[Axes, Array, Array, str, int], Array]
+"""A convolution by lags along one of some axes: the axes, and the arguments of `convolution.tapped`."""
 
 
 class Constants(NamedTuple):
@@ -54,6 +58,7 @@ class Functions:
         choices: for each kind of boundaries how kernels are applied, where not by matrices.
         apart: whether matrices are not multiplied by the amplitudes.
         kernels: compiled kernels for the convolution, if there are any.
+        tapped: the convolution by lags, where devices divide an axis.
     """
 
     def __init__(
@@ -62,9 +67,11 @@ class Functions:
         choices: Mapping[str, Choice],
         apart: bool = False,
         kernels: Kernels | None = None,
+        tapped: TappedOver | None = None,
     ) -> None:
         self.axes, self.choices, self.apart = convolved_axes(node), dict(choices), apart
         self.kernels = kernels
+        self.tapped = None if tapped is None else functools.partial(tapped, self.axes)
         self.convolves = node.element.convolution is not None
 
     def prepare(self, element: Element, at: Setting) -> Constants:
@@ -96,7 +103,9 @@ class Functions:
         mixture = constants.kernels
         return dc.replace(
             at,
-            convolve=lambda y: interaction.apply(mixture, self.axes, y, self.choices, kernels=self.kernels),
+            convolve=lambda y: interaction.apply(
+                mixture, self.axes, y, self.choices, kernels=self.kernels, tapped=self.tapped
+            ),
         )
 
 

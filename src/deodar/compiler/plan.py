@@ -13,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 
+from deodar.compiler.divided_axis import divided_axis
 from deodar.compiler.sharing import shared
 from deodar.compiler.strategies import EXACT, Strategy, strategies
 from deodar.errors import ModelError
@@ -21,7 +22,7 @@ from deodar.model.document import Document
 from deodar.model.order import NodeRole, order
 from deodar.model.resolve import Instant, Node, resolve
 from deodar.numerics.axes import Axes
-from deodar.numerics.choice import MANY
+from deodar.numerics.choice import MANY, Shards
 from deodar.numerics.exact import LOW
 from deodar.parameters import Parameter
 
@@ -123,6 +124,8 @@ class Plan:
     sensors: dict[str, int]
     size: int
     ticks: int
+    shards: Shards | None = None
+    """The axis that devices divide."""
 
     def describe(self) -> str:
         """Return the plan in words, one line per group and call."""
@@ -197,6 +200,7 @@ def plan(
     partition: Partition | None = None,
     readings: Readings = "constant",
     trials: int = 1,
+    devices: int = 1,
 ) -> Plan:
     """The plan of a document.
 
@@ -209,6 +213,11 @@ def plan(
         partition: which nodes share a group; none: `by_structure`.
         readings: how readings of sensors change during a chunk.
         trials: how many of the copies have the same parameters.
+        devices: number of devices that divide the fields of one copy.
+
+    Raises:
+        ModelError: the document has problems.
+        DeviceError: it has no axis that these devices can divide.
     """
     nodes, problems = resolve(doc)
     acts, loops = order(nodes) if not problems else ([], [])
@@ -219,7 +228,8 @@ def plan(
     }
     still = _still(nodes, readings != "constant")
     swept = _swept(nodes, lifted)
-    found = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies)
+    shards = divided_axis(nodes, devices) if devices > 1 else None
+    found = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies, shards)
     if copies // trials >= MANY > trials:
         for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
             found[i] = dc.replace(found[i], apart=True)
@@ -237,17 +247,23 @@ def plan(
     sensors = {
         n.id: k for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if n.element.external)
     }
-    return Plan(groups, calls, reads, row, sensors, size, int(np.lcm.reduce([n.every for n in nodes] or [1])))
+    ticks = int(np.lcm.reduce([n.every for n in nodes] or [1]))
+    return Plan(groups, calls, reads, row, sensors, size, ticks, shards)
 
 
 def strategies_of(
-    doc: Document, lifted: frozenset[Leaf] = frozenset(), copies: int = 1, embodied: bool = False
+    doc: Document,
+    lifted: frozenset[Leaf] = frozenset(),
+    copies: int = 1,
+    embodied: bool = False,
+    devices: int = 1,
 ) -> dict[str, Strategy]:
     """Return the strategy of each element for its kernels, if not matrices."""
     nodes, problems = resolve(doc)
     if problems or order(nodes)[1] or not any(n.element.kernels() for n in nodes):
         return {}
-    found = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies)
+    shards = divided_axis(nodes, devices) if devices > 1 else None
+    found = strategies(nodes, _still(nodes, embodied), _swept(nodes, lifted), copies, shards)
     return {i: strategy for i, strategy in sorted(found.items()) if strategy != EXACT}
 
 

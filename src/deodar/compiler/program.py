@@ -21,15 +21,16 @@ from jax import Array, lax
 
 from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.body import Body
-from deodar.compiler.functions import Constants, StepArguments
+from deodar.compiler.functions import Constants, StepArguments, TappedOver
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
+from deodar.compiler.traffic import scope
 from deodar.element import Arrays, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.native import LEAST_NOISE, Kernels
-from deodar.numerics.noise import block, element_keys, no_block, normal, of_block
+from deodar.numerics.noise import Cells, block, element_keys, no_block, normal, of_block
 
 T = TypeVar("T")
 
@@ -113,6 +114,7 @@ class Program:
     `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
     `kernels`: compiled kernels for parts of the step, if there are any.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
+    `tapped`: the convolution by lags, where devices divide an axis.
     """
 
     def __init__(
@@ -124,6 +126,7 @@ class Program:
         copies: int = 1,
         kernels: Kernels | None = None,
         pictures: bool = False,
+        tapped: TappedOver | None = None,
     ) -> None:
         self.plan = plan
         self.kernels = kernels
@@ -150,7 +153,7 @@ class Program:
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
-        self.functions = [functions(g.like, g.strategy, kernels) for g in plan.groups]
+        self.functions = [functions(g.like, g.strategy, kernels, tapped) for g in plan.groups]
 
     # --------------------------------------------------------------------------------------- prepare and init
 
@@ -246,7 +249,7 @@ class Program:
     def undrawn(self) -> Arrays:
         """The blocks before the first is drawn."""
         rows = {g: self.plan.groups[g].rows for g in self.kept}
-        empty = {g: no_block(_cells(self.plan.groups[g]), self.dtype, self.kernels) for g in self.kept}
+        empty = {g: no_block(self._drawn(g), self.dtype, self.kernels) for g in self.kept}
         return {str(g): jnp.broadcast_to(empty[g], (rows[g], *empty[g].shape)) for g in self.kept}
 
     def draw(self, keys: NoiseKeys, tick: Array, start: Array, drawn: Arrays) -> Arrays:
@@ -454,7 +457,14 @@ class Program:
         return jax.tree.map(lambda a, b: jnp.where(due, a, b), coming, old[g])
 
     def _block(self, g: int, key: Array, tick: Array) -> Array:
-        return block(_cells(self.plan.groups[g]), key, tick, self.dtype)
+        return block(self._drawn(g), key, tick, self.dtype)
+
+    def _drawn(self, g: int) -> Cells:
+        """Return the cells of a row of a group for which noise is drawn; in their shape where devices divide
+        it.
+        """
+        group = self.plan.groups[g]
+        return _cells(group) if self.plan.shards is None else shape(group.noise or ())
 
     def _noise(self, g: int, keys: NoiseKeys, tick: Array, drawn: Array | None = None) -> Array | None:
         group = self.plan.groups[g]
@@ -464,7 +474,8 @@ class Program:
         if drawn is not None:
             return jax.vmap(lambda row: of_block(row, tick))(drawn).reshape(group.rows, *cells)
         own = tick // jnp.uint32(group.like.every)
-        return jax.vmap(lambda key: normal(cells, key, own, self.dtype))(keys[str(g)])
+        shaped = self.plan.shards is not None
+        return jax.vmap(lambda key: normal(cells, key, own, self.dtype, shaped))(keys[str(g)])
 
     def _time(self, clock: ProgramClock, tick: Array, group: RowGroup) -> Time:
         if not clock:
@@ -494,6 +505,8 @@ class Program:
     def _each(self, g: int, fn: Callable[..., T], values: ProgramValues, *args: Any, only: str = "") -> T:
         """fn(element, setting, *args) over the rows of a group, the element bound to its row's parameters."""
         group, at = self.plan.groups[g], self.settings[g]
+        if self.plan.shards is not None:
+            fn = jax.named_scope(scope(group.like.id))(fn)
         own = self._leaves(g, values)
 
         def one(own: Arrays, *args: Any) -> T:

@@ -13,7 +13,7 @@ import dataclasses as dc
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from deodar.compiler.functions import Functions, StepArguments, run_advance, run_output
+from deodar.compiler.functions import Functions, StepArguments, TappedOver, run_advance, run_output
 from deodar.compiler.strategies import EXACT, Strategy, acted_axes, role
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.errors import ModelError
@@ -126,16 +126,20 @@ def _upstream_first(nodes: Sequence[Node]) -> list[Node]:
 # ------------------------------------------------------------------------------------------ wrapped functions
 
 
-def functions(node: Node, strategy: Strategy, kernels: Kernels | None = None) -> Functions:
+def functions(
+    node: Node, strategy: Strategy, kernels: Kernels | None = None, tapped: TappedOver | None = None
+) -> Functions:
     """Return the functions of a group whose rows have the structure of the node."""
     if not strategy.shared:
-        return Functions(node, dict(strategy.choices), strategy.apart, kernels)
-    return (SharingSource if role(node) == "source" else SharingFilter)(node, strategy, kernels)
+        return Functions(node, dict(strategy.choices), strategy.apart, kernels, tapped)
+    return (SharingSource if role(node) == "source" else SharingFilter)(node, strategy, kernels, tapped)
 
 
 class _Sharing(Functions):
-    def __init__(self, node: Node, strategy: Strategy, kernels: Kernels | None) -> None:
-        super().__init__(node, dict(strategy.choices), strategy.apart, kernels)
+    def __init__(
+        self, node: Node, strategy: Strategy, kernels: Kernels | None, tapped: TappedOver | None
+    ) -> None:
+        super().__init__(node, dict(strategy.choices), strategy.apart, kernels, tapped)
         self.key, self.waves = strategy.shared, dict(strategy.choices)[strategy.shared].waves
 
 
@@ -154,7 +158,8 @@ class SharingSource(_Sharing):
         def convolve(y: Array) -> Array:
             calls.append(y)
             modes = interaction.SharedModes(self.key, given["output" + WAVES], given["input" + WAVES])
-            return interaction.apply(read.constants.kernels, self.axes, y, self.choices, modes, self.kernels)
+            mixture, own = read.constants.kernels, (modes, self.kernels, self.tapped)
+            return interaction.apply(mixture, self.axes, y, self.choices, *own)
 
         inputs = plain_ports(given) | {"input": given["input" + REST]}
         new = run_advance(element, dc.replace(at, convolve=convolve), read._replace(inputs=inputs), time)

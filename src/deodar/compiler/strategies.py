@@ -21,7 +21,7 @@ from deodar.model.document import Document
 from deodar.model.resolve import Node
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes
-from deodar.numerics.choice import Choice, by_matrices, together
+from deodar.numerics.choice import Choice, Shards, by_matrices, together
 
 
 @dc.dataclass(frozen=True)
@@ -90,7 +90,11 @@ def widths(doc: Document) -> dict[str, Hashable]:
 
 
 def strategies(
-    nodes: Sequence[Node], still: Mapping[str, bool], exact: Collection[str], copies: int = 1
+    nodes: Sequence[Node],
+    still: Mapping[str, bool],
+    exact: Collection[str],
+    copies: int = 1,
+    shards: Shards | None = None,
 ) -> dict[str, Strategy]:
     """Return the strategy of every node.
 
@@ -99,6 +103,7 @@ def strategies(
         still: for each node whether it is constant during a chunk.
         exact: ids of nodes that use matrices.
         copies: number of copies of the whole model that run at once.
+        shards: the axis that devices divide.
     """
     alike = Counter(_likeness(n) for n in nodes)
     out: dict[str, Strategy] = {}
@@ -106,18 +111,22 @@ def strategies(
         own = (
             {}
             if n.id in exact
-            else interaction.choices(n.element.kernels(), acted_axes(n), copies * alike[_likeness(n)])
+            else interaction.choices(n.element.kernels(), acted_axes(n), copies * alike[_likeness(n)], shards)
         )
         out[n.id] = Strategy(_sorted(own))
     free = [n for n in nodes if role(n) and not still[n.id] and n.id not in exact and acted_axes(n)]
-    for members, key, choice in _merged(list(_cycles(free, out, copies)), free, out, copies):
+    for members, key, choice in _merged(list(_cycles(free, out, copies, shards)), free, out, copies, shards):
         for n in members:
             out[n.id] = Strategy(_sorted({**dict(out[n.id].choices), key: choice}), key)
     return out
 
 
 def _merged(
-    cycles: Sequence[Cycle], free: Sequence[Node], alone: Mapping[str, Strategy], copies: int
+    cycles: Sequence[Cycle],
+    free: Sequence[Node],
+    alone: Mapping[str, Strategy],
+    copies: int,
+    shards: Shards | None,
 ) -> Iterator[Cycle]:
     """Yield cycles, merged where that costs little more: cycles over the same axes with the same spectral
     modes, and fields that would use spectral modes on their own. This gives fewer groups.
@@ -135,7 +144,7 @@ def _merged(
         ]
         beside = [n for n in beside if getattr(dict(alone[n.id].choices).get(key), "method", "") == "waves"]
         everyone = [n for n in free if n.id in inside | {n.id for n in beside}]
-        choice = _waves_of(everyone, key, copies)
+        choice = _waves_of(everyone, key, copies, shards)
         apart = sum(_shared_cost(members, key, own) for members, _, own in found) + sum(
             _alone(n, key, alone, axes, copies) for n in beside
         )
@@ -145,7 +154,9 @@ def _merged(
             yield from found
 
 
-def _cycles(free: Sequence[Node], alone: Mapping[str, Strategy], copies: int) -> Iterator[Cycle]:
+def _cycles(
+    free: Sequence[Node], alone: Mapping[str, Strategy], copies: int, shards: Shards | None
+) -> Iterator[Cycle]:
     """Yield nodes that are linked through filters of one kind of boundaries, if sharing spectral modes is
     cheaper than using them separately.
     """
@@ -169,7 +180,7 @@ def _cycles(free: Sequence[Node], alone: Mapping[str, Strategy], copies: int) ->
                     todo.append(i)
         taken |= members
         found = [n for n in free if n.id in members]
-        choice = _waves_of(found, key, copies)
+        choice = _waves_of(found, key, copies, shards)
         apart = sum(_alone(n, key, alone, acted_axes(n), copies) for n in found if role(n) != "gain")
         if any(role(n) == "source" for n in found) and _shared_cost(found, key, choice) < apart:
             yield found, key, choice
@@ -180,11 +191,11 @@ def _linked(a: Node, b: Node) -> bool:
     return acted_axes(a) == acted_axes(b) and a.every == b.every and not role(a) == role(b) == "source"
 
 
-def _waves_of(members: Sequence[Node], key: str, copies: int) -> Choice:
+def _waves_of(members: Sequence[Node], key: str, copies: int, shards: Shards | None) -> Choice:
     """Return the spectral modes that all kernels of these nodes need."""
     axes = acted_axes(members[0])
     terms = [span for n in members for span in interaction.spans(n.element.kernels(), axes).get(key, ())]
-    return together(axes, tuple(key.split()), interaction.covering(terms), copies * len(members))
+    return together(axes, tuple(key.split()), interaction.covering(terms), copies * len(members), shards)
 
 
 def _shared_cost(members: Sequence[Node], key: str, choice: Choice) -> float:

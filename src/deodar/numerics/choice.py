@@ -62,6 +62,30 @@ including their preparation.
 """
 
 
+LINK_NS, LINK_CALL_NS = 0.05, 5000.0
+"""Time of a byte between two devices, ns, and of an exchange (a guess: 20 GB/s)."""
+
+
+@dataclass(frozen=True)
+class Shards:
+    """An axis that several devices divide into equal parts.
+
+    Attributes:
+        axis: its name.
+        samples: its number of samples; axes of that name with another number are not divided.
+        devices: number of devices.
+    """
+
+    axis: str
+    samples: int
+    devices: int
+
+    def index(self, axes: Axes) -> int | None:
+        """Return the index of the divided axis among axes; None if it is not there."""
+        same = [d for d, a in enumerate(axes) if (a.name, a.samples) == (self.axis, self.samples)]
+        return same[0] if same else None
+
+
 @dataclass(frozen=True)
 class Choice:
     """The strategy for a sum of kernels, and its cost: `matrices`, `taps` (with their reach along each axis),
@@ -91,10 +115,14 @@ def choose(
     widths: tuple[tuple[float, float], ...],
     terms: int,
     copies: int = 1,
+    shards: Shards | None = None,
 ) -> Choice:
     """Return the cheapest strategy for `terms` kernels and `copies` copies, from bounds on the widths (in
-    axis units) along each axis.
+    axis units) along each axis. `shards` is an axis that devices divide.
     """
+    if shards is not None and shards.index(axes) is not None:
+        found = between_devices(axes, boundaries, widths, terms, shards)
+        return min(found, key=lambda c: c.nanoseconds, default=by_matrices(axes, terms, copies))
     return min(candidates(axes, boundaries, widths, terms, copies), key=lambda c: c.nanoseconds)
 
 
@@ -117,13 +145,53 @@ def candidates(
     return found
 
 
+def between_devices(
+    axes: Axes,
+    boundaries: tuple[str, ...],
+    widths: tuple[tuple[float, float], ...],
+    terms: int,
+    shards: Shards,
+) -> list[Choice]:
+    """Return the strategies for a field whose axis is divided: those that exchange less than the field, each
+    with the cost of its operations on one device and of what the devices exchange.
+    """
+    index = shards.index(axes)
+    assert index is not None
+    found: list[Choice] = []
+    cells = math.prod(a.samples for a in axes)
+    few = _divided(_few(axes, boundaries, widths), index)
+    modes = math.prod(w.count for w in few)
+    if _fit(few) and modes < cells:
+        traffic = 4 * modes
+        cost = _transforms(few, MANY) / shards.devices + LINK_NS * traffic + LINK_CALL_NS
+        found.append(Choice("waves", few, (), cost))
+    reaches = tuple(_reach(axis, widest) for axis, (_, widest) in zip(axes, widths, strict=True))
+    halo, part = reaches[index], shards.samples // shards.devices
+    inside = all(2 * r < a.samples for a, r in zip(axes, reaches, strict=True)) and halo <= part
+    if len(axes) <= 2 and inside and 2 * halo * terms < shards.samples:
+        sums = terms if len(axes) > 1 else 1
+        operations = TAP_PLANE_NS * cells * sum(reaches) / shards.devices
+        traffic = 4 * 2 * halo * cells // shards.samples
+        cost = sums * (operations + LINK_NS * traffic + 2 * LINK_CALL_NS)
+        found.append(Choice("taps", (), reaches, cost))
+    return found
+
+
 def together(
-    axes: Axes, boundaries: tuple[str, ...], widths: tuple[tuple[float, float], ...], copies: int
+    axes: Axes,
+    boundaries: tuple[str, ...],
+    widths: tuple[tuple[float, float], ...],
+    copies: int,
+    shards: Shards | None = None,
 ) -> Choice:
     """Return the spectral modes in which kernels between these widths are summed, with the cost of both
     transforms per copy.
     """
     few = _few(axes, boundaries, widths)
+    index = None if shards is None else shards.index(axes)
+    if index is not None:
+        few = _divided(few, index)
+        return Choice("waves", few, (), _transforms(few, MANY) if _fit(few) else math.inf)
     return by_waves(few, copies)[-1] if _fit(few) else Choice("waves", few, (), math.inf)
 
 
@@ -188,6 +256,11 @@ def _by_taps(axes: Axes, widths: Sequence[tuple[float, float]], terms: int) -> l
     cells = math.prod(a.samples for a in axes)
     padded = [cells * (1 + 2 * r / a.samples) * r for a, r in zip(axes, reaches, strict=True)]
     return [Choice("taps", (), reaches, terms * sum(CALL_NS + TAP_PLANE_NS * n for n in padded))]
+
+
+def _divided(waves: tuple[Waves, ...], index: int) -> tuple[Waves, ...]:
+    """Return the modes with one axis divided among devices."""
+    return tuple(dataclasses.replace(w, divided=d == index) for d, w in enumerate(waves))
 
 
 def _reach(axis: Axis, widest: float) -> int:

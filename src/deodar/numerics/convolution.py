@@ -80,7 +80,12 @@ def tapped(weights: Array, y: Array, boundary: str, axis: int = 0, kernels: Kern
     first, last = lax.slice_in_dim(y, 0, reach, axis=axis), lax.slice_in_dim(y, n - reach, n, axis=axis)
     nothing = jnp.zeros_like(first)
     sides = {"periodic": (last, first), "reflect": (lax.rev(first, (axis,)), lax.rev(last, (axis,)))}
-    before, after = sides.get(boundary, (nothing, nothing))
+    return lagged(weights, *sides.get(boundary, (nothing, nothing)), y, axis)
+
+
+def lagged(weights: Array, before: Array, after: Array, y: Array, axis: int) -> Array:
+    """Return the sum of shifted copies of an array along one axis, which continues `before` and `after`."""
+    reach, n = weights.shape[0] - 1, y.shape[axis]
     wide = lax.concatenate([before, y, after], axis)
     # XLA uses vectors where all copies are parts of one long line, in which rows keep their padding until the
     # sum is complete. Zeros at the end of the line cost less than a longer sum, which has a branch per sample
@@ -91,12 +96,12 @@ def tapped(weights: Array, y: Array, boundary: str, axis: int = 0, kernels: Kern
     elif y.ndim > 1:  # otherwise every copy would be computed again from what it is a copy of
         line = lax.optimization_barrier(line)
 
-    def lagged(k: int) -> Array:
+    def shifted(k: int) -> Array:
         return lax.slice_in_dim(line, (reach + k) * step, (reach + k) * step + count)
 
-    total = weights[0] * lagged(0)
+    total = weights[0] * shifted(0)
     for k in range(1, reach + 1):
-        total = total + weights[k] * (lagged(-k) + lagged(k))
+        total = total + weights[k] * (shifted(-k) + shifted(k))
     if axis == 0:
         return total.reshape(y.shape)
     return lax.slice_in_dim(total.reshape(wide.shape), 0, n, axis=axis)

@@ -9,7 +9,8 @@ own matrices or spectra.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+import functools
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias, TypedDict
 
 import jax.numpy as jnp
@@ -19,7 +20,7 @@ from jax.typing import DTypeLike
 from deodar.leaves import per_axis
 from deodar.numerics import convolution
 from deodar.numerics.axes import Axes, Axis
-from deodar.numerics.choice import Choice, bounds, bucket, choose
+from deodar.numerics.choice import Choice, Shards, bounds, bucket, choose
 from deodar.numerics.kernels._base import Kernel, Term
 from deodar.numerics.native import Kernels
 from deodar.numerics.scalar import Scalar
@@ -80,6 +81,9 @@ class SharedModes(NamedTuple):
     arriving: Array | None
 
 
+Tapped: TypeAlias = Callable[[Array, Array, str, int], Array]
+"""A convolution by lags along one axis: weights, array, boundary and axis, as `convolution.tapped`."""
+
 Mixture: TypeAlias = NodeMixture | FieldMixture
 """The mixed weights of several kernels."""
 
@@ -116,10 +120,14 @@ def covering(found: Sequence[tuple[tuple[float, float], ...]]) -> tuple[tuple[fl
     )
 
 
-def choices(kernels: Sequence[Kernel], axes: Axes, copies: int = 1) -> dict[str, Choice]:
-    """Return, for each kind of boundaries, the joint strategy of its Gaussian kernels, if not matrices."""
+def choices(
+    kernels: Sequence[Kernel], axes: Axes, copies: int = 1, shards: Shards | None = None
+) -> dict[str, Choice]:
+    """Return, for each kind of boundaries, the joint strategy of its Gaussian kernels, if not matrices;
+    `shards` is an axis that devices divide.
+    """
     found = {
-        key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies)
+        key: choose(axes, tuple(key.split()), covering(terms), len(terms), copies, shards)
         for key, terms in spans(kernels, axes).items()
     }
     return {key: choice for key, choice in found.items() if choice.method != "matrices"}
@@ -187,11 +195,13 @@ def apply(
     chosen: Mapping[str, Choice] | None = None,
     shared: SharedModes | None = None,
     kernels: Kernels | None = None,
+    tapped: Tapped | None = None,
 ) -> Array:
     """Return the integral k(x - x') y(x') dx' of the mixed kernels; on a node the sum of amplitudes times y.
 
     `chosen` are the choices with which the kernels were prepared, `shared` the modes that this array shares
-    with others. `kernels` are compiled kernels for what is expensive, if there are any.
+    with others. `kernels` are compiled kernels for what is expensive, if there are any. `tapped` convolves
+    along one axis by lags.
     """
     key, own, arriving = shared or ("", None, None)
     if "gain" in mixture:
@@ -207,7 +217,9 @@ def apply(
         )
         parts.append(convolution.spectral(spectrum, y, axes, ends.split(), sizes))
     parts += [
-        _tapped(taps, y, ends.split(), kernels) for ends, terms in mixture["taps"].items() for taps in terms
+        _tapped(taps, y, ends.split(), tapped or functools.partial(convolution.tapped, kernels=kernels))
+        for ends, terms in mixture["taps"].items()
+        for taps in terms
     ]
     for ends, gains in mixture["waves"].items():
         assert chosen is not None
@@ -226,12 +238,12 @@ def boundaries(kernel: Kernel, axes: Axes) -> str:
     return " ".join(convolution.boundaries(kernel.boundary, axes))
 
 
-def _tapped(taps: Sequence[Array], y: Array, ends: Sequence[str], kernels: Kernels | None) -> Array:
+def _tapped(taps: Sequence[Array], y: Array, ends: Sequence[str], along: Tapped) -> Array:
     """Convolve along each axis in turn, the first one last: its rows have no padding, so that XLA fuses the
     sum with what reads it.
     """
     for d in reversed(range(len(taps))):
-        y = convolution.tapped(taps[d], y, ends[d], d, kernels)
+        y = along(taps[d], y, ends[d], d)
     return y
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import jax
 import jax.numpy as jnp
@@ -72,17 +73,30 @@ def element_keys(seed: Array | int, trial: Array | int, idents: Array | np.ndarr
     return jnp.stack(words, axis=-1)
 
 
-def bits(cells: int, key: Array, block: Array) -> tuple[Array, Array]:
+Cells: TypeAlias = int | tuple[int, ...]
+"""A number of cells, or the shape in which they lie; they are numbered in C order."""
+
+
+def bits(cells: Cells, key: Array, block: Array) -> tuple[Array, Array]:
     """Return two uint32 for each cell: counter (cell, block)."""
     return words(cells, 0, key, block)
 
 
-def words(cells: int, first: int, key: Array, block: Array) -> tuple[Array, Array]:
+def words(cells: Cells, first: int, key: Array, block: Array) -> tuple[Array, Array]:
     """Return two uint32 for each of the cells from number `first` on: counter (cell, block)."""
-    counter = jnp.arange(cells, dtype=jnp.uint32)
+    counter = jnp.arange(cells, dtype=jnp.uint32) if isinstance(cells, int) else _numbers(cells)
     if first:
         counter = counter + jnp.uint32(first)
-    return threefry(counter, jnp.full((cells,), block, jnp.uint32), key[0], key[1])
+    return threefry(counter, jnp.full(counter.shape, block, jnp.uint32), key[0], key[1])
+
+
+def _numbers(shape: tuple[int, ...]) -> Array:
+    """Return the number of each cell, in a form of which devices compute parts along any axis."""
+    parts = [
+        lax.broadcasted_iota(jnp.uint32, shape, d) * jnp.uint32(math.prod(shape[d + 1 :]))
+        for d in range(len(shape))
+    ]
+    return functools.reduce(lax.add, parts, jnp.zeros(shape, jnp.uint32))
 
 
 def box_muller(one: Array, two: Array, dtype: DTypeLike) -> tuple[Array, Array]:
@@ -93,16 +107,17 @@ def box_muller(one: Array, two: Array, dtype: DTypeLike) -> tuple[Array, Array]:
     return radius * _sine(two, dtype), radius * _cosine(two, dtype)
 
 
-@functools.partial(jax.jit, static_argnames=("shape", "dtype"))
-def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) -> Array:
-    """Return standard normal deviates of one tick, computed in `dtype`.
+@functools.partial(jax.jit, static_argnames=("shape", "dtype", "shaped"))
+def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike, shaped: bool = False) -> Array:
+    """Return standard normal deviates of one tick, computed in `dtype`; along one line of cells, which is
+    faster, or in their shape, which devices can divide.
 
     Block `tick // 2` gives two words a, b for each cell (in C order). With u = (a >> 9 + 1/2) / 2^23 and v
     the same of b, the pair is sqrt(-2 ln u) sin(2 pi v), the first, on even ticks, and sqrt(-2 ln u) cos(2 pi
     v), the second, on odd ones. The 23 bits are those that float32 holds exactly, so that both precisions
     draw the same numbers; the formula is then computed in `dtype`.
     """
-    a, b = bits(math.prod(shape), key, tick >> jnp.uint32(1))
+    a, b = bits(shape if shaped else math.prod(shape), key, tick >> jnp.uint32(1))
     odd = (tick & jnp.uint32(1)).astype(bool)
     radius, turn = _radius(a, dtype), uniform(b)
     wave = jnp.where(odd, _cosine(turn, dtype), _sine(turn, dtype))
@@ -110,8 +125,8 @@ def normal(shape: tuple[int, ...], key: Array, tick: Array, dtype: DTypeLike) ->
 
 
 @functools.partial(jax.jit, static_argnames=("cells", "dtype"))
-def block(cells: int, key: Array, tick: Array, dtype: DTypeLike) -> Array:
-    """Return the deviates of both ticks of the block of `tick`, shape (cells,): the even one as the real part
+def block(cells: Cells, key: Array, tick: Array, dtype: DTypeLike) -> Array:
+    """Return the deviates of both ticks of the block of `tick` for each cell: the even one as the real part
     of a complex number, the odd one as the imaginary part.
 
     As one array they have one loop, where the integers are computed once. They equal those of `normal` up to
@@ -122,17 +137,17 @@ def block(cells: int, key: Array, tick: Array, dtype: DTypeLike) -> Array:
     return lax.complex(radius * _sine(turn, dtype), radius * _cosine(turn, dtype))
 
 
-def no_block(cells: int, dtype: DTypeLike, kernels: Kernels | None = None) -> Array:
+def no_block(cells: Cells, dtype: DTypeLike, kernels: Kernels | None = None) -> Array:
     """Return zeros of the shape and type of a block: that of `block`, or that of the compiled kernels, where
     the deviates of both ticks are rows, shape (2, cells).
     """
     if kernels is not None:
         return jnp.zeros((2, cells), dtype)
-    return jnp.zeros((cells,), jnp.result_type(dtype, jnp.complex64))
+    return jnp.zeros(cells, jnp.result_type(dtype, jnp.complex64))
 
 
 def of_block(drawn: Array, tick: Array) -> Array:
-    """Return the deviates of one of the two ticks of a block, shape (cells,)."""
+    """Return the deviates of one of the two ticks of a block."""
     odd = tick & jnp.uint32(1)
     if not jnp.iscomplexobj(drawn):
         return lax.dynamic_index_in_dim(drawn, odd.astype(jnp.int32), keepdims=False)

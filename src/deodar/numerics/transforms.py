@@ -59,8 +59,10 @@ def _any_folded(waves: Sequence[Waves]) -> bool:
 
 def _order(waves: Sequence[Waves]) -> list[int]:
     """Return the order in which axes are transformed, up to 30 % faster than others because of the memory
-    layout of the products.
+    layout of the products; an axis that devices divide comes last.
     """
+    if any(w.divided for w in waves):
+        return sorted(range(len(waves)), key=lambda d: (waves[d].divided, -d))
     return [1, 0] if len(waves) == 2 else _folded_order(waves)
 
 

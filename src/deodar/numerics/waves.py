@@ -34,6 +34,8 @@ class Waves:
         by_symmetry: whether symmetric and antisymmetric modes are apart; within each parity if both hold. The
             former are the same at the mirror image of a sample, the latter opposite. The mirror is in the
             middle of the axis, or of its first half if modes are apart by parity as well.
+        divided: whether devices divide the samples; the axis is then transformed last, so that the sum over
+            devices has few numbers.
     """
 
     boundary: str
@@ -42,6 +44,7 @@ class Waves:
     highest: int
     by_parity: bool = False
     by_symmetry: bool = False
+    divided: bool = False
 
     @property
     def classes(self) -> int:

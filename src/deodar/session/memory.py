@@ -12,6 +12,7 @@ from deodar.errors import TooLarge
 from deodar.leaves import is_neutral, leaves
 from deodar.model.resolve import Node
 from deodar.numerics.axes import Axes, shape
+from deodar.numerics.choice import Shards
 
 SHARE = 0.8
 """Share of the free memory that a run may use (a guess that leaves enough for other programs)."""
@@ -77,6 +78,16 @@ def copy_bytes(nodes: list[Node], precision: str, rebuilt: Collection[str] = (),
     """
     constants = sum(_constants(n) for n in nodes if n.id in rebuilt)
     return _size(precision) * (sum(_cells(n) for n in nodes) + constants // trials)
+
+
+def device_bytes(nodes: list[Node], precision: str, shards: Shards) -> int:
+    """Return about how many bytes one of several devices needs that divide an axis."""
+
+    def part(axes: Axes) -> float:
+        return math.prod(shape(axes)) / (1 if shards.index(axes) is None else shards.devices)
+
+    cells = sum(part(axes) for n in nodes for axes in [*n.outs.values(), *n.ins.values()])
+    return round(_size(precision) * (COPIES * cells + sum(_constants(n) for n in nodes)))
 
 
 def _size(precision: str) -> int:

@@ -13,12 +13,15 @@ import numpy as np
 
 from deodar import renamed
 from deodar.compiler.arguments import ProgramValues
+from deodar.compiler.batch import Batch
+from deodar.compiler.device import several
+from deodar.compiler.division import distributed
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.layout import require_range
 from deodar.compiler.plan import strategies_of
 from deodar.compiler.program import Port
 from deodar.compiler.strategies import widths
-from deodar.errors import ModelError, ParameterError, TimeError, UnknownName, WorldError
+from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError
 from deodar.leaves import step_limits
 from deodar.model import edit, find
 from deodar.model.document import Document
@@ -66,6 +69,8 @@ class Session:
         device: cpu, gpu, or one of several as gpu:1; None: the CPU.
         accuracy: default, or exact: every kernel is applied as a matrix, however slow (float64 always does
             so).
+        devices: number of devices of the kind of `device` that divide the fields, or "all" of them; None: one
+            device.
 
     Attributes:
         device: the device, as given.
@@ -88,9 +93,11 @@ class Session:
         trial: int = 0,
         device: str | None = None,
         accuracy: str = "default",
+        devices: int | str | None = None,
     ) -> None:
         self._model = model
         self.device, self._accuracy = device, accuracy
+        self._distribution = distributed(Batch(), several(devices, device))[0]
         self._precision = precision
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
@@ -147,7 +154,16 @@ class Session:
         return costs(self.moment(), seconds)
 
     def moment(self) -> StepInputs:
-        """Return the inputs of the next step, for measuring costs; another thread may use them."""
+        """Return the inputs of the next step, for measuring costs; another thread may use them.
+
+        Raises:
+            DeviceError: several devices divide the fields, so that no element is computed alone.
+        """
+        if self._distribution is not None:
+            raise DeviceError(
+                f"costs are measured on one device, and {len(self._distribution.devices)} divide the fields",
+                fix="Make a session without devices",
+            )
         return moment(self._run)
 
     def reset(self, seed: int | None = None) -> None:
@@ -243,7 +259,12 @@ class Session:
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
         """Compile the program that this session would run a document with; `model` caches it."""
         return executable(
-            model or self._model, document, self._precision, device=self.device, accuracy=self._accuracy
+            model or self._model,
+            document,
+            self._precision,
+            device=self.device,
+            accuracy=self._accuracy,
+            distribution=self._distribution,
         )
 
     def precompile(self, program: Executable) -> None:
@@ -262,11 +283,11 @@ class Session:
         if "rebuild" not in {cost for _, _, cost, _ in changed}:
             return "live"
         exact, old = self._accuracy == "exact" or self._precision == "float64", self.document
-        return (
-            "rebuild"
-            if exact or widths(old) == widths(document) or strategies_of(old) == strategies_of(document)
-            else "recompile"
-        )
+        if exact or widths(old) == widths(document):
+            return "rebuild"
+        count = 1 if self._distribution is None else len(self._distribution.devices)
+        same = strategies_of(old, devices=count) == strategies_of(document, devices=count)
+        return "rebuild" if same else "recompile"
 
     def read(self, path: str | Handle) -> np.ndarray:
         """Return the present value of a port: an array over the port's axes, of shape () for a node.

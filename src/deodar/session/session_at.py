@@ -72,7 +72,9 @@ def session_at(
             fix="Record a single run",
         )
     options = {
-        key: settings[key] for key in ("dt", "seed", "precision", "device", "accuracy") if key in settings
+        key: settings[key]
+        for key in ("dt", "seed", "precision", "device", "devices", "accuracy")
+        if key in settings
     }
     session = Session(model, world=world or world_of(data), **options)
     tick = whole(time - session.time, session.dt, "the time from the start")

@@ -1,0 +1,225 @@
+"""The fields of one copy, divided among several devices along one axis.
+
+Everything over that axis lies in parts, one for each device; everything else is on all of them. The compiler
+of JAX divides the operations (`jit` with shardings); this module chooses the axis, states how many bytes pass
+between devices in a step, and refuses models for which that would be whole fields.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array, lax
+from jax.sharding import NamedSharding, PartitionSpec
+
+from deodar.compiler.arguments import ProgramArguments, ProgramState
+from deodar.compiler.division import DEVICES, Distribution
+from deodar.compiler.functions import convolved_axes
+from deodar.compiler.plan import Plan, RowGroup
+from deodar.compiler.traffic import Traffic, collectives
+from deodar.errors import DeviceError
+from deodar.numerics import convolution, interaction
+from deodar.numerics.axes import Axes, shape
+from deodar.numerics.choice import Shards
+
+AGREEMENT = 1.2
+"""Largest ratio of the traffic of a compiled program to the planned one."""
+
+SCALARS = 64
+"""Bytes of sums to single numbers that every group of elements may add, such as global inhibition."""
+
+
+def planned(plan: Plan, itemsize: int) -> list[Traffic]:
+    """Return the bytes that each element of a divided plan exchanges in a step that computes it.
+
+    Sums over the divided axis are counted by the size of their result, exchanges with neighbours by what a
+    device receives.
+
+    Raises:
+        DeviceError: an element would exchange whole fields.
+    """
+    shards = plan.shards
+    assert shards is not None
+    found = [_of_group(group, shards, itemsize) for group in plan.groups if not group.still]
+    return [traffic for each in found for traffic in each]
+
+
+def _of_group(group: RowGroup, shards: Shards, itemsize: int) -> Iterator[Traffic]:
+    like = group.like
+    axes = convolved_axes(like)
+    if shards.index(axes) is not None:
+        yield from _of_kernels(group, axes, shards, itemsize)
+        return
+    reads = any(shards.index(like.ins[port]) is not None for port in like.reads if port in like.ins)
+    shows = any(shards.index(a) is not None for a in like.outs.values())
+    if reads and not shows:  # it sums over the axis
+        size = sum(math.prod(shape(a)) for a in like.outs.values())
+        yield Traffic(like.id, like.path, "sum", group.rows * size * itemsize)
+
+
+def _of_kernels(group: RowGroup, axes: Axes, shards: Shards, itemsize: int) -> Iterator[Traffic]:
+    like, index, whole = group.like, shards.index(axes), math.prod(shape(axes)) * itemsize
+    assert index is not None
+    choices = dict(group.strategy.choices)
+    ends = {interaction.boundaries(k, axes): k for k in like.element.kernels()}
+    for key in ends:
+        choice = choices.get(key)
+        method = "matrices" if choice is None else choice.method
+        if choice is not None and method == "waves":
+            size = math.prod(w.count for w in choice.waves) * itemsize
+        elif choice is not None and method == "taps":
+            size = 2 * choice.reaches[index] * whole // shards.samples
+        else:
+            size = whole
+        terms = len([k for k in like.element.kernels() if interaction.boundaries(k, axes) == key])
+        if method == "taps" and len(axes) > 1:
+            size *= terms
+        if size >= whole:
+            raise DeviceError(
+                f"its kernel is applied by {method} along the axis {shards.axis!r}, which is divided among"
+                f" {shards.devices} devices: a step would exchange {size * group.rows:,} bytes, a whole field"
+                f" ({whole * group.rows:,} bytes) or more",
+                where=like.path,
+                fix=(
+                    "Use Gaussian kernels of several samples' width, precision='float32' and"
+                    " accuracy='default'; or one device"
+                ),
+            )
+        yield Traffic(like.id, like.path, method, group.rows * size)
+
+
+class DividedFields:
+    """The fields of one copy in equal parts along one axis, one for each device.
+
+    Args:
+        distribution: the devices.
+        plan: the plan, made for this number of devices.
+        itemsize: bytes of a number.
+    """
+
+    def __init__(self, distribution: Distribution, plan: Plan, itemsize: int) -> None:
+        assert plan.shards is not None
+        self.shards, self._plan = plan.shards, plan
+        self._mesh = distribution.mesh
+        self.traffic = planned(plan, itemsize)
+
+    def shardings(self, given: ProgramArguments) -> ProgramArguments:
+        """Return the sharding of every array of these arguments."""
+        everywhere = self._sharding(PartitionSpec())
+        arrays = {
+            key: self._sharding(self._spec(int(key.partition(":")[0]), np.shape(a)))
+            for key, a in given.values["arrays"].items()
+        }
+        rest = jax.tree.map(lambda _: everywhere, given)
+        return rest._replace(
+            values={**rest.values, "arrays": arrays},  # pyright: ignore[reportArgumentType]
+            state=self.placed(given.state, lambda _, spec: self._sharding(spec)),
+        )
+
+    def divided(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function of the same arguments that computes the same on all devices together."""
+        return function
+
+    def constrained(self, state: ProgramState) -> ProgramState:
+        """Return the state, in parts."""
+        return self.placed(state, lambda a, spec: lax.with_sharding_constraint(a, self._sharding(spec)))
+
+    def placed(self, state: ProgramState, put: Callable[[Any, PartitionSpec], Any]) -> ProgramState:
+        """Return what a function makes of every array of a state and of the parts in which it lies."""
+
+        def group(g: int, tree: Any) -> Any:
+            return jax.tree.map(lambda a: put(a, self._spec(g, np.shape(a))), tree)
+
+        out: Any = {
+            "groups": [group(g, tree) for g, tree in enumerate(state["groups"])],
+            "held": {g: group(int(g), tree) for g, tree in state["held"].items()},
+        }
+        if "world" in state:
+            out["world"] = jax.tree.map(lambda a: put(a, PartitionSpec()), state["world"])
+        return out
+
+    def recorded(self, g: int, port: str, record: Array) -> Array:
+        """Return the values of a port, in parts."""
+        like = self._plan.groups[g].like
+        axes = like.outs[port] if port in like.outs else like.ins[port]
+        index = self.shards.index(axes)
+        if index is None:
+            return record
+        spec = PartitionSpec(*[None] * (record.ndim - len(axes) + index), DEVICES)
+        return lax.with_sharding_constraint(record, self._sharding(spec))
+
+    def tapped(self, axes: Axes, weights: Array, y: Array, boundary: str, d: int) -> Array:
+        """Convolve along one axis by lags; along the divided one with samples of the neighbours."""
+        index = self.shards.index(axes)
+        if index is None:
+            return convolution.tapped(weights, y, boundary, d)
+        spec = PartitionSpec(*[None] * index, DEVICES)
+        function = self._tapped_part if d == index else convolution.tapped
+        part = functools.partial(function, boundary=boundary, axis=d)
+        each = jax.shard_map(
+            part, mesh=self._mesh, in_specs=(PartitionSpec(), spec), out_specs=spec, check_vma=False
+        )
+        return each(weights, y)
+
+    def _tapped_part(self, weights: Array, y: Array, boundary: str, axis: int) -> Array:
+        reach, n, count = weights.shape[0] - 1, y.shape[axis], self.shards.devices
+        first = lax.slice_in_dim(y, 0, reach, axis=axis)
+        last = lax.slice_in_dim(y, n - reach, n, axis=axis)
+        ring = range(count)
+        before = lax.ppermute(last, DEVICES, [(k, (k + 1) % count) for k in ring])
+        after = lax.ppermute(first, DEVICES, [((k + 1) % count, k) for k in ring])
+        if boundary != "periodic":
+            at = lax.axis_index(DEVICES)
+            own = boundary == "reflect"
+            outside = [lax.rev(a, (axis,)) if own else jnp.zeros_like(a) for a in (first, last)]
+            before = jnp.where(at == 0, outside[0], before)
+            after = jnp.where(at == count - 1, outside[1], after)
+        return convolution.lagged(weights, before, after, y, axis)
+
+    def require(self, text: str) -> None:
+        """Raise an error if a compiled program exchanges more than was planned.
+
+        Args:
+            text: the compiled program of a chunk.
+
+        Raises:
+            DeviceError: elements whose functions cannot be divided along the axis; they are named.
+        """
+        found = collectives(text)
+        planned = sum(t.bytes for t in self.traffic)
+        counted = sum(c.bytes for c in found)
+        if counted <= AGREEMENT * planned + SCALARS * len(self._plan.groups):
+            return
+        by = {n.id: n.path for group in self._plan.groups for n in group.nodes}
+        expected = dict.fromkeys(by, 0)
+        for t in self.traffic:
+            expected[t.element] += t.bytes
+        sums: dict[str, int] = {}
+        for c in found:
+            sums[c.element] = sums.get(c.element, 0) + c.bytes
+        above = {i: size for i, size in sums.items() if size > AGREEMENT * expected.get(i, 0) + SCALARS}
+        names = ", ".join(by.get(i, "model") for i in sorted(above, key=lambda i: -above[i]))
+        raise DeviceError(
+            f"cannot be divided among {self.shards.devices} devices along {self.shards.axis!r}: a step would"
+            f" exchange {counted:,} bytes, where {planned:,} are needed by kernels and sums",
+            where=names,
+            fix="Leave out devices, or those elements. A field needs quadrature='point'",
+        )
+
+    def _spec(self, g: int, size: Sequence[int]) -> PartitionSpec:
+        """Return the parts of an array of a group: those of its last axes, if they are axes of the group."""
+        like = self._plan.groups[g].like
+        for axes in (*like.outs.values(), *like.ins.values()):
+            index = self.shards.index(axes)
+            if index is not None and tuple(size[len(size) - len(axes) :]) == shape(axes):
+                return PartitionSpec(*[None] * (len(size) - len(axes) + index), DEVICES)
+        return PartitionSpec()
+
+    def _sharding(self, spec: PartitionSpec) -> NamedSharding:
+        return NamedSharding(self._mesh, spec)
