@@ -1,0 +1,92 @@
+"""The command `deodar plan FILE`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from deodar import codec
+from deodar.cli import _options
+
+if TYPE_CHECKING:
+    from deodar.codec import JsonObject
+    from deodar.compiler.traffic import Traffic
+    from deodar.numerics.choice import Shards
+
+HELP = "print how a model is computed, and what several devices would divide and exchange, without running it"
+EPILOG = """\
+Without --devices: the groups of equal elements, how their kernels are applied, and the calls of a step. With
+--devices N: the axis that N devices divide, the bytes that they exchange in a step, and the memory that each
+needs; the devices need not be there."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.epilog = EPILOG
+    _options.add_document(parser)
+    parser.add_argument(
+        "--devices", type=_options.several, metavar="N", help="divide the fields among N devices, or all"
+    )
+    parser.add_argument(
+        "--device", metavar="KIND", help="with --devices all: cpu or gpu, whose devices are counted"
+    )
+    parser.add_argument(
+        "--precision", choices=("float32", "float64"), help="of all numbers (default float32)"
+    )
+    parser.add_argument(
+        "--accuracy",
+        choices=("default", "exact"),
+        help="of convolutions: default is within 1e-4, exact takes longer",
+    )
+    _options.add_json(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the plan of a document."""
+    # start-up time: these bring JAX
+    from deodar.compiler import device
+    from deodar.compiler.plan import plan
+    from deodar.compiler.shard import planned
+    from deodar.errors import DeviceError
+    from deodar.importers.opening import load
+    from deodar.session import memory
+
+    model = load(args.file)
+    model.require()
+    precision = args.precision or "float32"
+    exact = args.accuracy == "exact" or precision == "float64"
+    count = len(device.several("all", args.device)) if args.devices == "all" else args.devices
+    if count == 0:
+        raise DeviceError("devices is 0; expected a number of devices, at least 1, or 'all'")
+    made = plan(model.document, exact=exact, devices=count or 1)
+    if made.shards is None:
+        about: JsonObject = {"plan": made.describe().splitlines()}
+        print(codec.text(about) if args.json else made.describe())
+        return 0
+    found = planned(made, 8 if precision == "float64" else 4)
+    held = memory.device_bytes([n for g in made.groups for n in g.nodes], precision, made.shards)
+    print(codec.text(_json(made.shards, found, held)) if args.json else _text(made.shards, found, held))
+    return 0
+
+
+def _text(shards: Shards, found: Sequence[Traffic], held: int) -> str:
+    lines = [
+        f"{shards.devices} devices divide the axis {shards.axis}: {shards.samples} samples,"
+        f" {shards.samples // shards.devices} on each"
+    ]
+    lines += [f"  {t.path}: {t.method}, {t.bytes:,} bytes" for t in found]
+    lines.append(f"traffic: {sum(t.bytes for t in found):,} bytes a step")
+    lines.append(f"memory: at most about {held / 2**20:,.1f} MiB on each device")
+    return "\n".join(lines)
+
+
+def _json(shards: Shards, found: Sequence[Traffic], held: int) -> JsonObject:
+    return {
+        "axis": shards.axis,
+        "samples": shards.samples,
+        "devices": shards.devices,
+        "elements": [{"path": t.path, "method": t.method, "bytes": t.bytes} for t in found],
+        "bytes": sum(t.bytes for t in found),
+        "memory": held,
+    }
