@@ -160,6 +160,9 @@ again.reset()
 again.run(10)
 assert np.array_equal(again.read("u"), many.read("u")), np.abs(again.read("u") - many.read("u")).max()
 
+back = dd.session_at(sys.argv[1] + "/night.zarr", 10.0)
+assert np.array_equal(back.read("u"), many.read("u")) and "devices': '8'" in str(about(data)["made_by"])
+
 def fails(text, call):
     try:
         call()

@@ -204,7 +204,8 @@ class DividedFields:
         for c in found:
             sums[c.element] = sums.get(c.element, 0) + c.bytes
         above = {i: size for i, size in sums.items() if size > AGREEMENT * expected.get(i, 0) + SCALARS}
-        names = ", ".join(by.get(i, "model") for i in sorted(above, key=lambda i: -above[i]))
+        named = [i for i in sorted(above, key=lambda i: -above[i]) if i in by]
+        names = ", ".join(by[i] for i in named) or "the model"
         raise DeviceError(
             f"cannot be divided among {self.shards.devices} devices along {self.shards.axis!r}: a step would"
             f" exchange {counted:,} bytes, where {planned:,} are needed by kernels and sums",

@@ -98,6 +98,8 @@ def _of_session(data: xarray.Dataset, made: Any, trust: bool) -> tuple[Model, di
             fix="Start recording before the first step, or save a snapshot",
         )
     settings = {key: made[key] for key in ("dt", "seed", "precision")}
+    if (devices := provenance.devices_of(made)) > 1:
+        settings |= {"devices": devices, "device": made["made_by"]["device"].split()[0]}
     return Model(document=provenance.document(made), trusted=trust), settings
 
 
