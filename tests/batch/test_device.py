@@ -68,6 +68,7 @@ def bits(one, other):
 def run(made, **given):
     return dd.simulate(made, 30, record=["u"], every=10, progress=False, **given)
 values = [1.0, 1.5, 2.0, 2.5, 3.0]
+ways = dict(devices=4), dict(batch=4)
 for precision in ("float64", "float32"):
     made = model()
     whole = run(made, trials=16, precision=precision)
@@ -82,6 +83,10 @@ for precision in ("float64", "float32"):
     two = run(made, trials=2, precision=precision, sweep=few, batch=4)
     chosen = one.isel({"u.kernel.0.sigma": [0, 1], "u.tau": [0, 1]})
     assert bits(chosen, two), float(abs(chosen - two)["u.activation"].max())
+    few = {"u.tau": [20.0, 30.0]}
+    one, two = (run(made, trials=8, precision=precision, sweep=few, **given) for given in ways)
+    assert bits(one, two)
+    one = run(made, trials=2, precision=precision, sweep=grid, devices=8)
     programs = [p for p in made.programs.values() if p.distribution is not None]
     assert {p.distribution.along for p in programs} == {"trials", "points"}
     for p in programs:

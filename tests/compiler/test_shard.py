@@ -55,10 +55,22 @@ def linked() -> dd.Model:
     return made
 
 
+def sharing() -> dd.Model:
+    """Return a ring of coupled volumes, which share spectral modes."""
+    made = volume(24)
+    made.set("u.kernel.0.sigma", 3.0)
+    fields = [made["u"]]
+    kernel = [dd.Gaussian(5, 3, normalized=True)]
+    fields += [made.add(dd.Field(name, made["u"].axes, kernel=kernel)) for name in ("v", "w")]
+    for one, other in ((0, 1), (1, 0), (1, 2), (2, 0)):
+        fields[one] >> made.add(dd.Convolve([dd.Gaussian(3, 3, normalized=True)])) >> fields[other]
+    return made
+
+
 VALUES = """
 import numpy as np, deodar as dd
 from deodar.compiler.traffic import collectives
-from tests.compiler.test_shard import linked, plane, volume
+from tests.compiler.test_shard import linked, plane, sharing, volume
 
 def values(made, **given):
     data = dd.simulate(made, 40, record=list(given.pop("record", ["u"])), every=20, progress=False, **given)
@@ -70,6 +82,7 @@ def divided(made):
 models = {
     "waves": volume(), "halo": plane(1.0, "zero"), "ring": plane(1.0, "periodic"),
     "mirror": plane(1.0, "reflect"), "linked": linked(),
+    "sharing": sharing(),
 }
 for name, made in models.items():
     ports = ["u", "v", "line", "node", "trace.output"] if name == "linked" else ["u"]
@@ -81,8 +94,10 @@ for name, made in models.items():
     text = program.chunk(())[0].as_text()
     planned, counted = (sum(t.bytes for t in found) for found in (program.fields.traffic, collectives(text)))
     assert planned / 1.2 - 64 < counted < planned * 1.2 + 64, (name, planned, counted)
-    method = {"waves": "waves", "linked": "waves"}.get(name, "taps")
-    assert program.fields.traffic[0].method == method or name == "linked", name
+    methods = {t.method for t in program.fields.traffic}
+    expected = {"linked": {"waves", "sum"}, "sharing": {"waves"}, "waves": {"waves"}}
+    assert methods == expected.get(name, {"taps"}), name
+    assert any(g.strategy.shared for g in program.plan.groups) == (name == "sharing"), name
 
 # elements without a kernel have the same bits, so the noise has
 made = volume(kernel=[], noise=1.0, global_inhibition=0.0)

@@ -22,11 +22,16 @@ from deodar.compiler.arguments import ProgramArguments, ProgramState
 from deodar.compiler.division import DEVICES, Distribution
 from deodar.compiler.functions import convolved_axes
 from deodar.compiler.plan import Plan, RowGroup
+from deodar.compiler.sharing import REST, WAVES
+from deodar.compiler.strategies import role
 from deodar.compiler.traffic import Traffic, collectives
 from deodar.errors import DeviceError
 from deodar.numerics import convolution, interaction
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.choice import Shards
+
+ARRIVING, INPUT_REST = "input" + WAVES, "input" + REST
+"""Ports of what arrives as spectral modes, and of what does not."""
 
 AGREEMENT = 1.2
 """Largest ratio of the traffic of a compiled program to the planned one."""
@@ -46,15 +51,22 @@ def planned(plan: Plan, itemsize: int) -> list[Traffic]:
     """
     shards = plan.shards
     assert shards is not None
-    found = [_of_group(group, shards, itemsize) for group in plan.groups if not group.still]
-    return [traffic for each in found for traffic in each]
+    read = {r.source[0] for (_, port), reads in plan.reads.items() if port == ARRIVING for r in reads}
+    return [
+        traffic
+        for g, group in enumerate(plan.groups)
+        if not group.still
+        for traffic in _of_group(group, shards, itemsize, g in read)
+    ]
 
 
-def _of_group(group: RowGroup, shards: Shards, itemsize: int) -> Iterator[Traffic]:
+def _of_group(group: RowGroup, shards: Shards, itemsize: int, read: bool) -> Iterator[Traffic]:
+    """Yield the traffic of a group; `read`: whether others read its spectral modes."""
     like = group.like
     axes = convolved_axes(like)
     if shards.index(axes) is not None:
-        yield from _of_kernels(group, axes, shards, itemsize)
+        for key in _transformed(group, axes, read):
+            yield _of_kernels(group, key, axes, shards, itemsize)
         return
     reads = any(shards.index(like.ins[port]) is not None for port in like.reads if port in like.ins)
     shows = any(shards.index(a) is not None for a in like.outs.values())
@@ -63,35 +75,44 @@ def _of_group(group: RowGroup, shards: Shards, itemsize: int) -> Iterator[Traffi
         yield Traffic(like.id, like.path, "sum", group.rows * size * itemsize)
 
 
-def _of_kernels(group: RowGroup, axes: Axes, shards: Shards, itemsize: int) -> Iterator[Traffic]:
+def _transformed(group: RowGroup, axes: Axes, read: bool) -> list[str]:
+    """Return the kinds of boundaries for which the elements of a group convolve an array over the axis."""
+    kernels, shared = group.like.element.kernels(), group.strategy.shared
+    keys = list(dict.fromkeys(interaction.boundaries(k, axes) for k in kernels))
+    if not shared:
+        return keys
+    if role(group.like) == "source":  # its modes are computed once, for its own kernels and for others
+        return keys if shared in keys or not read else [*keys, shared]
+    # what arrives as modes needs no sum
+    return keys if group.like.reads[INPUT_REST] else [key for key in keys if key != shared]
+
+
+def _of_kernels(group: RowGroup, key: str, axes: Axes, shards: Shards, itemsize: int) -> Traffic:
+    """Return the traffic of the kernels with one kind of boundaries."""
     like, index, whole = group.like, shards.index(axes), math.prod(shape(axes)) * itemsize
     assert index is not None
-    choices = dict(group.strategy.choices)
-    ends = {interaction.boundaries(k, axes): k for k in like.element.kernels()}
-    for key in ends:
-        choice = choices.get(key)
-        method = "matrices" if choice is None else choice.method
-        if choice is not None and method == "waves":
-            size = math.prod(w.count for w in choice.waves) * itemsize
-        elif choice is not None and method == "taps":
-            size = 2 * choice.reaches[index] * whole // shards.samples
-        else:
-            size = whole
-        terms = len([k for k in like.element.kernels() if interaction.boundaries(k, axes) == key])
-        if method == "taps" and len(axes) > 1:
-            size *= terms
-        if size >= whole:
-            raise DeviceError(
-                f"its kernel is applied by {method} along the axis {shards.axis!r}, which is divided among"
-                f" {shards.devices} devices: a step would exchange {size * group.rows:,} bytes, a whole field"
-                f" ({whole * group.rows:,} bytes) or more",
-                where=like.path,
-                fix=(
-                    "Use Gaussian kernels of several samples' width, precision='float32' and"
-                    " accuracy='default'; or one device"
-                ),
-            )
-        yield Traffic(like.id, like.path, method, group.rows * size)
+    choice = dict(group.strategy.choices).get(key)
+    method = "matrices" if choice is None else choice.method
+    size = whole
+    if choice is not None and method == "waves":
+        size = math.prod(w.count for w in choice.waves) * itemsize
+    elif choice is not None and method == "taps":
+        size = 2 * choice.reaches[index] * whole // shards.samples
+        if len(axes) > 1:  # over one axis the kernels are one row of weights
+            terms = [k for k in like.element.kernels() if interaction.boundaries(k, axes) == key]
+            size *= sum(len(k.widths()) for k in terms)
+    if size >= whole:
+        raise DeviceError(
+            f"its kernel is applied by {method} along the axis {shards.axis!r}, which is divided among"
+            f" {shards.devices} devices: a step would exchange {size * group.rows:,} bytes, a whole field"
+            f" ({whole * group.rows:,} bytes) or more",
+            where=like.path,
+            fix=(
+                "Use Gaussian kernels of several samples' width, precision='float32' and"
+                " accuracy='default'; or one device"
+            ),
+        )
+    return Traffic(like.id, like.path, method, group.rows * size)
 
 
 class DividedFields:
