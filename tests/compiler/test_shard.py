@@ -239,6 +239,9 @@ def test_operations_inside_loops_are_counted() -> None:
 %body (p: (u32[], f32[4,6])) -> (u32[], f32[4,6]) {
   %r = (f32[], f32[3,2]{1,0}) all-reduce(%x, %y), to_apply=%add, metadata={op_name="while/element-0f3/dot"}
   %s = f32[5]{0} collective-permute(f32[5]{0} %z), channel_id=2
+  %t = (f32[5]{0}, f32[5]{0}, u32[], u32[]) collective-permute-start(f32[5]{0} %z), channel_id=3
+  %u = f32[5]{0} collective-permute-done(%t)
+  %v = (f32[], f32[7]{0}) all-reduce-start(%x, %y), to_apply=%add
 }
 %cond (p: (u32[], f32[4,6])) -> pred[] {
   ROOT %c = pred[] compare(%i, %n), direction=NE
@@ -252,4 +255,6 @@ ENTRY %main (q: f32[4,6]) -> f32[4,6] {
     assert [(c.kind, c.bytes, c.element) for c in found] == [
         ("all-reduce", 28, "0f3"),
         ("collective-permute", 20, ""),
+        ("collective-permute", 20, ""),
+        ("all-reduce", 32, ""),
     ]

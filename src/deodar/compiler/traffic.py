@@ -83,11 +83,12 @@ def _operation(line: str) -> Iterator[Collective]:
     if match is None:
         return
     kind, element = match[2], SCOPE.search(line)
-    sizes = [
-        _bytes(name) * math.prod(int(n) for n in dims.split(",") if n) for name, dims in _arrays(match[1])
-    ]
-    # the first half of the result of an asynchronous start are its operands
-    size = sum(sizes) if "-start(" not in line or kind == "all-reduce" else sum(sizes[len(sizes) // 2 :])
+    arrays = _arrays(match[1])
+    if f" {kind}-start(" in line and kind != "all-reduce":
+        # operands, results, and numbers of the runtime
+        arrays = [array for array in arrays if array != ("u32", "")]
+        arrays = arrays[len(arrays) // 2 :]
+    size = sum(_bytes(name) * math.prod(int(n) for n in dims.split(",") if n) for name, dims in arrays)
     yield Collective(kind, size, element[1] if element else "")
 
 
