@@ -65,6 +65,8 @@ SCRIPT = [
     "load_snapshot",
     "session_at",
     "Experiment",
+    "Cluster",
+    "ClusterPool",
     "as_env",
     "save",
     "load",

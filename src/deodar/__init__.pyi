@@ -47,7 +47,9 @@ from deodar.analysis.tuning.peak_form import selects as selects
 from deodar.analysis.tuning.requirement import Requirement as Requirement
 from deodar.analysis.tuning.response import FieldInput as FieldInput
 from deodar.analysis.tuning.tune import tune as tune
+from deodar.batch.cluster import Cluster as Cluster
 from deodar.batch.cores import use_cores as use_cores
+from deodar.batch.on_cluster import ClusterPool as ClusterPool
 from deodar.batch.resume import resume as resume
 from deodar.batch.rounding import use_separate_rounding as use_separate_rounding
 from deodar.batch.simulate import simulate as simulate

@@ -15,6 +15,13 @@ FORBIDDEN = {
     "unfinished work": [rf"\b{a}{b}\b" for a, b in [("TO", "DO"), ("FIX", "ME"), ("XX", "X")]],
 }
 
+# Packages of extras that one module alone imports: only there an import may fail.
+IMPORTERS = {
+    "dask": "batch.on_cluster",
+    "dask_jobqueue": "batch.on_cluster",
+    "distributed": "batch.on_cluster",
+}
+
 # Names that are written once, when their module is imported, and hold something that could change; a `Family`
 # (family.py) is another, filled by the decorators of its own module.
 STATE = {
@@ -200,3 +207,20 @@ def test_types_of_the_page_have_different_names() -> None:
 
 def test_warnings_are_errors() -> None:
     assert 'filterwarnings = ["error"]' in (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("package", sorted(IMPORTERS))
+def test_one_module_imports_a_package_of_an_extra(package: str) -> None:
+    found = {module(path) for path in MODULES if package in _packages(path)}
+    assert found == {IMPORTERS[package]}
+
+
+def _packages(path: Path) -> set[str]:
+    """Return the packages that a file imports, at its top, in functions, and for types."""
+    out: set[str] = set()
+    for node in ast.walk(tree(path)):
+        if isinstance(node, ast.Import):
+            out |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            out.add(node.module.split(".")[0])
+    return out

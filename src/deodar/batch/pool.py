@@ -77,7 +77,7 @@ class Pool:
         self._busy: dict[Connection, tuple[_Worker, Hashable]] = {}
 
     def __enter__(self) -> Self:
-        with _quiet(self._main):
+        with quiet(self._main):
             for _ in range(self._count):
                 self._idle.append(_started(self._talks))
         return self
@@ -105,7 +105,7 @@ class Pool:
         if worker.worked > LONGEST:
             worker.end()
             worker.process.join()
-            with _quiet(self._main):
+            with quiet(self._main):
                 worker = _started(self._talks)
         worker.began = time.monotonic()
         self._busy[worker.pipe] = worker, key
@@ -159,13 +159,15 @@ def _started(talks: bool) -> _Worker:
 
 
 @contextlib.contextmanager
-def _quiet(main: bool) -> Generator[None]:
+def quiet(main: bool, signals: bool = True) -> Generator[None]:
     """Start processes that ignore Ctrl-C: the parent stops them.
 
-    Without `main` they do not import the main script either.
+    Args:
+        main: whether they import the main script.
+        signals: whether they ignore Ctrl-C.
     """
     script = sys.modules["__main__"]
-    mine = threading.current_thread() is threading.main_thread()
+    mine = signals and threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, signal.SIG_IGN) if mine else None
     if not main:
         # a process that starts looks here for what to import
@@ -183,14 +185,10 @@ def _quiet(main: bool) -> Generator[None]:
 
 def _serve(pipe: Connection, talks: bool) -> None:
     """Run tasks until the pipe is closed: on one core, without Ctrl-C, and at most until the parent ends."""
-    import jax  # start-up time of the parent
-
     os.environ["NPROC"] = "1"
-    # workers are cores of the CPU; otherwise each of them would take most of a graphics processor's memory
-    jax.config.update("jax_platforms", "cpu")
+    use_processor()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    _keep_freed_memory()
 
     def send(message: object) -> None:  # it waits while the parent has many unread messages
         pipe.send_bytes(pickle.dumps((None, message)))
@@ -198,7 +196,16 @@ def _serve(pipe: Connection, talks: bool) -> None:
     with contextlib.suppress(EOFError, BrokenPipeError, ConnectionResetError):
         while True:
             function, arguments = pipe.recv()
-            pipe.send_bytes(_done(function, (send, *arguments) if talks else arguments))
+            pipe.send_bytes(done(function, (send, *arguments) if talks else arguments))
+
+
+def use_processor() -> None:
+    """Let this process, a worker, compute on the CPU alone, and keep freed memory."""
+    import jax  # start-up time of the parent
+
+    # workers are cores of the CPU; otherwise each of them would take most of a graphics processor's memory
+    jax.config.update("jax_platforms", "cpu")
+    _keep_freed_memory()
 
 
 def _keep_freed_memory() -> None:
@@ -213,7 +220,7 @@ def _keep_freed_memory() -> None:
         libc.mallopt(_MMAP_THRESHOLD, most)
 
 
-def _done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
+def done(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
     """Return whether the task succeeded, and its result or error, pickled."""
     try:
         result = function(*arguments)

@@ -13,6 +13,7 @@ from deodar.errors import UnknownName
 from deodar.importers import examples
 
 if TYPE_CHECKING:
+    from deodar.batch.cluster import Cluster
     from deodar.model.model import Model
     from deodar.neuromorphic.prepare import SpikingOptions
     from deodar.worlds._base import World
@@ -40,6 +41,61 @@ def add_world(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trust", action="store_true", help="allow functions that the document names to be imported and run"
     )
+
+
+def add_cluster(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add `--cluster`, `--trust-network`, `--mixed` and `--patience`.
+
+    Args:
+        parser: the parser of the command.
+        what: what the workers share.
+    """
+    parser.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        help=(
+            f"share the {what} among the workers of a scheduler at tcp://HOST:PORT or tls://HOST:PORT, of"
+            " local:N processes, or of jobs of SLURM as slurm:FILE states them (extra cluster)"
+        ),
+    )
+    parser.add_argument(
+        "--trust-network",
+        action="store_true",
+        help="allow workers beyond this machine, in a network of your own: messages are not encrypted",
+    )
+    parser.add_argument(
+        "--mixed", action="store_true", help="allow workers whose processors differ; each row names its own"
+    )
+    parser.add_argument(
+        "--patience",
+        type=positive,
+        metavar="S",
+        help="seconds without any worker after which the run ends (default 60)",
+    )
+
+
+def cluster(args: argparse.Namespace) -> Cluster | None:
+    """Return the cluster of `--cluster`; None without it."""
+    if args.cluster is None:
+        given = [
+            f"--{n}" for n in ("trust-network", "mixed", "patience") if getattr(args, n.replace("-", "_"))
+        ]
+        if given:
+            args.wrong(f"{given[0]} needs --cluster ADDRESS")
+        return None
+    if args.workers:
+        args.wrong("--workers and --cluster exclude each other")
+    # start-up time: this brings JAX
+    from deodar.batch.cluster import PATIENCE, Cluster
+
+    return Cluster(args.cluster, args.trust_network, args.mixed, args.patience or PATIENCE)
+
+
+def cluster_again(args: argparse.Namespace) -> list[str]:
+    """Return the options of a cluster as they are typed."""
+    given = [f"--cluster {shlex.quote(args.cluster)}"] if args.cluster else []
+    given += [f"--{name.replace('_', '-')}" for name in ("trust_network", "mixed") if getattr(args, name)]
+    return given + ([f"--patience {args.patience:g}"] if args.patience else [])
 
 
 def add_cores(parser: argparse.ArgumentParser) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from deodar import codec
 from deodar.cli import _long, _options
 from deodar.cli._bar import Bar
-from deodar.errors import OutputError
+from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
 
 if TYPE_CHECKING:
@@ -58,6 +58,8 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="share the trials among N processes of one core each",
     )
+    _options.add_cluster(parser, "trials")
+    _options.wrong(parser)
     _long.add_yes(parser)
     _options.add_world(parser)
     parser.add_argument(
@@ -79,6 +81,7 @@ def run(args: argparse.Namespace) -> int:
     given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
     given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
     experiment = dc.replace(found, **given)
+    cluster = _options.cluster(args)
     setup = experiment.setup(args.trust)
     if args.check:
         return _check(args, setup)
@@ -86,8 +89,8 @@ def run(args: argparse.Namespace) -> int:
     _confirm(args, setup, out)
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
-            data = run_trials(setup, out, args.workers or None, bar.show)
-    except (KeyboardInterrupt, OutputError) as stop:
+            data = run_trials(setup, out, args.workers or None, bar.show, cluster=cluster)
+    except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise
         options = {
@@ -98,8 +101,9 @@ def run(args: argparse.Namespace) -> int:
         }
         again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
         again += [f"{name} {value}" for name, value in options.items() if value is not None]
+        again += _options.cluster_again(args)
         again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
-        why = f"{stop}" if isinstance(stop, OutputError) else "stopped"
+        why = "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}"
         print(
             f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Resume with:"
             f" {' '.join(again)}",

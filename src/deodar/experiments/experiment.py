@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar import renamed
+from deodar.batch.cluster import Cluster
 from deodar.batch.simulate import LONG_STEPS
 from deodar.errors import DeodarError, Problem, RunWarning
 from deodar.experiments.design import Design
@@ -77,6 +78,7 @@ class Experiment(Design):
         workers: int | None = None,
         progress: Callable[[Progress], None] | None = None,
         trust: bool = False,
+        cluster: Cluster | str | None = None,
     ) -> xarray.Dataset:
         """Run all trials without a row, and return the table of all trials.
 
@@ -86,6 +88,8 @@ class Experiment(Design):
             workers: number of processes of one core each; none: this process.
             progress: function that is called with a `Progress` after each piece.
             trust: whether functions that the document names may be imported and run.
+            cluster: the workers that run the trials, in place of `workers`: a `dd.Cluster`, or its address
+                such as `local:4` or `tcp://HOST:8786`.
 
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: it did
@@ -96,6 +100,8 @@ class Experiment(Design):
 
         Raises:
             OutputExists: the folder contains another experiment, or something else.
+            RecordError: another process runs an experiment in this folder.
+            WorkerError: the workers cannot run the experiment; rows that exist are kept.
             KeyboardInterrupt: on Ctrl-C, after the running pieces have ended; their rows are stored.
         """
         setup = self.setup(trust)
@@ -105,7 +111,7 @@ class Experiment(Design):
                 f" {setup.steps:.3g} steps of dt = {setup.dt:g})"
             )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
-        data = run_trials(setup, out, workers, progress)
+        data = run_trials(setup, out, workers, progress, cluster=cluster)
         if DIVERGED in data.attrs:
             warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
         return data

@@ -8,9 +8,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from deodar import renamed
+from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.experiments.rows import KEY, Row, Rows
 from deodar.session.interrupt import stoppable
+
+MACHINE = "machine"
+"""Key of the machine of a row, where rows of several kinds of machines are stored together."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +65,7 @@ def run_jobs(
     progress: Callable[[Progress], None] | None = None,
     workers: int | None = None,
     stopped: Callable[[], bool] | None = None,
+    cluster: ClusterPool | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
 
@@ -74,11 +79,12 @@ def run_jobs(
             that calls this with workers must do so below `if __name__ == "__main__":`.
         stopped: function that is called several times a second while workers run; once it returns true, the
             running jobs are ended, and their rows are not stored.
+        cluster: the workers that run the jobs, in place of `workers`; an entered `dd.ClusterPool`.
 
     Raises:
         KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `stopped`
             returned true.
-        WorkerError: a worker process has died.
+        WorkerError: a worker process has died, or a cluster cannot run the jobs.
     """
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
     total, before = (
@@ -103,11 +109,26 @@ def run_jobs(
             )
 
     tell([rows.found[key] for job in jobs for key in job.keys if key in rows.found])
-    for job, found in _in_workers(missing, workers, stopped) if workers else _here(missing):
+    for job, found in _anywhere(missing, workers, stopped, cluster):
         new = [row for row in found if row[KEY] not in rows.found]
         rows.append(found)
         done += job.cost
         tell([rows.found[row[KEY]] for row in new])
+
+
+def _anywhere(
+    jobs: Sequence[Job],
+    workers: int | None,
+    stopped: Callable[[], bool] | None,
+    cluster: ClusterPool | None,
+) -> Iterator[tuple[Job, Sequence[Row]]]:
+    if not jobs or not (workers or cluster):
+        yield from _here(jobs)
+    elif cluster is not None:
+        yield from _in_workers(jobs, cluster, stopped)
+    else:
+        with Pool(min(workers or 1, len(jobs)), main=True) as pool:
+            yield from _in_workers(jobs, pool, stopped)
 
 
 def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
@@ -119,15 +140,16 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 
 
 def _in_workers(
-    jobs: Sequence[Job], workers: int, stopped: Callable[[], bool] | None
+    jobs: Sequence[Job], pool: Pool | ClusterPool, stopped: Callable[[], bool] | None
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     running, interrupted = dict[tuple[str, ...], Job](), False
-    with stoppable() as check, Pool(min(workers, max(1, len(jobs))), main=True) as pool:
+    run = _named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
+    with stoppable() as check:
         waiting = list(reversed(jobs))
         while waiting or pool.busy:
-            while waiting and pool.idle:  # one per worker: after Ctrl-C only the running ones are awaited
+            while waiting and pool.idle:  # one or two per worker: after Ctrl-C only these are awaited
                 job = waiting.pop()
-                pool.give(job.keys, Job.run, job)
+                pool.give(job.keys, run, job)
                 running[job.keys] = job
             for keys, rows in pool.wait(0.2):
                 yield running.pop(keys), rows
@@ -140,6 +162,14 @@ def _in_workers(
                 waiting.clear()
     if interrupted:
         raise KeyboardInterrupt
+
+
+def _named(job: Job) -> list[Row]:
+    """Return the rows of a job with the machine that this worker runs on."""
+    # start-up time: this brings JAX
+    from deodar.recording.provenance import machine
+
+    return [{**row, MACHINE: machine()} for row in job.run()]
 
 
 if not TYPE_CHECKING:

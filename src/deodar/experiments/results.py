@@ -4,22 +4,25 @@ the rows.
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import hashlib
 import io
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from deodar import codec, renamed
+from deodar.batch.cluster import Cluster
+from deodar.batch.on_cluster import ClusterPool
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
-from deodar.errors import DeodarError, RecordError
+from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
 from deodar.experiments import packed
-from deodar.experiments.jobs import Job, Progress, run_jobs
+from deodar.experiments.jobs import MACHINE, Job, Progress, run_jobs
 from deodar.experiments.migrations import migrate
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
@@ -28,7 +31,7 @@ from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
 from deodar.model.document import Document
-from deodar.recording import files, provenance
+from deodar.recording import files, provenance, writer_lock
 from deodar.worlds._address import masked_data
 
 if TYPE_CHECKING:
@@ -49,6 +52,7 @@ def run_trials(
     workers: int | None = None,
     progress: Callable[[Progress], None] | None = None,
     stopped: Callable[[], bool] | None = None,
+    cluster: Cluster | str | None = None,
 ) -> xarray.Dataset:
     """Run the trials without a row, write the table, and return it.
 
@@ -58,13 +62,21 @@ def run_trials(
         workers: number of processes of one core each; none: this process.
         progress: function that is called with a `Progress` after each piece.
         stopped: function that ends the workers once it returns true (see `run_jobs`).
+        cluster: the workers that run the trials, in place of `workers`, or their address.
+
+    Raises:
+        RecordError: another process runs an experiment in this folder.
     """
+    if workers and cluster is not None:
+        raise ParameterError("workers and cluster exclude each other", fix="Leave one of them out")
+    where = None if cluster is None else Cluster.of(cluster)
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _run_trials(setup, Path(folder), workers, progress, stopped)
+            return _run_trials(setup, Path(folder), workers, progress, stopped, where)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
-    return _run_trials(setup, folder, workers, progress, stopped)
+    with writer_lock.locked(folder):
+        return _run_trials(setup, folder, workers, progress, stopped, where)
 
 
 def _run_trials(
@@ -73,27 +85,72 @@ def _run_trials(
     workers: int | None,
     progress: Callable[[Progress], None] | None,
     stopped: Callable[[], bool] | None,
+    cluster: Cluster | None,
 ) -> xarray.Dataset:
-    about = _about(setup, workers, out)
-    rows = Rows(out / ROWS, about, read=lambda made: _of_today(made, about, setup.model.document))
-    if not (out / MODEL).exists():
-        documents.save(setup.model.document, out / MODEL)
-    if not (out / EXPERIMENT).exists():
-        output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
+    handed = packed.PackedExperiment.of(setup) if workers or cluster else None
     records = (
         out / RECORDS
         if setup.experiment.record or any(type(a).__name__ == "Snapshot" for a in setup.experiment.actions)
         else None
     )
-    run_jobs(list(_jobs(setup, workers, records)), rows, progress, workers, stopped)
+    with _opened(setup, handed, cluster) as pool:
+        about = _about(setup, workers, out) if pool is None else _about(setup, 1, out, pool.made_by)
+        rows = Rows(out / ROWS, about, read=lambda made: _of_today(made, about, setup.model.document))
+        if not (out / MODEL).exists():
+            documents.save(setup.model.document, out / MODEL)
+        if not (out / EXPERIMENT).exists():
+            output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
+        if pool is not None and records is not None:
+            _require_shared(pool, out)
+        run_jobs(list(_jobs(setup, handed, records)), rows, progress, workers, stopped, pool)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
     return data
 
 
-def _jobs(setup: Setup, workers: int | None, records: Path | None) -> Iterator[Job]:
-    handed = packed.PackedExperiment.of(setup) if workers else None
+@contextlib.contextmanager
+def _opened(
+    setup: Setup, handed: packed.PackedExperiment | None, cluster: Cluster | None
+) -> Generator[ClusterPool | None]:
+    """Connect to a cluster whose workers can run the experiment; None without a cluster.
+
+    Raises:
+        WorkerError: they cannot; no trial has been run.
+    """
+    if cluster is None or handed is None:
+        yield None
+        return
+    if setup.world is not None and setup.world.wall_clock:
+        raise WorkerError(
+            f"the world {type(setup.world).__name__} is bound to this machine and its clock, so a cluster"
+            " cannot run its trials",
+            fix="Run without a cluster",
+        )
+    with ClusterPool(cluster, setup.experiment.precision) as pool:
+        pool.everywhere(packed.prepare, handed)
+        yield pool
+
+
+def _require_shared(pool: ClusterPool, out: Path) -> None:
+    """Raise an error unless every worker sees the folder into which trials write their records."""
+    if not all(pool.everywhere(_sees, out / EXPERIMENT, (out / EXPERIMENT).read_bytes())):
+        raise WorkerError(
+            "trials write records, but a worker does not see the folder of the results",
+            where=str(out),
+            fix="Use a folder that all machines share, or an experiment without records and snapshots",
+        )
+
+
+def _sees(file: Path, content: bytes) -> bool:
+    """Return whether a worker sees a file with this content."""
+    try:
+        return file.read_bytes() == content
+    except OSError:
+        return False
+
+
+def _jobs(setup: Setup, handed: packed.PackedExperiment | None, records: Path | None) -> Iterator[Job]:
     for piece in setup.pieces():
         keys, given = tuple(f"{k:06}" for k in piece), {"trials": piece, "records": records}
         if handed is None:
@@ -102,17 +159,26 @@ def _jobs(setup: Setup, workers: int | None, records: Path | None) -> Iterator[J
             yield Job(keys, packed.work, {"handed": handed, **given}, len(piece))
 
 
-def _about(setup: Setup, workers: int | None, folder: Path) -> JsonObject:
-    """Return the identity of the experiment: a file never mixes rows of two experiments."""
+def _about(
+    setup: Setup, workers: int | None, folder: Path, made: Mapping[str, str] | None = None
+) -> JsonObject:
+    """Return the identity of the experiment: a file never mixes rows of two experiments.
+
+    Args:
+        setup: the opened experiment.
+        workers: whether worker processes of one core run it.
+        folder: the folder of the results.
+        made: versions and machine of the workers of a cluster.
+    """
     digest = _digest_in(folder, setup.model.document) or _digest(*documents.dumps(setup.model.document))
-    made_by = provenance.made_by(find(), setup.experiment.precision) | ({"cores": "1"} if workers else {})
+    here = provenance.made_by(find(), setup.experiment.precision) | ({"cores": "1"} if workers else {})
     unit = setup.model.document.time_unit
     return {
         **_plan(setup),
         "model": digest,
         "world": provenance.described(setup.world),
         "time_unit": unit,
-        "made_by": made_by,
+        "made_by": here if made is None else dict(made),
     }
 
 
@@ -220,6 +286,8 @@ def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
         bad = [text for text in reasons if text]
         where = f"the variable {DIVERGED!r} gives the reasons, the first is: {bad[0]}"
         attributes[DIVERGED] = f"{len(bad)} of {len(rows)} trials diverged; {where}"
+    if any(MACHINE in r for r in rows):
+        out[MACHINE] = ("trial", np.asarray([r.get(MACHINE, "") for r in rows], dtype=str))
     out["duration"] = ("trial", np.asarray([r["duration"] for r in rows], float), unit)
     for name in conditions:
         out[name] = (

@@ -6,8 +6,10 @@ which Windows cannot open; there, and on file systems without locks, nothing is 
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
+from collections.abc import Generator
 from pathlib import Path
 
 from deodar.errors import RecordError
@@ -45,6 +47,21 @@ def lock(path: Path) -> int | None:
     raise RecordError(
         "is being written by another process", where=str(path), fix="Wait until it ends, or stop it"
     )
+
+
+@contextlib.contextmanager
+def locked(path: Path) -> Generator[None]:
+    """Hold the lock of a folder, where it can be locked.
+
+    Raises:
+        RecordError: another process writes into it.
+    """
+    handle = lock(path)
+    try:
+        yield
+    finally:
+        if handle is not None:
+            os.close(handle)
 
 
 def is_written(path: Path) -> bool | None:

@@ -1,0 +1,565 @@
+"""A pool of workers that a scheduler of Dask manages; the only module that imports Dask.
+
+The pool is used like `Pool`, by one thread: give tasks, wait for results. Nothing waits for one future: a
+coroutine for each task puts its result into a queue, and `wait` reads the queue, for a limited time. What
+does not arrive is submitted again under a new name: a result whose data died with its worker, and a task
+that the scheduler has lost. A task may therefore run twice, and its first result is taken.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import contextlib
+import hashlib
+import logging
+import os
+import pickle
+import queue
+import signal
+import time
+import uuid
+import warnings
+from collections.abc import Callable, Coroutine, Hashable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+from deodar import codec
+from deodar.batch import cluster_task
+from deodar.batch.cluster import Cluster, slurm_settings
+from deodar.batch.cluster_task import INSTRUCTIONS
+from deodar.batch.pool import quiet
+from deodar.errors import MissingExtra, ParameterError, WorkerError, first_line
+
+TASKS_A_WORKER = 2
+"""Most tasks per worker that are submitted at a time: one runs, and the next one is there when it ends."""
+
+CHECK_EVERY = 0.5
+"""Wall time between two questions to the scheduler, in seconds."""
+
+CONNECT_SECONDS = 20.0
+"""Wall time in which a scheduler must answer at the start, in seconds."""
+
+SILENT_SECONDS = 20.0
+"""Wall time without an answer after which a scheduler is given up, in seconds."""
+
+FETCH_SECONDS = 20.0
+"""Wall time in which the result of a completed task must arrive; later the task is submitted again, in
+seconds."""
+
+LOST_SECONDS = 20.0
+"""Wall time after which a task that no worker has, while workers are idle, is submitted again, in seconds."""
+
+PREPARE_SECONDS = 180.0
+"""Wall time in which a worker must import deodar and open the model, in seconds."""
+
+CLOSE_SECONDS = 10.0
+"""Wall time in which connections and processes must end, in seconds."""
+
+ALLOWED_FAILURES = 5
+"""Number of processes that a task of `local:N` may end, before the run ends with an error."""
+
+MOST_ATTEMPTS = 20
+"""Most times that a task is submitted."""
+
+OWN = ("machine", "device", "cores", INSTRUCTIONS)
+"""What may differ between the caller and a worker; versions may not."""
+
+
+@dataclass
+class _Task:
+    """A task, its present future, and what follows the future.
+
+    Attributes:
+        fetching: when the task was first seen completed without its result here; 0: it is not.
+        lost: when the task was first seen with no worker, although workers were idle; 0: it is not.
+    """
+
+    key: Hashable
+    payload: bytes
+    attempt: int
+    future: Any
+    follower: concurrent.futures.Future[None]
+    fetching: float = 0.0
+    lost: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """What arrived of a task: what its worker is and its pickled result, or an error."""
+
+    key: Hashable
+    attempt: int
+    about: Mapping[str, str]
+    result: bytes
+    error: BaseException | None = None
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """The last answer of the scheduler: its time, the threads of each worker, the tasks that workers have."""
+
+    time: float
+    workers: Mapping[str, int]
+    processing: frozenset[str]
+
+
+class ClusterPool:
+    """The workers of a cluster, as a context: leaving it ends what it started.
+
+    Args:
+        cluster: where the workers are.
+        precision: precision of the programs.
+
+    Attributes:
+        cluster: where the workers are.
+        made_by: the versions and the machine that all workers have, as records state them; of a mixed cluster
+            the machine is `mixed`.
+    """
+
+    def __init__(self, cluster: Cluster, precision: str = "float32") -> None:
+        self.cluster, self._precision = cluster, precision
+        self.made_by: dict[str, str] = {}
+        self._distributed = library()
+        self._tasks: dict[Hashable, _Task] = {}
+        self._inbox: queue.SimpleQueue[_Answer] = queue.SimpleQueue()
+        self._token = uuid.uuid4().hex[:8]
+        self._seen = _Seen(time.monotonic(), {}, frozenset())
+        self._staffed = self._checked = time.monotonic()
+        self._failed: BaseException | None = None
+        self._class: dict[str, str] = {}
+        self._stack = contextlib.ExitStack()
+
+    def __enter__(self) -> Self:
+        with contextlib.ExitStack() as stack:
+            stack.enter_context(_silent())
+            self._client: Any = stack.enter_context(self._connected(stack))
+            watch = asyncio.run_coroutine_threadsafe(self._watch(), self._loop)
+            stack.callback(watch.cancel)
+            self._await_workers()
+            self.everywhere(cluster_task.nothing)
+            self._stack = stack.pop_all()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        for task in self._tasks.values():
+            task.follower.cancel()
+        self._stack.close()
+
+    @property
+    def idle(self) -> int:
+        """Number of tasks that can be given now."""
+        return max(0, TASKS_A_WORKER * len(self._seen.workers) - len(self._tasks))
+
+    @property
+    def busy(self) -> int:
+        """Number of tasks that were given and have not returned."""
+        return len(self._tasks)
+
+    @property
+    def workers(self) -> int:
+        """Number of workers now."""
+        return len(self._seen.workers)
+
+    def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any) -> None:
+        """Submit a task; `wait` returns its result under the key."""
+        payload = pickled(function, arguments)
+        future, follower = self._submitted(key, payload, 0)
+        self._tasks[key] = _Task(key, payload, 0, future, follower)
+
+    def wait(self, seconds: float) -> list[tuple[Any, Any]]:
+        """Return keys and results of completed tasks, after waiting at most `seconds` for one.
+
+        Raises:
+            WorkerError: the workers, the scheduler or a task has failed.
+            Exception: the exception that a task has raised.
+        """
+        if self._failed is not None:
+            raise self._failed
+        out: list[tuple[Any, Any]] = []
+        try:
+            for answer in self._arrived(seconds):
+                self._take(answer, out)
+            if time.monotonic() - self._checked >= CHECK_EVERY:
+                self._checked = time.monotonic()
+                self._check()
+        except BaseException as error:
+            if not out or not isinstance(error, Exception):
+                raise
+            self._failed = error  # what has arrived is returned first
+        return out
+
+    def everywhere(self, function: Callable[..., Any], *arguments: Any) -> list[Any]:
+        """Run a function once on every present worker, and return the results.
+
+        Raises:
+            WorkerError: a worker has other versions or another machine, or does not answer.
+            Exception: the exception that the function has raised.
+        """
+        payload = pickled(function, arguments)
+
+        async def ask() -> dict[str, Any]:
+            return await self._client.run(cluster_task.run, payload, self._precision, on_error="return")
+
+        answers, out = self._wait_for(ask(), PREPARE_SECONDS, "the workers do not answer"), list[Any]()
+        for address, answer in sorted(answers.items()):
+            if isinstance(answer, OSError):
+                continue  # it has died since
+            if isinstance(answer, BaseException):
+                raise _unable(answer, f"the worker {address}")
+            self._accept(answer[0], f"the worker {address}")
+            good, result = pickle.loads(answer[1])
+            if not good:
+                raise result
+            out.append(result)
+        return out
+
+    # ------------------------------------------------------------------------------------------------ connect
+
+    def _connected(self, stack: contextlib.ExitStack) -> contextlib.AbstractContextManager[Any]:
+        where: Any = self.cluster.address
+        if self.cluster.processes:
+            where = self._local(stack)
+        elif self.cluster.file is not None:
+            where = self._closing(stack, _slurm(self.cluster.file))
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of other versions, which are compared here
+                client = self._distributed.Client(where, timeout=CONNECT_SECONDS, set_as_default=False)
+        except (OSError, TimeoutError, ValueError, RuntimeError) as error:
+            raise WorkerError(
+                f"no scheduler of Dask answers at {self.cluster.address} ({first_line(error)})",
+                fix="Start one there with: dask scheduler; or state its address, which it prints",
+            ) from None
+        self._loop = client.loop.asyncio_loop
+        stack.callback(_closed, client)
+
+        async def ask() -> dict[str, Any]:
+            return await client.scheduler.versions()
+
+        there = self._wait_for(ask(), CONNECT_SECONDS, "the scheduler does not answer")
+        here = {name: self._distributed.__version__ for name in ("distributed",)}
+        differ = [f"{k} {there['packages'].get(k)}" for k, v in here.items() if there["packages"].get(k) != v]
+        if differ:
+            raise WorkerError(
+                f"the scheduler at {self.cluster.address} has {', '.join(differ)}, and this process"
+                f" {', '.join(f'{k} {v}' for k, v in here.items())}",
+                fix="Install the same versions everywhere",
+            )
+        return contextlib.nullcontext(client)
+
+    def _local(self, stack: contextlib.ExitStack) -> Any:
+        """Start a scheduler in this process, and the processes of `local:N`."""
+        # an extra
+        import dask.config
+
+        # the main script is hidden as long as processes may start: a new one takes the place of a dead one
+        with quiet(main=True):
+            settings = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES}
+            with dask.config.set(settings):
+                made = self._distributed.LocalCluster(
+                    n_workers=0,
+                    threads_per_worker=1,
+                    processes=True,
+                    host="127.0.0.1",
+                    dashboard_address="127.0.0.1:0",
+                    silence_logs=logging.CRITICAL,
+                    memory_limit=0,
+                    env={"NPROC": "1"},
+                    preload=["deodar.batch.cluster_task"],
+                )
+        self._closing(stack, made)
+        stack.callback(_end_processes, made)
+        stack.enter_context(quiet(main=False, signals=False))
+        made.scale(self.cluster.processes)
+        return made
+
+    def _closing(self, stack: contextlib.ExitStack, made: Any) -> Any:
+        stack.callback(_closed, made)
+        return made
+
+    def _await_workers(self) -> None:
+        """Wait for all processes of `local:N`, or for the first worker of another cluster."""
+        wanted = self.cluster.processes or 1
+        while self.workers < wanted:
+            time.sleep(0.05)
+            self._check()
+            if time.monotonic() - self._staffed > self.cluster.patience:
+                break
+
+    # -------------------------------------------------------------------------------------------------- tasks
+
+    def _submitted(
+        self, key: Hashable, payload: bytes, attempt: int
+    ) -> tuple[Any, concurrent.futures.Future[None]]:
+        name = f"deodar-{self._token}-{hashlib.sha256(payload).hexdigest()[:16]}-{attempt}"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that the payload is large
+            future = self._client.submit(
+                cluster_task.run, payload, self._precision, key=name, pure=False, retries=0
+            )
+        return future, asyncio.run_coroutine_threadsafe(self._follow(key, attempt, future), self._loop)
+
+    async def _follow(self, key: Hashable, attempt: int, future: Any) -> None:
+        try:
+            about, result = await future
+        except asyncio.CancelledError as error:
+            self._inbox.put(_Answer(key, attempt, {}, b"", error))
+            raise
+        except BaseException as error:
+            self._inbox.put(_Answer(key, attempt, {}, b"", error))
+        else:
+            self._inbox.put(_Answer(key, attempt, about, result))
+
+    def _arrived(self, seconds: float) -> list[_Answer]:
+        out: list[_Answer] = []
+        with contextlib.suppress(queue.Empty):
+            out.append(self._inbox.get(timeout=seconds))
+            while True:
+                out.append(self._inbox.get_nowait())
+        return out
+
+    def _take(self, answer: _Answer, out: list[tuple[Any, Any]]) -> None:
+        task = self._tasks.get(answer.key)
+        if task is None or task.attempt != answer.attempt:
+            return  # of an attempt that was given up
+        error = answer.error
+        if error is None:
+            del self._tasks[answer.key]
+            self._accept(answer.about, "a worker")
+            good, result = pickle.loads(answer.result)
+            if not good:
+                raise result
+            out.append((answer.key, result))
+        elif type(error).__name__ == "KilledWorker":
+            count = getattr(error, "allowed_failures", ALLOWED_FAILURES) + 1
+            raise WorkerError(
+                f"the same task has ended {count} worker processes, one after another; its key is"
+                f" {_shown(answer.key)}",
+                fix="The system may have stopped them for lack of memory: use fewer workers on a machine, or"
+                " smaller pieces. What was completed is stored",
+            )
+        elif isinstance(error, (OSError, asyncio.CancelledError, concurrent.futures.CancelledError)):
+            self._submit_again(task)
+        else:
+            raise _unable(error, "a worker")
+
+    def _submit_again(self, task: _Task) -> None:
+        """Submit a task under a new name; its former attempt no longer counts."""
+        if task.attempt + 1 >= MOST_ATTEMPTS:
+            raise WorkerError(
+                f"the task {_shown(task.key)} was submitted {MOST_ATTEMPTS} times without a result",
+                fix="Look at the network and at the logs of the workers. What was completed is stored",
+            )
+        if self._client.status != "running":
+            task.fetching = task.lost = 0.0
+            return  # `_check` submits it when the scheduler answers again, or gives the scheduler up
+        task.follower.cancel()
+        with contextlib.suppress(Exception):
+            task.future.release()
+        task.attempt += 1
+        task.future, task.follower = self._submitted(task.key, task.payload, task.attempt)
+        task.fetching = task.lost = 0.0
+
+    # ------------------------------------------------------------------------------------------------- checks
+
+    async def _watch(self) -> None:
+        """Ask the scheduler from time to time which workers exist, and which tasks they have."""
+        while True:
+            with contextlib.suppress(Exception):
+                workers = await asyncio.wait_for(self._client.scheduler.ncores(workers=None), SILENT_SECONDS)
+                had = await asyncio.wait_for(self._client.scheduler.processing(workers=None), SILENT_SECONDS)
+                keys = frozenset(str(key) for listed in had.values() for key in listed)
+                self._seen = _Seen(time.monotonic(), dict(workers), keys)
+            await asyncio.sleep(CHECK_EVERY if self._seen.workers else 0.1)
+
+    def _check(self) -> None:
+        """Raise an error if nothing can come any more, and submit again what was lost."""
+        now, seen = time.monotonic(), self._seen
+        if now - seen.time > SILENT_SECONDS:
+            raise WorkerError(
+                f"the scheduler of {self.cluster.address} has not answered for {SILENT_SECONDS:g} s",
+                fix="Start it again, with its workers, and repeat the call: it resumes",
+            )
+        if seen.workers:
+            self._staffed = now
+        elif now - self._staffed > self.cluster.patience:
+            raise WorkerError(
+                f"{self.cluster.address} has had no worker for {self.cluster.patience:g} s",
+                fix="Start workers (dask worker ADDRESS --nthreads 1), or wait longer for them:"
+                " Cluster(..., patience=3600), on the command line --patience 3600. Then repeat the call: it"
+                " resumes",
+            )
+        wide = [f"{address} ({n})" for address, n in seen.workers.items() if n != 1]
+        if wide:
+            raise WorkerError(
+                f"workers have several threads: {', '.join(sorted(wide)[:4])}",
+                fix="Start them with one: dask worker ADDRESS --nthreads 1 --nworkers N",
+            )
+        for task in self._tasks.values():
+            self._check_task(task, now, len(seen.processing) < len(seen.workers))
+
+    def _check_task(self, task: _Task, now: float, idle: bool) -> None:
+        status = task.future.status
+        arriving = status in ("finished", "cancelled", "lost", "error")
+        missing = status == "pending" and idle and str(task.future.key) not in self._seen.processing
+        task.fetching = (task.fetching or now) if arriving else 0.0
+        task.lost = (task.lost or now) if missing else 0.0
+        late = task.fetching and now - task.fetching > (
+            1.0 if status in ("cancelled", "lost") else FETCH_SECONDS
+        )
+        if late or (task.lost and now - task.lost > LOST_SECONDS):
+            self._submit_again(task)
+
+    def _accept(self, about: Mapping[str, str], who: str) -> None:
+        """Raise an error if rows of this worker cannot be stored with those of the others."""
+        here = _made_here(self._precision)
+        named = sorted({*here, *about} - {*OWN})
+        differ = [name for name in named if here.get(name) != about.get(name)]
+        if differ:
+            there, mine = (
+                ", ".join(f"{name} {found.get(name, 'missing')}" for name in differ)
+                for found in (about, here)
+            )
+            raise WorkerError(
+                f"{who} has {there}, and this process {mine}", fix="Install the same versions everywhere"
+            )
+        if about.get("cores") != "1":
+            raise WorkerError(
+                f"{who} computes with {about.get('cores')} cores, which changes the last digits",
+                fix="Start workers with NPROC=1 in the environment",
+            )
+        own = {name: about.get(name, "") for name in ("machine", "device", INSTRUCTIONS)}
+        self._class = self._class or own
+        if own != self._class and not self.cluster.mixed:
+            name = next(name for name in own if own[name] != self._class[name])
+            raise WorkerError(
+                f"workers differ in their {name}: {self._class[name]!r} and {own[name]!r}, so that the last"
+                " digits of their rows may differ",
+                fix="Use workers of one kind, or allow it: mixed=True, on the command line --mixed",
+            )
+        known = {name: text for name, text in about.items() if name != INSTRUCTIONS}
+        self.made_by = known | ({"machine": "mixed"} if self.cluster.mixed else {})
+
+    def _wait_for(self, coroutine: Coroutine[Any, Any, Any], seconds: float, what: str) -> Any:
+        """Return the result of a coroutine of the client's loop, after at most `seconds`."""
+        asked = asyncio.run_coroutine_threadsafe(asyncio.wait_for(coroutine, seconds), self._loop)
+        try:
+            return asked.result(seconds + 5)
+        except TimeoutError:
+            raise WorkerError(
+                f"{what}, at {self.cluster.address}, within {seconds:g} s",
+                fix="Look at the logs of the scheduler and of the workers",
+            ) from None
+        finally:
+            asked.cancel()
+
+
+def _made_here(precision: str) -> dict[str, str]:
+    """Return the versions of this process, as records state them."""
+    # start-up time: these bring JAX
+    from deodar.compiler.device import find
+    from deodar.recording.provenance import made_by
+
+    return made_by(find(), precision)
+
+
+def library() -> Any:
+    """Import Dask (extra `cluster`), or raise an error that says how to install it."""
+    try:
+        # an extra
+        import distributed
+    except ImportError:
+        raise MissingExtra("distributed", "cluster", "a cluster of workers") from None
+    return distributed
+
+
+def slurm_script(cluster: Cluster) -> str:
+    """Return the script of a job that `slurm:FILE` submits."""
+    assert cluster.file is not None
+    made = _slurm(cluster.file, 0)
+    try:
+        return str(made.job_script())
+    finally:
+        _closed(made)
+
+
+def _slurm(file: Path, most: int | None = None) -> Any:
+    library()
+    try:
+        # an extra
+        import yaml
+        from dask_jobqueue.slurm import SLURMCluster
+    except ImportError:
+        raise MissingExtra("dask-jobqueue", "cluster", "a cluster of SLURM") from None
+    try:
+        text = file.read_text(encoding="utf-8")
+        data = codec.parse(text) if file.suffix.lower() == ".json" else yaml.safe_load(text)
+    except (OSError, ValueError, yaml.YAMLError) as error:
+        raise ParameterError(f"cannot be read ({first_line(error)})", where=str(file)) from None
+    settings, jobs = slurm_settings(data, str(file))
+    try:
+        made = SLURMCluster(**settings)
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"dask_jobqueue refuses it: {first_line(error)}", where=str(file)) from None
+    made.scale(jobs=jobs if most is None else most)
+    return made
+
+
+def pickled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
+    """Return a task as bytes.
+
+    Raises:
+        WorkerError: a part of it cannot be sent to another process.
+    """
+    if getattr(function, "__module__", "") == "__main__":
+        raise WorkerError(
+            f"{getattr(function, '__name__', 'a function')} is written in the script itself, which workers do"
+            " not run",
+            fix="Put it into a module of its own and import it, or run without a cluster",
+        )
+    try:
+        return pickle.dumps((function, arguments))
+    except Exception as error:  # a class may raise any exception
+        raise WorkerError(
+            f"a task cannot be sent to other processes ({type(error).__name__}: {first_line(error)})",
+            fix="Run without a cluster",
+        ) from None
+
+
+def _unable(error: BaseException, who: str) -> WorkerError:
+    return WorkerError(
+        f"{who} cannot run a task ({type(error).__name__}: {first_line(error)})",
+        fix="Install deodar, with the same versions of all packages, where workers run",
+    )
+
+
+def _shown(key: Hashable) -> str:
+    return ", ".join(map(str, key[:2])) if isinstance(key, tuple) else str(key)
+
+
+def _end_processes(made: Any) -> None:
+    """End the processes of `local:N` at once: an orderly end of each takes seconds."""
+    for nanny in list(made.workers.values()):
+        nanny.auto_restart = False
+        with contextlib.suppress(OSError, AttributeError, TypeError):
+            os.kill(nanny.pid, signal.SIGTERM)
+
+
+def _closed(made: Any) -> None:
+    """Close a client or a cluster, whose processes may have died already."""
+    with contextlib.suppress(Exception):
+        made.close(timeout=CLOSE_SECONDS)
+
+
+@contextlib.contextmanager
+def _silent() -> Any:
+    """Keep Dask's log of workers that die off the terminal: errors of this module say what matters."""
+    log = logging.getLogger("distributed")
+    before = log.level
+    log.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        log.setLevel(before)

@@ -1,0 +1,357 @@
+"""Experiments on a cluster: rows are those of this process, whatever dies, and every call ends."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+from distributed import LocalCluster
+
+from deodar.batch import cluster_task, on_cluster
+from deodar.batch.cluster import Cluster, slurm_settings
+from deodar.batch.on_cluster import ClusterPool
+from deodar.errors import ParameterError, RecordError, WorkerError
+from deodar.experiments import results
+from deodar.recording import writer_lock
+from deodar.worlds.camera import Camera
+from tests.experiments import clustered
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def rows(tmp_path_factory):
+    """Return the lines of the experiment, run in this process."""
+    folder = tmp_path_factory.mktemp("here") / "out"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("NPROC", "1")
+        clustered.small_pieces(patch)
+        clustered.experiment().run(folder)
+    return clustered.lines(folder)
+
+
+@pytest.fixture
+def pieces(monkeypatch):
+    """Cut trials into small pieces, and state one core, as workers do."""
+    monkeypatch.setenv("NPROC", "1")
+    clustered.small_pieces(monkeypatch)
+
+
+def _run(folder, cluster, progress=None):
+    return clustered.within(lambda: clustered.experiment().run(folder, progress=progress, cluster=cluster))
+
+
+def _paths():
+    return os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
+
+
+def test_rows_are_the_same_while_workers_are_killed(tmp_path, rows, pieces):
+    """First one of the workers is killed, later all of them at once."""
+    killed = []
+
+    def told(progress):
+        wanted = {2: 1, 12: 2}.get(progress.rows)
+        for one in clustered.processes()[:wanted] if wanted else ():
+            one.kill()
+            killed.append(one.pid)
+
+    _run(tmp_path / "out", "local:2", told)
+    assert len(killed) == 3
+    assert clustered.lines(tmp_path / "out") == rows
+    assert not clustered.processes(), "the workers have ended"
+
+
+def test_a_killed_caller_leaves_no_process_and_is_resumed(tmp_path, rows, pieces):
+    folder = tmp_path / "out"
+    code = (
+        "import pytest; from tests.experiments import clustered\n"
+        "with pytest.MonkeyPatch.context() as patch:\n"
+        f"    clustered.small_pieces(patch); clustered.experiment().run({str(folder)!r}, cluster='local:1')"
+    )
+    caller = subprocess.Popen([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": _paths()})
+    file, end = folder / "trials.jsonl", time.monotonic() + clustered.LIMIT
+    while (
+        caller.poll() is None
+        and time.monotonic() < end
+        and not (file.exists() and file.read_bytes().count(b"\n") >= 5)
+    ):
+        time.sleep(0.002)
+    workers = clustered.processes(caller.pid)
+    caller.kill()
+    caller.wait()
+    stored = file.read_bytes().count(b"\n")
+    assert 5 <= stored < len(rows) and workers
+    _run(folder, "local:1")
+    assert clustered.lines(folder) == rows
+    assert not any(one.is_running() for one in workers)
+
+
+@pytest.fixture(scope="module")
+def scheduler():
+    """Return a scheduler in this process, with one worker that has one thread."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("NPROC", "1")
+        with _cluster(1) as made:
+            yield made
+
+
+def _cluster(workers):
+    return LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        memory_limit=0,
+    )
+
+
+def test_a_scheduler_that_runs_already_is_used_by_its_address(tmp_path, rows, pieces, scheduler):
+    _run(tmp_path / "out", scheduler.scheduler_address)
+    assert clustered.lines(tmp_path / "out") == rows
+    assert len(clustered.processes()) == 1, "its worker still runs"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("jax", "0.1", "a worker has jax 0.1, and this process jax"),
+        ("python", "3.0", "has python 3.0"),
+        ("cores", "4", "computes with 4 cores"),
+    ],
+)
+def test_a_worker_that_differs_is_refused_before_the_first_task(
+    tmp_path, pieces, scheduler, monkeypatch, name, value, says
+):
+    real = cluster_task.run
+    monkeypatch.setattr(cluster_task, "run", _Disguised({name: value}, real))
+    with pytest.raises(WorkerError, match=says.replace("a worker", "the worker tcp://[0-9.:]+")):
+        _run(tmp_path / "out", scheduler.scheduler_address)
+    assert not (tmp_path / "out" / "trials.jsonl").exists()
+
+
+class _Disguised:
+    """A task whose worker states something else about itself."""
+
+    def __init__(self, about, function):
+        self.about, self.function = about, function
+
+    def __call__(self, payload, precision):
+        about, result = self.function(payload, precision)
+        return {**about, **self.about}, result
+
+
+def test_workers_of_two_kinds_are_refused_or_named(tmp_path, pieces, monkeypatch):
+    first = {"machine": "A", "device": "cpu cpu", "cores": "1"}
+    pool = object.__new__(on_cluster.ClusterPool)
+    monkeypatch.setattr(on_cluster, "_made_here", lambda precision: {"jax": "1", **first})
+    for mixed in (False, True):
+        pool.cluster, pool._precision, pool._class = Cluster("local:2", mixed=mixed), "float32", {}
+        pool._accept({"jax": "1", **first}, "a worker")
+        if mixed:
+            pool._accept({"jax": "1", **first, "machine": "B"}, "a worker")
+            assert pool.made_by["machine"] == "mixed"
+        else:
+            with pytest.raises(WorkerError, match="differ in their machine: 'A' and 'B'"):
+                pool._accept({"jax": "1", **first, "machine": "B"}, "a worker")
+            assert pool.made_by["machine"] == "A"
+
+
+def test_rows_of_a_mixed_cluster_name_their_machine(tmp_path, rows, pieces, scheduler):
+    data = _run(tmp_path / "out", Cluster(scheduler.scheduler_address, mixed=True))
+    made = results.provenance.machine()
+    assert set(data.machine.values.tolist()) == {made}
+    marked = [line.removesuffix("}") + f', "machine": "{made}"}}' for line in rows if '"key"' in line]
+    assert [line for line in clustered.lines(tmp_path / "out") if '"key"' in line] == marked
+    with pytest.raises(results.DeodarError, match="made_by differ"):
+        _run(tmp_path / "out", scheduler.scheduler_address)
+
+
+def test_no_worker_is_an_error_after_a_while(tmp_path, pieces):
+    with _cluster(0) as empty:
+        cluster = Cluster(empty.scheduler_address, patience=0.5)
+        with pytest.raises(WorkerError, match=r"has had no worker for 0.5 s.*--patience"):
+            _run(tmp_path / "out", cluster)
+
+
+def test_no_scheduler_is_an_error(tmp_path, pieces, monkeypatch):
+    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.5)
+    with pytest.raises(WorkerError, match=r"no scheduler of Dask answers at tcp://127.0.0.1:9"):
+        _run(tmp_path / "out", "tcp://127.0.0.1:9")
+
+
+def test_a_scheduler_of_another_version_is_refused(tmp_path, pieces, scheduler, monkeypatch):
+    monkeypatch.setattr(on_cluster.library(), "__version__", "1.0")
+    with pytest.raises(WorkerError, match=r"has distributed [\d.]+, and this process distributed 1.0"):
+        _run(tmp_path / "out", scheduler.scheduler_address)
+
+
+def test_a_task_that_ends_every_worker_is_an_error(monkeypatch):
+    monkeypatch.setattr(on_cluster, "ALLOWED_FAILURES", 1)
+
+    def call():
+        with ClusterPool(Cluster("local:1")) as pool:
+            pool.give("bad", os._exit, 3)
+            while pool.busy:
+                pool.wait(0.2)
+
+    with pytest.raises(WorkerError, match=r"the same task has ended 2 worker processes.*its key is bad"):
+        clustered.within(call)
+
+
+def test_errors_of_tasks_are_raised_and_other_results_are_kept(scheduler):
+    with ClusterPool(Cluster(scheduler.scheduler_address)) as pool:
+        pool.give("good", sum, [1, 2])
+        pool.give("bad", results.load_results, "nowhere")
+        out = []
+        with pytest.raises(RecordError, match="is not the folder of an experiment"):
+            clustered.within(lambda: _collect(pool, out))
+    assert out == [("good", 3)]
+
+
+def _collect(pool, out):
+    while pool.busy:
+        out += pool.wait(0.2)
+    pool.wait(0)
+
+
+def test_what_cannot_travel_is_refused(tmp_path, scheduler, monkeypatch):
+    setup = clustered.experiment().setup()
+    setup.world = Camera(0)
+    with pytest.raises(WorkerError, match="Camera is bound to this machine and its clock"):
+        results.run_trials(setup, tmp_path / "out", cluster=scheduler.scheduler_address)
+    with pytest.raises(ParameterError, match="workers and cluster exclude each other"):
+        clustered.experiment().run(tmp_path / "out", workers=2, cluster="local:2")
+    monkeypatch.setattr(_collect, "__module__", "__main__")
+    with pytest.raises(WorkerError, match="_collect is written in the script itself"):
+        on_cluster.pickled(_collect, ())
+
+
+def test_one_caller_at_a_time_writes_into_a_folder(tmp_path, pieces):
+    (tmp_path / "out").mkdir()
+    with (
+        writer_lock.locked(tmp_path / "out"),
+        pytest.raises(RecordError, match="is being written by another process"),
+    ):
+        clustered.experiment().run(tmp_path / "out")
+
+
+def test_ctrl_c_keeps_what_runs_and_a_second_call_resumes(tmp_path, rows, pieces, scheduler):
+    pressed = []
+
+    def told(progress):
+        if progress.rows and not pressed:
+            pressed.append(progress.rows)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    address = scheduler.scheduler_address
+    with pytest.raises(KeyboardInterrupt):
+        clustered.experiment().run(tmp_path / "out", progress=told, cluster=address)
+    stored = len(clustered.lines(tmp_path / "out"))
+    assert pressed[0] + 1 < stored < len(rows)
+    _run(tmp_path / "out", address)
+    assert clustered.lines(tmp_path / "out") == rows
+
+
+def test_a_scheduler_that_dies_is_an_error(tmp_path, rows, pieces, monkeypatch):
+    monkeypatch.setattr(on_cluster, "SILENT_SECONDS", 2.0)
+    code = (
+        "import time; from tests.experiments.test_cluster import _cluster\nif __name__ == '__main__':\n"
+        "    print(_cluster(1).scheduler_address, flush=True); time.sleep(100)"
+    )
+    script = tmp_path / "scheduler.py"
+    script.write_text(code)
+    env = os.environ | {"NPROC": "1", "PYTHONPATH": _paths()}
+    process = subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True, env=env)
+    address = process.stdout.readline().strip()
+
+    def told(progress):
+        if progress.rows == 6:
+            process.kill()
+
+    with process, pytest.raises(WorkerError, match=r"the scheduler of .* has not answered for 2 s"):
+        _run(tmp_path / "out", address, told)
+    _run(tmp_path / "out", "local:1")
+    assert clustered.lines(tmp_path / "out") == rows
+
+
+# ------------------------------------------------------------------------------------------------- addresses
+
+
+@pytest.mark.parametrize(
+    ("address", "says"),
+    [
+        ("local:0", "states no number of processes"),
+        ("slurm:", "names no file"),
+        ("machine", "is not the address of a cluster. Write local:N"),
+        ("tcp://host:99999", "is not the address of a cluster"),
+        ("tcp://10.0.0.5:8786", "leads beyond this machine, without encryption.*--trust-network"),
+        ("slurm:jobs.yaml", "the workers of SLURM are beyond this machine"),
+    ],
+)
+def test_an_address_that_is_wrong_or_not_trusted_is_refused(address, says):
+    with pytest.raises((ParameterError, WorkerError), match=says):
+        Cluster(address)
+
+
+def test_encrypted_and_trusted_addresses_are_accepted():
+    assert Cluster("tls://10.0.0.5:8786").processes == 0
+    assert Cluster("tcp://10.0.0.5:8786", trust_network=True).file is None
+    assert Cluster("tcp://127.0.0.1:8786").address and Cluster("local:3").processes == 3
+
+
+SLURM = """\
+jobs: 20
+queue: normal
+account: fields
+cores: 8
+memory: 16GB
+walltime: "04:00:00"
+job_script_prologue:
+  - source ~/venv/bin/activate
+"""
+
+
+def test_a_job_of_slurm_has_a_process_for_each_core(tmp_path):
+    (tmp_path / "jobs.yaml").write_text(SLURM)
+    script = on_cluster.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
+    for line in (
+        "#SBATCH -p normal",
+        "#SBATCH -A fields",
+        "#SBATCH --cpus-per-task=8",
+        "#SBATCH --mem=15G",
+        "#SBATCH -t 04:00:00",
+        "source ~/venv/bin/activate",
+        "export NPROC=1",
+    ):
+        assert line in script.splitlines()
+    assert "--nworkers 8" in script and "--nthreads 1 " in script
+
+
+def test_the_file_of_slurm_on_the_page_is_read():
+    page = (ROOT / "docs" / "many-machines.md").read_text(encoding="utf-8")
+    [text] = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    settings, jobs = slurm_settings(yaml.safe_load(text), "the page")
+    assert jobs == 20 and settings["cores"] == settings["processes"] == 8
+    assert settings["job_script_prologue"] == ["source ~/venv/bin/activate", "export NPROC=1"]
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("- 1", "holds no table of settings"),
+        ("jobs: 0", "jobs is 0; expected a whole number, at least 1"),
+        ("{cores: 8, processes: 2}", "each of the 8 cores is a process"),
+        ("{queue: [", "cannot be read"),
+    ],
+)
+def test_a_wrong_file_of_slurm_is_refused(tmp_path, text, says):
+    (tmp_path / "jobs.yaml").write_text(text)
+    with pytest.raises(ParameterError, match=says):
+        on_cluster.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
