@@ -11,7 +11,7 @@ import sys
 import pytest
 
 from deodar import cli
-from deodar.batch import simulate
+from deodar.batch import on_cluster, simulate
 from deodar.cli import _long
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
@@ -186,3 +186,25 @@ def test_a_full_disk_keeps_complete_trials_and_states_how_to_resume(file, capsys
         not (tmp_path / "out" / "trials.csv").exists() and load_results(tmp_path / "out").sizes["trial"] == 16
     )
     assert call("--out", "out") == 0 and (tmp_path / "out" / "trials.csv").is_file()
+
+
+def test_options_of_a_cluster_need_one_and_exclude_workers(file, capsys):
+    for given, says in (
+        (["--trust-network"], "--trust-network needs --cluster ADDRESS"),
+        (["--patience", "5"], "--patience needs --cluster ADDRESS"),
+        (["--cluster", "local:2", "--workers", "2"], "--workers and --cluster exclude each other"),
+    ):
+        with pytest.raises(SystemExit) as end:
+            call(*given)
+        assert end.value.code == 2 and says in capsys.readouterr().err
+    assert call("--cluster", "tcp://10.0.0.5:8786") == 1
+    assert "--trust-network" in capsys.readouterr().err
+
+
+def test_an_error_of_a_cluster_says_how_to_resume(file, capsys, monkeypatch):
+    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.3)
+    assert call("--out", "out") == 0
+    assert call("--out", "out", "--cluster", "tcp://127.0.0.1:9", "--patience", "5") == 1
+    told = capsys.readouterr().err
+    assert "no scheduler of Dask answers at tcp://127.0.0.1:9" in told and "What is done is kept." in told
+    assert "--out out --cluster tcp://127.0.0.1:9 --patience 5" in told

@@ -59,13 +59,14 @@ def compute(
     progress: Shown = None,
     spread: Spread | None = None,
     out: RunOutput | OutputPart | None = None,
+    always: bool = False,
 ) -> pieces.PieceResult:
     """Compute a whole run of `simulate`, or one piece of it.
 
     If all copies diverge, the error is returned beside the record.
 
-    `spread` runs pieces in worker processes. With `out` the samples are written to a file; the result has
-    none.
+    `spread` runs pieces in worker processes, if the request has workers, or `always`. With `out` the samples
+    are written to a file; the result has none.
     """
     sweep, precision, device = request.sweep, request.precision, request.device
     places = devices.several(request.devices, device)
@@ -114,8 +115,8 @@ def compute(
         jobs = cut.requests(dc.replace(request, dt=float(step)), labels, listed)
         assert not isinstance(out, OutputPart)
         workers, run_there = request.workers, None
-        if spread is not None and workers is not None:
-            run_there = functools.partial(spread, model, world, jobs, workers, out)
+        if spread is not None and (workers is not None or always):
+            run_there = functools.partial(spread, model, world, jobs, workers or 0, out)
         parts = _in_pieces(model, jobs, world, steps, progress, run_there, out)
         return _whole(cut, parts, asked)
     stopped, nothing = False, None

@@ -66,6 +66,20 @@ class PackedModel:
         return pickle.loads(self.packed)
 
 
+def require_portable(world: World | None) -> None:
+    """Raise an error if a world cannot be computed on another machine.
+
+    Raises:
+        WorkerError: it follows the wall clock, such as a camera or a robot.
+    """
+    if world is not None and world.wall_clock:
+        raise WorkerError(
+            f"the world {type(world).__name__} is bound to this machine and its clock, so that no cluster can"
+            " compute it",
+            fix="Run without a cluster",
+        )
+
+
 @functools.lru_cache(maxsize=1)
 def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
     pickle.loads(kinds)

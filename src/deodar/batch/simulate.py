@@ -4,19 +4,22 @@ parallel.
 
 from __future__ import annotations
 
+import functools
 import math
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar.batch.compute import compute
+from deodar.batch.cluster import Cluster
+from deodar.batch.cluster_pieces import run as on_cluster
+from deodar.batch.compute import Spread, compute
 from deodar.batch.output import RunOutput
 from deodar.batch.points import Sweep
 from deodar.batch.progress import Shown
 from deodar.batch.request import SimulationRequest
 from deodar.batch.workers import run as in_workers
-from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
+from deodar.errors import DeodarError, Interrupted, NotFinite, ParameterError, RunWarning
 from deodar.model.model import Handle, Model
 from deodar.parameters import real
 from deodar.recording.probe import Probe
@@ -58,6 +61,7 @@ def simulate(
     force: bool = False,
     own_noise: bool = False,
     devices: int | str | None = None,
+    cluster: Cluster | str | None = None,
 ) -> xarray.Dataset:
     """Run a model and return its record.
 
@@ -108,6 +112,9 @@ def simulate(
         devices: number of devices of the kind of `device` that share the copies in equal parts, or "all" of
             them. A copy has the bits that it has in a batch of the size of one part. The fields of a single
             run are divided along an axis. None: one device.
+        cluster: workers on this or many machines that share the pieces, in place of `workers`: a
+            `dd.Cluster`, or its address such as `local:4` or `tcp://HOST:8786`. Pieces are those without
+            workers; `batch` makes them smaller. A run in one piece is computed in this process.
 
     Returns:
         A Dataset with one variable for each path; dimensions: those of the sweep (its paths, or `point`, with
@@ -141,8 +148,11 @@ def simulate(
     request = SimulationRequest(
         duration, dt, seed, record, every, *copies, precision, workers, batch, device, devices, accuracy
     )
+    if workers is not None and cluster is not None:
+        raise ParameterError("workers and cluster exclude each other", fix="Leave one of them out")
+    spread = None if cluster is None else functools.partial(on_cluster, Cluster.of(cluster))
     file = None if out is None else RunOutput(Path(out), force, snapshots)
-    return warned(model, request, world, progress, file)
+    return warned(model, request, world, progress, file, spread)
 
 
 def warned(
@@ -151,14 +161,17 @@ def warned(
     world: World | None,
     progress: Shown,
     out: RunOutput | None,
+    spread: Spread | None = None,
 ) -> xarray.Dataset:
     """Compute a run, in memory or into a file; return its record, with a warning if copies diverged.
+
+    `spread` runs pieces on a cluster; none: in worker processes, if the request has workers.
 
     Raises:
         NotFinite: a single run diverges, or all copies diverge.
         Interrupted: on Ctrl-C, with the record until then.
     """
-    data, lost = _computed(model, request, world, progress, out)
+    data, lost = _computed(model, request, world, progress, out, spread)
     if lost is not None:
         raise lost
     if "diverged" in data.attrs:
@@ -172,14 +185,16 @@ def _computed(
     world: World | None,
     progress: Shown,
     out: RunOutput | None,
+    spread: Spread | None,
 ) -> tuple[xarray.Dataset, NotFinite | None]:
     """Return the record, and the error if all copies diverged."""
+    run, always = spread or in_workers, spread is not None
     if out is None:
-        data, _, lost = compute(model, request, world, progress, in_workers)
+        data, _, lost = compute(model, request, world, progress, run, always=always)
         assert data is not None
         return data, lost
     try:
-        _, _, lost = compute(model, request, world, progress, in_workers, out)
+        _, _, lost = compute(model, request, world, progress, run, out, always)
     except BaseException as error:
         data = out.abandon()
         if isinstance(error, Interrupted):

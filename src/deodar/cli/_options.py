@@ -43,12 +43,13 @@ def add_world(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_cluster(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add `--cluster`, `--trust-network`, `--mixed` and `--patience`.
+def add_cluster(parser: argparse.ArgumentParser, what: str, mixed: bool = False) -> None:
+    """Add `--cluster`, `--trust-network`, `--patience` and `--mixed`.
 
     Args:
         parser: the parser of the command.
         what: what the workers share.
+        mixed: whether to add `--mixed`.
     """
     parser.add_argument(
         "--cluster",
@@ -63,9 +64,12 @@ def add_cluster(parser: argparse.ArgumentParser, what: str) -> None:
         action="store_true",
         help="allow workers beyond this machine, in a network of your own: messages are not encrypted",
     )
-    parser.add_argument(
-        "--mixed", action="store_true", help="allow workers whose processors differ; each row names its own"
-    )
+    if mixed:
+        parser.add_argument(
+            "--mixed",
+            action="store_true",
+            help="allow workers whose processors differ; each row names its own",
+        )
     parser.add_argument(
         "--patience",
         type=positive,
@@ -77,24 +81,24 @@ def add_cluster(parser: argparse.ArgumentParser, what: str) -> None:
 def cluster(args: argparse.Namespace) -> Cluster | None:
     """Return the cluster of `--cluster`; None without it."""
     if args.cluster is None:
-        given = [
-            f"--{n}" for n in ("trust-network", "mixed", "patience") if getattr(args, n.replace("-", "_"))
-        ]
+        given = cluster_again(args)
         if given:
-            args.wrong(f"{given[0]} needs --cluster ADDRESS")
+            args.wrong(f"{given[0].split()[0]} needs --cluster ADDRESS")
         return None
     if args.workers:
         args.wrong("--workers and --cluster exclude each other")
     # start-up time: this brings JAX
     from deodar.batch.cluster import PATIENCE, Cluster
 
-    return Cluster(args.cluster, args.trust_network, args.mixed, args.patience or PATIENCE)
+    mixed = getattr(args, "mixed", False)
+    return Cluster(args.cluster, args.trust_network, mixed, args.patience or PATIENCE)
 
 
 def cluster_again(args: argparse.Namespace) -> list[str]:
     """Return the options of a cluster as they are typed."""
     given = [f"--cluster {shlex.quote(args.cluster)}"] if args.cluster else []
-    given += [f"--{name.replace('_', '-')}" for name in ("trust_network", "mixed") if getattr(args, name)]
+    given += ["--trust-network"] if args.trust_network else []
+    given += ["--mixed"] if getattr(args, "mixed", False) else []
     return given + ([f"--patience {args.patience:g}"] if args.patience else [])
 
 

@@ -58,7 +58,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="share the trials among N processes of one core each",
     )
-    _options.add_cluster(parser, "trials")
+    _options.add_cluster(parser, "trials", mixed=True)
     _options.wrong(parser)
     _long.add_yes(parser)
     _options.add_world(parser)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import shutil
 import sys
 import time
@@ -11,16 +12,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar import codec, papers
+from deodar.batch.on_cluster import ClusterPool
 from deodar.cli import _options, _rescue
 from deodar.cli._bar import Bar, lasting
 from deodar.codec import Json
-from deodar.errors import OutputError, UnknownName, did_you_mean
+from deodar.errors import OutputError, UnknownName, WorkerError, did_you_mean
 from deodar.experiments.jobs import run_jobs
 from deodar.experiments.rows import Rows, claim
 from deodar.model import output
-from deodar.recording import places
+from deodar.recording import places, writer_lock
 
 if TYPE_CHECKING:
+    from deodar.batch.cluster import Cluster
     from deodar.experiments.jobs import Job
     from deodar.experiments.rows import Rows
     from deodar.papers._report import Report
@@ -64,6 +67,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="share the runs among N processes of one core each",
     )
+    _options.add_cluster(parser, "runs")
     _options.add_json(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.wrong(parser)
@@ -79,21 +83,14 @@ def run(args: argparse.Namespace) -> int:
     paper = papers.paper(args.paper)
     jobs = _chosen(args, paper.jobs(args.quick))
     out: Path = args.out or places.free(Path.cwd(), args.paper)
-    rows = _open(out, {**paper.about(args.quick), "made_by": made_by(find())}, paper.BY_CONDITION)
-    began, before = time.perf_counter(), len(rows.found)
-    try:
-        with Bar(args.no_progress or args.json, "runs") as bar:
-            run_jobs(jobs, rows, bar.show, args.workers or None)
-    except KeyboardInterrupt:
-        print(
-            f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",
-            file=sys.stderr,
-        )
-        return 1
-    except OutputError as error:
-        why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
-        print(f"deodar reproduce: {why} Resume with: {_again(args, out)}", file=sys.stderr)
-        return 1
+    cluster = _options.cluster(args)
+    claim(out, ROWS, "a reproduction")
+    with writer_lock.locked(out), _workers(cluster) as pool:
+        made = made_by(find()) if pool is None else pool.made_by
+        rows = Rows(out / ROWS, {**paper.about(args.quick), "made_by": dict(made)}, paper.BY_CONDITION)
+        began, before = time.perf_counter(), len(rows.found)
+        if not _ran(args, out, jobs, rows, pool):
+            return 1
     settings = {
         "paper": args.paper,
         "quick": args.quick,
@@ -104,11 +101,36 @@ def run(args: argparse.Namespace) -> int:
     return _write(args, out, paper.report(rows.found, args.quick), settings, took)
 
 
+def _workers(cluster: Cluster | None) -> contextlib.AbstractContextManager[ClusterPool | None]:
+    return contextlib.nullcontext() if cluster is None else ClusterPool(cluster)
+
+
+def _ran(
+    args: argparse.Namespace, out: Path, jobs: Sequence[Job], rows: Rows, pool: ClusterPool | None
+) -> bool:
+    """Run the jobs, and return whether they came to their end; otherwise say how to resume them."""
+    try:
+        with Bar(args.no_progress or args.json, "runs") as bar:
+            run_jobs(jobs, rows, bar.show, args.workers or None, cluster=pool)
+    except KeyboardInterrupt:
+        print(
+            f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",
+            file=sys.stderr,
+        )
+        return False
+    except (OutputError, WorkerError) as error:
+        why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
+        print(f"deodar reproduce: {why} Resume with: {_again(args, out)}", file=sys.stderr)
+        return False
+    return True
+
+
 def _again(args: argparse.Namespace, out: Path) -> str:
     """Return the call that resumes this one."""
     again = " ".join(
         ["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)]
     )
+    again = " ".join([again, *_options.cluster_again(args)])
     return again + (f" --only {' '.join(args.only)}" if args.only else "")
 
 
@@ -119,12 +141,6 @@ def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
         if not any(c.startswith(name) for c in conditions):
             raise UnknownName(f"no condition begins with {name!r}", fix=did_you_mean(name, conditions))
     return [job for job in jobs if not args.only or job.keys[0].startswith(tuple(args.only))]
-
-
-def _open(out: Path, about: Mapping[str, Json], by_condition: Sequence[str]) -> Rows:
-    """Open the rows in a new folder, or in one of an earlier call; refuse any other folder."""
-    claim(out, ROWS, "a reproduction")
-    return Rows(out / ROWS, about, by_condition)
 
 
 def _write(

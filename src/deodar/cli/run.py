@@ -45,6 +45,7 @@ OF_A_RECORD = (
     "precision",
     "workers",
     "devices",
+    "cluster",
     "accuracy",
     "snapshots",
 )
@@ -88,6 +89,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="share trials and sweep points among N processes of one core each",
     )
     _options.add_devices(parser)
+    _options.add_cluster(parser, "pieces of a large batch")
     parser.add_argument(
         "--sweep",
         type=_options.values,
@@ -195,6 +197,7 @@ def _simulate(args: argparse.Namespace) -> int:
         if sweep is not None:
             args.wrong("--points is a list and --sweep a grid; give one of them")
         sweep = points_file.read(args.points)
+    cluster = _options.cluster(args)
     place = _Place(args, model.name)
     step = model.document.step if args.dt is None else args.dt
 
@@ -213,6 +216,7 @@ def _simulate(args: argparse.Namespace) -> int:
             world=world,
             progress=progress,
             workers=args.workers,
+            cluster=cluster,
             device=args.device,
             devices=args.devices,
             accuracy=args.accuracy or "default",

@@ -18,6 +18,7 @@ import numpy as np
 from deodar import codec, renamed
 from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
+from deodar.batch.packed import require_portable
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
@@ -121,12 +122,7 @@ def _opened(
     if cluster is None or handed is None:
         yield None
         return
-    if setup.world is not None and setup.world.wall_clock:
-        raise WorkerError(
-            f"the world {type(setup.world).__name__} is bound to this machine and its clock, so a cluster"
-            " cannot run its trials",
-            fix="Run without a cluster",
-        )
+    require_portable(setup.world)
     with ClusterPool(cluster, setup.experiment.precision) as pool:
         pool.everywhere(packed.prepare, handed)
         yield pool

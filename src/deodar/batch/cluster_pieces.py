@@ -1,0 +1,102 @@
+"""Pieces of a large batch on the workers of a cluster.
+
+A worker returns a whole piece: its record, or what it would have sent to the process that writes the record,
+which is the caller here too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from deodar.batch import sent
+from deodar.batch.cluster import Cluster
+from deodar.batch.compute import compute
+from deodar.batch.on_cluster import ClusterPool
+from deodar.batch.output import OutputPart, RunOutput
+from deodar.batch.packed import PackedModel, require_portable
+from deodar.batch.pieces import EMPTY, PieceResult
+from deodar.batch.request import SimulationRequest
+from deodar.batch.sent import PieceMessage, SentOutput, SentPart, SentState
+from deodar.errors import WorkerError
+from deodar.model.model import Model
+from deodar.session.interrupt import SecondInterrupt
+from deodar.worlds._base import World
+
+WAIT = 0.2
+"""Longest wall time between two looks for Ctrl-C, in seconds."""
+
+
+def run(
+    cluster: Cluster,
+    model: Model,
+    world: World | None,
+    pieces: Sequence[SimulationRequest],
+    workers: int,
+    out: RunOutput | None,
+    between: Callable[[int], None],
+) -> list[PieceResult | None]:
+    """Run the pieces on a cluster, and return their records, as `workers.run` does.
+
+    Args:
+        cluster: where the workers are.
+        model: the model in its present state.
+        world: the world of its sensors; every piece has a copy of it.
+        pieces: the simulation of each piece.
+        workers: not used: the workers of the cluster share the pieces.
+        out: the file that receives the samples of all pieces; pieces that it has are not run again.
+        between: function that is called from time to time with the number of completed steps of all pieces; a
+            KeyboardInterrupt that it raises stops all, after the pieces that were submitted.
+
+    Raises:
+        KeyboardInterrupt: on a second Ctrl-C.
+        WorkerError: the workers cannot run the pieces.
+    """
+    require_portable(world)
+    if cluster.mixed:
+        raise WorkerError(
+            "a record states one machine, so the workers of its cluster may not be mixed",
+            fix="Leave mixed out",
+        )
+    packed = PackedModel.of(model, world)
+    known = set() if out is None else set(out.done)
+    parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(len(pieces))]
+    steps = [round(piece.duration / (piece.dt or 1.0)) for piece in pieces]
+    waiting = [k for k in range(len(pieces))[::-1] if k not in known]
+    interrupted = False
+    with ClusterPool(cluster, pieces[0].precision) as pool:
+        while waiting or pool.busy:
+            while waiting and pool.idle:
+                k = waiting.pop()
+                pool.give(k, work, packed, pieces[k], k, None if out is None else SentPart.of(out, k))
+            for number, (part, messages) in pool.wait(WAIT):
+                for message in messages:
+                    assert out is not None
+                    sent.receive(out, number, message)
+                parts[number] = part
+            if not interrupted:
+                try:
+                    between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
+                except SecondInterrupt:
+                    raise
+                except KeyboardInterrupt:
+                    interrupted = True
+                    waiting.clear()
+    return parts
+
+
+# ---------------------------------------------------------------------------------------------- in the worker
+
+
+def work(
+    packed: PackedModel, request: SimulationRequest, number: int, how: SentPart | None
+) -> tuple[PieceResult, list[PieceMessage]]:
+    """Run one piece; return its record, or without one the messages that write it."""
+    model, messages, part = packed.model, list[PieceMessage](), None
+
+    def keep(message: PieceMessage) -> None:
+        if not isinstance(message, SentState):  # of a moment before the end, which the caller never sees
+            messages.append(message)
+
+    if how is not None:
+        part = OutputPart(SentOutput(how, model.document, keep), number, how.region)
+    return compute(model, request, packed.world(), out=part), messages
