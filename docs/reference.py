@@ -160,6 +160,7 @@ MEASURES = [
         "dd.Factor",
         "dd.Measure",
         "dd.load_results",
+        "dd.merge_results",
         "dd.run_trial",
         "dd.run_batch",
         "deodar.experiments.trial.Trial",

@@ -151,6 +151,7 @@ from deodar.experiments.jobs import Job as Job
 from deodar.experiments.jobs import run_jobs as run_jobs
 from deodar.experiments.measures import BaseMeasure as BaseMeasure
 from deodar.experiments.measures import Measure as Measure
+from deodar.experiments.merging import merge_results as merge_results
 from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.run import run_trial as run_trial

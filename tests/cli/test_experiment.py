@@ -7,12 +7,16 @@ import io
 import json
 import re
 import sys
+import threading
+import time
 
 import pytest
 
 from deodar import cli
 from deodar.batch import on_cluster, simulate
 from deodar.cli import _long
+from deodar.cli import experiment as experiment_command
+from deodar.experiments import setup
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
@@ -208,3 +212,39 @@ def test_an_error_of_a_cluster_says_how_to_resume(file, capsys, monkeypatch):
     told = capsys.readouterr().err
     assert "no scheduler of Dask answers at tcp://127.0.0.1:9" in told and "What is done is kept." in told
     assert "--out out --cluster tcp://127.0.0.1:9 --patience 5" in told
+
+
+def test_parts_are_followed_and_merged(file, capsys, monkeypatch):
+    monkeypatch.setattr(setup, "MOST_COPIES", 8)
+    assert call("--trials", "0:8", "--out", "first") == 0
+    assert call("--follow", "first") == 1
+    told = capsys.readouterr()
+    assert "8 of 16 trials (50 %); slowest: noise 2, median" in told.out
+    assert "no process runs it" in told.err
+    assert call("--follow", "first", "--trials", "0:8") == 0
+    assert cli.main(["experiment", "merge", "first", "--out", "half"]) == 1
+    assert "Trials without a row, as --trials names them: 8:16" in capsys.readouterr().out
+    assert call("--trials", "8:16", "--out", "second") == 0
+    assert cli.main(["experiment", "merge", "first", "second", "--out", "whole"]) == 0
+    assert load_results("whole").sizes["trial"] == 16
+    for wrong, says in (
+        (["merge", "first"], "merge needs folders"),
+        (["when.json", "a"], "only merge takes"),
+    ):
+        with pytest.raises(SystemExit):
+            cli.main(["experiment", *wrong])
+        assert says in capsys.readouterr().err
+
+
+def test_a_run_is_followed_until_it_ends(file, capsys, monkeypatch):
+    monkeypatch.setattr(experiment_command, "FOLLOW_SECONDS", 0.02)
+    monkeypatch.setattr(setup, "MOST_COPIES", 2)
+    (file.parent / "out").mkdir()
+    (file.parent / "out" / "trials.jsonl").touch()
+    thread = threading.Thread(target=lambda: Experiment.load("when.json").run(file.parent / "out"))
+    thread.start()
+    while not (file.parent / "out" / "trials.jsonl").read_bytes():
+        time.sleep(0.002)
+    assert call("--follow", "out") == 0
+    thread.join()
+    assert "16 of 16 trials (100 %)" in capsys.readouterr().out

@@ -23,7 +23,7 @@ from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds._base import World
 
 WAIT = 0.2
-"""Longest wall time between two looks for Ctrl-C, in seconds."""
+"""Longest wall time between two checks for Ctrl-C, in seconds."""
 
 
 def run(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import dataclasses as dc
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +20,15 @@ from deodar.recording import places
 if TYPE_CHECKING:
     import xarray
 
+    from deodar.experiments.following import CellStanding, Standing
+
 HELP = "run the trials of an experiment, and write a table with a row for each"
 EPILOG = """\
 Rows are written as trials end: Ctrl-C or a power failure loses none. The same call with --out FOLDER
 resumes, with the same results as without the stop."""
+
+FOLLOW_SECONDS = 1.0
+"""Wall time between two reads of the rows of a run that is followed, in seconds."""
 
 MOST_CELLS = 24
 """Most combinations of levels that are listed; the table contains all of them."""
@@ -31,13 +38,23 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
     parser.add_argument(
-        "file", type=Path, metavar="FILE", help="an experiment (.json), which names its model"
+        "file",
+        type=Path,
+        metavar="FILE|merge",
+        help="an experiment (.json), which names its model; merge: write the rows of folders into --out",
     )
+    parser.add_argument("folders", nargs="*", type=Path, metavar="FOLDER", help="with merge: the folders")
     parser.add_argument(
         "--trials",
-        type=_options.whole,
-        metavar="N",
-        help="trials of each combination of levels, instead of the file's",
+        type=trials,
+        metavar="N|A:B",
+        help="trials of each combination of levels, instead of the file's; A:B: only the trials A to B - 1",
+    )
+    parser.add_argument(
+        "--follow",
+        type=Path,
+        metavar="FOLDER",
+        help="print how far another process has come that writes this folder, until it ends",
     )
     parser.add_argument(
         "--seed",
@@ -77,10 +94,19 @@ def run(args: argparse.Namespace) -> int:
     from deodar.importers.opening import load
 
     _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
+    if args.file == Path("merge"):
+        return _merge(args)
+    if args.folders:
+        args.wrong(f"only merge takes folders, and this is {args.file}")
+    part = args.trials if isinstance(args.trials, tuple) else None
     found = Experiment.load(args.file, load)
     given: dict[str, Any] = {"model": load(str(found.model), trust=args.trust)}
     given |= {key: value for key in ("trials", "seed", "world") if (value := getattr(args, key)) is not None}
+    if part is not None:
+        del given["trials"]
     experiment = dc.replace(found, **given)
+    if args.follow is not None:
+        return _follow(args, len(experiment.cells) if part is None else part[1] - part[0])
     cluster = _options.cluster(args)
     setup = experiment.setup(args.trust)
     if args.check:
@@ -89,12 +115,12 @@ def run(args: argparse.Namespace) -> int:
     _confirm(args, setup, out)
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
-            data = run_trials(setup, out, args.workers or None, bar.show, cluster=cluster)
+            data = run_trials(setup, out, args.workers or None, bar.show, cluster=cluster, part=part)
     except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise
         options = {
-            "--trials": args.trials,
+            "--trials": args.trials if part is None else f"{part[0]}:{part[1]}",
             "--seed": args.seed,
             "--world": args.world,
             "--workers": args.workers,
@@ -112,6 +138,86 @@ def run(args: argparse.Namespace) -> int:
         return 1
     _tell(args, out, data)
     return 1 if _diverged(data) == data.sizes["trial"] else 0
+
+
+def trials(text: str) -> int | tuple[int, int]:
+    """Parse a number of trials, or a range of them, A:B."""
+    first, colon, end = text.partition(":")
+    return (_options.whole(first), _options.whole(end)) if colon else _options.whole(text)
+
+
+trials.__name__ = "number of trials, or range A:B"
+
+
+def _merge(args: argparse.Namespace) -> int:
+    # start-up time: these bring JAX
+    from deodar.experiments.merging import merge_results
+
+    out: Path | None = args.out
+    if out is None or not args.folders:
+        args.wrong("merge needs folders and --out DIR")
+    assert out is not None
+    merged = merge_results(args.folders, out)
+    missing = [f"{a}:{b}" for a, b in merged.gaps]
+    if args.json:
+        print(codec.text({"out": str(out), "trials": merged.data.sizes["trial"], "missing": missing}))
+    else:
+        print(f"{merged.data.sizes['trial']} trials. Written to {_options.shown(out)}.")
+        if missing:
+            shown = ", ".join(missing[:MOST_CELLS]) + (", ..." if len(missing) > MOST_CELLS else "")
+            print(f"Trials without a row, as --trials names them: {shown}")
+    return 1 if missing else 0
+
+
+def _follow(args: argparse.Namespace, of: int) -> int:
+    """Print the standing of a run whenever rows arrive; status 1 if it has stopped before its end."""
+    # start-up time: these bring JAX
+    from deodar.experiments.following import standing
+    from deodar.experiments.results import stored_rows
+    from deodar.recording import writer_lock
+
+    begun: tuple[float, int] | None = None
+    said = -1
+    with contextlib.suppress(KeyboardInterrupt):
+        while True:
+            running = writer_lock.is_written(args.follow)  # before the rows: it may end after them
+            rows = stored_rows(args.follow)
+            now = time.monotonic()
+            begun = begun or (now, len(rows))
+            if len(rows) != said:
+                said = len(rows)
+                _tell_standing(args, standing(rows, of, begun, now))
+            if len(rows) >= of:
+                return 0
+            if running is False:
+                print(
+                    "deodar experiment: no process runs it; the call that began it resumes it",
+                    file=sys.stderr,
+                )
+                return 1
+            time.sleep(FOLLOW_SECONDS)
+    return 0
+
+
+def _tell_standing(args: argparse.Namespace, now: Standing) -> None:
+    if args.json:
+        print(codec.line(dc.asdict(now) | {"share": now.share}), flush=True)
+        return
+    left = "" if now.left is None else f", {_long.duration(now.left)} left"
+    text = [f"{now.rows} of {now.of} trials ({100 * now.share:.0f} %){left}"]
+    text += [f"slowest: {_called(now.cells[0])}, median {now.cells[0].duration:g}"] if now.cells else []
+    text += [f"diverged: {_called(cell)}, {cell.failed} of {cell.rows}" for cell in now.failing[:3]]
+    print("; ".join(text), flush=True)
+
+
+def _called(cell: CellStanding) -> str:
+    return _named(cell.levels) or "all trials"
+
+
+def _named(levels: Mapping[str, Any]) -> str:
+    """Return a combination of levels in words."""
+    shown = ((name, f"{value:g}" if isinstance(value, float) else value) for name, value in levels.items())
+    return ", ".join(f"{name} {value}" for name, value in shown)
 
 
 def _confirm(args: argparse.Namespace, setup: Any, out: Path) -> None:
@@ -191,10 +297,7 @@ def _cells(data: xarray.Dataset) -> Iterator[str]:
         shares = ", ".join(
             f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended))
         )
-        where = ", ".join(
-            f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}"
-            for name, value in zip(factors, cell, strict=True)
-        )
+        where = _named(dict(zip(factors, cell, strict=True)))
         after = "" if unit in ("abstract", "") or unit.startswith("1 =") else f" {unit}"
         durations = data["duration"].values[of]
         known = durations[~np.isnan(durations)]

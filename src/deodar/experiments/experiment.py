@@ -79,6 +79,7 @@ class Experiment(Design):
         progress: Callable[[Progress], None] | None = None,
         trust: bool = False,
         cluster: Cluster | str | None = None,
+        part: tuple[int, int] | None = None,
     ) -> xarray.Dataset:
         """Run all trials without a row, and return the table of all trials.
 
@@ -90,6 +91,8 @@ class Experiment(Design):
             trust: whether functions that the document names may be imported and run.
             cluster: the workers that run the trials, in place of `workers`: a `dd.Cluster`, or its address
                 such as `local:4` or `tcp://HOST:8786`.
+            part: the first trial and the one after the last, to run a part of the trials; batches that begin
+                there are run whole. `dd.merge_results` merges the folders of all parts.
 
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: it did
@@ -111,7 +114,7 @@ class Experiment(Design):
                 f" {setup.steps:.3g} steps of dt = {setup.dt:g})"
             )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
-        data = run_trials(setup, out, workers, progress, cluster=cluster)
+        data = run_trials(setup, out, workers, progress, cluster=cluster, part=part)
         if DIVERGED in data.attrs:
             warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
         return data

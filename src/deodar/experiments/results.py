@@ -54,6 +54,7 @@ def run_trials(
     progress: Callable[[Progress], None] | None = None,
     stopped: Callable[[], bool] | None = None,
     cluster: Cluster | str | None = None,
+    part: tuple[int, int] | None = None,
 ) -> xarray.Dataset:
     """Run the trials without a row, write the table, and return it.
 
@@ -64,20 +65,27 @@ def run_trials(
         progress: function that is called with a `Progress` after each piece.
         stopped: function that ends the workers once it returns true (see `run_jobs`).
         cluster: the workers that run the trials, in place of `workers`, or their address.
+        part: the first trial and the one after the last, to run a part of the trials; pieces that begin there
+            are run whole, so that parts without gaps between them are the whole experiment.
 
     Raises:
         RecordError: another process runs an experiment in this folder.
     """
     if workers and cluster is not None:
         raise ParameterError("workers and cluster exclude each other", fix="Leave one of them out")
+    if part is not None and not 0 <= part[0] < part[1] <= setup.trials:
+        raise ParameterError(
+            f"the trials {part[0]} to {part[1]} are no part of 0 to {setup.trials}",
+            fix=f"For example 0:{max(1, setup.trials // 2)}",
+        )
     where = None if cluster is None else Cluster.of(cluster)
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _run_trials(setup, Path(folder), workers, progress, stopped, where)
+            return _run_trials(setup, Path(folder), workers, progress, stopped, where, part)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
     with writer_lock.locked(folder):
-        return _run_trials(setup, folder, workers, progress, stopped, where)
+        return _run_trials(setup, folder, workers, progress, stopped, where, part)
 
 
 def _run_trials(
@@ -87,6 +95,7 @@ def _run_trials(
     progress: Callable[[Progress], None] | None,
     stopped: Callable[[], bool] | None,
     cluster: Cluster | None,
+    part: tuple[int, int] | None,
 ) -> xarray.Dataset:
     handed = packed.PackedExperiment.of(setup) if workers or cluster else None
     records = (
@@ -103,7 +112,7 @@ def _run_trials(
             output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
         if pool is not None and records is not None:
             _require_shared(pool, out)
-        run_jobs(list(_jobs(setup, handed, records)), rows, progress, workers, stopped, pool)
+        run_jobs(list(_jobs(setup, handed, records, part)), rows, progress, workers, stopped, pool)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
@@ -146,8 +155,15 @@ def _sees(file: Path, content: bytes) -> bool:
         return False
 
 
-def _jobs(setup: Setup, handed: packed.PackedExperiment | None, records: Path | None) -> Iterator[Job]:
+def _jobs(
+    setup: Setup,
+    handed: packed.PackedExperiment | None,
+    records: Path | None,
+    part: tuple[int, int] | None,
+) -> Iterator[Job]:
     for piece in setup.pieces():
+        if part is not None and not part[0] <= piece[0] < part[1]:
+            continue
         keys, given = tuple(f"{k:06}" for k in piece), {"trials": piece, "records": records}
         if handed is None:
             yield Job(keys, setup.rows, given, len(piece))
@@ -221,7 +237,7 @@ def stored_rows(folder: Path) -> list[Row]:
     Raises:
         RecordError: it is not the folder of an experiment.
     """
-    return _stored(folder)[1]
+    return stored(folder)[1]
 
 
 def load_results(path: str | Path) -> xarray.Dataset:
@@ -231,15 +247,19 @@ def load_results(path: str | Path) -> xarray.Dataset:
         RecordError: it is not the folder of an experiment.
     """
     folder = output.location(path)
-    about, rows = _stored(folder)
+    about, rows = stored(folder)
     try:
         return dataset(rows, about)
     except (ValueError, LookupError, TypeError):
         raise _no_results(folder) from None
 
 
-def _stored(folder: Path) -> tuple[JsonObject, list[Row]]:
-    """Return the identity of the experiment of a folder, and its rows."""
+def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
+    """Return the identity of the experiment of a folder, and its rows.
+
+    Raises:
+        RecordError: it is not the folder of an experiment.
+    """
     try:
         lines = [codec.parse(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
         return lines[0][ABOUT], lines[1:]

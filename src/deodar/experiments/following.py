@@ -1,0 +1,88 @@
+"""The standing of an experiment that another process runs, from its rows alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median
+from typing import Any
+
+from deodar.experiments.observations import DIVERGED, TIME
+from deodar.experiments.rows import Row
+
+
+@dataclass(frozen=True)
+class CellStanding:
+    """The trials of one combination of levels that have ended.
+
+    Attributes:
+        levels: the label of each factor, by its name.
+        rows: number of trials that have ended.
+        duration: median duration of these trials, in document time; NaN: all of them diverged.
+        failed: number of trials that diverged.
+        cut: number of trials that the limit ended.
+    """
+
+    levels: Mapping[str, Any]
+    rows: int
+    duration: float
+    failed: int
+    cut: int
+
+
+@dataclass(frozen=True)
+class Standing:
+    """The standing of an experiment.
+
+    Attributes:
+        rows: number of trials with a row.
+        of: number of all trials.
+        left: estimated remaining wall time in s; None before it can be estimated.
+        cells: the combinations of levels with rows, the one with the longest median duration first.
+    """
+
+    rows: int
+    of: int
+    left: float | None
+    cells: tuple[CellStanding, ...]
+
+    @property
+    def share(self) -> float:
+        """Share of trials with a row, 0 to 1."""
+        return self.rows / self.of if self.of else 1.0
+
+    @property
+    def failing(self) -> tuple[CellStanding, ...]:
+        """The combinations in which trials diverged, the one with most of them first."""
+        return tuple(sorted((c for c in self.cells if c.failed), key=lambda cell: -cell.failed / cell.rows))
+
+
+def standing(
+    rows: Sequence[Row], of: int, begun: tuple[float, int] | None = None, now: float = 0.0
+) -> Standing:
+    """Return the standing of an experiment.
+
+    Args:
+        rows: the rows that exist.
+        of: number of all trials.
+        begun: an earlier moment in s, and the number of rows at that moment, for the remaining time.
+        now: the present moment in s.
+    """
+    groups: dict[tuple[Any, ...], list[Row]] = {}
+    for row in rows:
+        levels: Mapping[str, Any] = row["levels"]
+        groups.setdefault(tuple(levels.items()), []).append(row)
+    cells = [_cell(dict(levels), group) for levels, group in groups.items()]
+    cells.sort(key=lambda cell: -cell.duration if math.isfinite(cell.duration) else math.inf)
+    left = None
+    if begun is not None and len(rows) > begun[1] and now > begun[0]:
+        left = (of - len(rows)) * (now - begun[0]) / (len(rows) - begun[1])
+    return Standing(len(rows), of, left, tuple(cells))
+
+
+def _cell(levels: Mapping[str, Any], rows: Sequence[Row]) -> CellStanding:
+    durations = [float(row["duration"]) for row in rows if row["duration"] is not None]
+    failed = sum(DIVERGED in row for row in rows)
+    cut = sum(row["outcome"] == TIME for row in rows)
+    return CellStanding(levels, len(rows), median(durations) if durations else math.nan, failed, cut)

@@ -1,0 +1,110 @@
+"""Merge the folders of one experiment whose trials were divided among machines that do not see each other."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar.errors import OutputExists, RecordError
+from deodar.experiments import results
+from deodar.experiments.design import Design
+from deodar.experiments.jobs import MACHINE
+from deodar.experiments.rows import KEY, Row, Rows, claim, different
+from deodar.model import output
+from deodar.recording import files, writer_lock
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True)
+class MergedResults:
+    """The rows of several folders.
+
+    Attributes:
+        data: the table, as of an experiment.
+        gaps: the ranges of trials without a row, each with its first trial and the one after its last.
+    """
+
+    data: xarray.Dataset
+    gaps: tuple[tuple[int, int], ...]
+
+
+def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResults:
+    """Write the rows of several folders of the same experiment into a new folder.
+
+    Each folder has a part of the trials, as `experiment.run(part=(A, B))` or `--trials A:B` runs it. A trial
+    that is in several folders must have the same row in each. Records of trials stay where they are.
+
+    Args:
+        folders: the folders.
+        out: the new folder.
+
+    Raises:
+        RecordError: a folder has no experiment, another one, or another row of the same trial.
+        OutputExists: `out` exists.
+    """
+    places = [output.location(folder) for folder in folders]
+    if not places:
+        raise RecordError("no folder is named", fix="Name the folders that deodar experiment wrote")
+    stored = [results.stored(place) for place in places]
+    about, found = stored[0][0], dict[str, tuple[Row, Path]]()
+    for place, (other, rows) in zip(places, stored, strict=True):
+        changed = different(other, about)
+        if changed:
+            raise RecordError(
+                f"holds another experiment than {places[0]}: {', '.join(changed)} differ",
+                where=str(place),
+                fix="Merge folders of one experiment, version and kind of machine",
+            )
+        for row in rows:
+            first, where = found.setdefault(row[KEY], (row, place))
+            if _bare(first) != _bare(row):
+                raise RecordError(
+                    f"has another row of trial {row['trial']} than {where}",
+                    where=str(place),
+                    fix="Run this trial again on one machine, and find out which one computes wrongly",
+                )
+    folder = output.location(out)
+    if folder.exists():
+        raise OutputExists("exists", where=str(folder), fix="Choose another name")
+    claim(folder, results.ROWS, "an experiment")
+    with writer_lock.locked(folder):
+        merged = Rows(folder / results.ROWS, about)
+        merged.append(row for row, _ in sorted(found.values(), key=lambda one: one[0]["trial"]))
+        for name in (results.EXPERIMENT, results.MODEL):
+            _copy(places[0], folder, name)
+        data = results.dataset(list(merged.found.values()), about)
+        output.write(folder / results.TABLE, results.table(data).encode())
+        files.save_record(data, folder / results.DATASET, force=True)
+    known = {row["trial"] for row in merged.found.values()}
+    return MergedResults(data, gaps(known, len(Design.load(folder / results.EXPERIMENT).cells)))
+
+
+def gaps(trials: set[int], of: int) -> tuple[tuple[int, int], ...]:
+    """Return the ranges of numbers below `of` that are not among some, each as first and one after the
+    last.
+    """
+    out: list[tuple[int, int]] = []
+    for k in range(of):
+        if k in trials:
+            continue
+        if out and out[-1][1] == k:
+            out[-1] = (out[-1][0], k + 1)
+        else:
+            out.append((k, k + 1))
+    return tuple(out)
+
+
+def _bare(row: Row) -> Row:
+    return {key: value for key, value in row.items() if key != MACHINE}
+
+
+def _copy(source: Path, folder: Path, name: str) -> None:
+    """Copy a file, and the arrays of a model beside it."""
+    for file in [source / name, *source.glob(f"{Path(name).stem}.*.npz")]:
+        if file.is_file():
+            shutil.copyfile(file, folder / file.name)
