@@ -129,6 +129,8 @@ class ClusterPool:
         self._staffed = self._checked = time.monotonic()
         self._failed: BaseException | None = None
         self._class: dict[str, str] = {}
+        self._here: dict[str, str] = {}
+        self._known: dict[str, str] = {}
         self._stack = contextlib.ExitStack()
 
     def __enter__(self) -> Self:
@@ -414,7 +416,9 @@ class ClusterPool:
 
     def _accept(self, about: Mapping[str, str], who: str) -> None:
         """Raise an error if rows of this worker cannot be stored with those of the others."""
-        here = _made_here(self._precision)
+        if about == self._known:
+            return
+        here = self._here = self._here or _made_here(self._precision)
         named = sorted({*here, *about} - {*OWN})
         differ = [name for name in named if here.get(name) != about.get(name)]
         if differ:
@@ -440,6 +444,7 @@ class ClusterPool:
                 fix="Use workers of one kind, or allow it: mixed=True, on the command line --mixed",
             )
         known = {name: text for name, text in about.items() if name != INSTRUCTIONS}
+        self._known = dict(about)
         self.made_by = known | ({"machine": "mixed"} if self.cluster.mixed else {})
 
     def _wait_for(self, coroutine: Coroutine[Any, Any, Any], seconds: float, what: str) -> Any:

@@ -92,16 +92,17 @@ def run_jobs(
         sum(job.cost for job in jobs) - sum(job.cost for job in missing),
     )
     began, done = time.monotonic(), 0.0
+    of = sum(len(job.keys) for job in jobs)
+    kept = sum(key in rows.found for job in jobs for key in job.keys)
 
     def tell(new: Sequence[Row]) -> None:
         seconds = time.monotonic() - began
         left = seconds / done * (total - before - done) if done else None
-        kept = sum(key in rows.found for job in jobs for key in job.keys)
         if progress is not None:
             progress(
                 Progress(
                     kept,
-                    sum(len(job.keys) for job in jobs),
+                    of,
                     (before + done) / total if total else 1.0,
                     left,
                     new,
@@ -113,6 +114,7 @@ def run_jobs(
         new = [row for row in found if row[KEY] not in rows.found]
         rows.append(found)
         done += job.cost
+        kept += len({row[KEY] for row in new} & {*job.keys})
         tell([rows.found[row[KEY]] for row in new])
 
 
