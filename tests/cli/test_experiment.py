@@ -248,3 +248,17 @@ def test_a_run_is_followed_until_it_ends(file, capsys, monkeypatch):
     assert call("--follow", "out") == 0
     thread.join()
     assert "16 of 16 trials (100 %)" in capsys.readouterr().out
+
+
+def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(setup, "MOST_COPIES", 4)
+    assert call("--plan") == 0
+    out = capsys.readouterr().out
+    assert (
+        "when: 16 trials in 4 pieces of at most 4; about" in out and "More than 4 workers do not help" in out
+    )
+    assert "  1 worker: at most" in out and "  4 workers: at most" in out
+    assert call("--plan", "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert list(found["times"]) == ["1", "2", "4"] and found["pieces"] == [4] * 4
+    assert not list(tmp_path.glob("when-*"))

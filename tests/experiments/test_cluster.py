@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import pickle
 import re
 import signal
 import subprocess
 import sys
 import time
+import types
 from pathlib import Path
 
 import pytest
@@ -17,9 +19,10 @@ from distributed import LocalCluster
 from deodar.batch import cluster_task, on_cluster
 from deodar.batch.cluster import Cluster, slurm_settings
 from deodar.batch.on_cluster import ClusterPool
-from deodar.errors import ParameterError, RecordError, WorkerError
+from deodar.errors import MissingExtra, ParameterError, RecordError, WorkerError
 from deodar.experiments import results
 from deodar.recording import writer_lock
+from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds.camera import Camera
 from tests.experiments import clustered
 
@@ -282,6 +285,91 @@ def test_a_scheduler_that_dies_is_an_error(tmp_path, rows, pieces, monkeypatch):
     assert clustered.lines(tmp_path / "out") == rows
 
 
+def test_a_result_that_never_arrives_is_computed_again(scheduler, monkeypatch):
+    """As if the worker had died with the result: its future is finished, and nothing comes."""
+    monkeypatch.setattr(on_cluster, "FETCH_SECONDS", 0.3)
+    real, asked = ClusterPool._follow, []
+
+    async def follow(self, key, attempt, future):
+        asked.append(attempt)
+        if attempt:
+            await real(self, key, attempt, future)
+
+    monkeypatch.setattr(ClusterPool, "_follow", follow)
+    out = []
+    with ClusterPool(Cluster(scheduler.scheduler_address)) as pool:
+        pool.give("sum", sum, [1, 2])
+        clustered.within(lambda: _collect(pool, out))
+    assert out == [("sum", 3)] and asked == [0, 1]
+
+
+def test_a_result_that_arrives_on_no_attempt_is_an_error(scheduler, monkeypatch):
+    monkeypatch.setattr(on_cluster, "FETCH_SECONDS", 0.0)
+    monkeypatch.setattr(on_cluster, "CHECK_EVERY", 0.05)
+    monkeypatch.setattr(on_cluster, "MOST_ATTEMPTS", 3)
+
+    async def follow(self, key, attempt, future):
+        pass
+
+    monkeypatch.setattr(ClusterPool, "_follow", follow)
+    with ClusterPool(Cluster(scheduler.scheduler_address)) as pool:
+        pool.give("sum", sum, [1, 2])
+        with pytest.raises(WorkerError, match="the task sum was submitted 3 times without a result"):
+            clustered.within(lambda: _collect(pool, []))
+
+
+def test_a_second_ctrl_c_ends_at_once(tmp_path, rows, pieces, scheduler):
+    def told(progress):
+        if progress.rows:
+            os.kill(os.getpid(), signal.SIGINT)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    address = scheduler.scheduler_address
+    with pytest.raises(SecondInterrupt):
+        clustered.experiment().run(tmp_path / "out", progress=told, cluster=address)
+    assert len(clustered.lines(tmp_path / "out")) == 3, "the header and the first piece"
+    _run(tmp_path / "out", address)
+    assert clustered.lines(tmp_path / "out") == rows
+
+
+def test_workers_of_several_threads_are_refused(tmp_path, pieces):
+    with (
+        LocalCluster(
+            n_workers=1,
+            threads_per_worker=2,
+            processes=False,
+            protocol="tcp",
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+        ) as wide,
+        pytest.raises(WorkerError, match=r"workers have several threads: \S+ \(2\). Start them with one"),
+    ):
+        _run(tmp_path / "out", wide.scheduler_address)
+
+
+def test_code_that_a_worker_cannot_import_is_an_error(monkeypatch):
+    module = types.ModuleType("only_here")
+    exec("def one():\n    return 1", module.__dict__)
+    monkeypatch.setitem(sys.modules, "only_here", module)
+    payload = on_cluster.pickled(module.one, ())
+    monkeypatch.delitem(sys.modules, "only_here")
+    good, error = pickle.loads(cluster_task.run(payload, "float32")[1])
+    assert not good and isinstance(error, WorkerError)
+    assert "a worker cannot import what the task needs (ModuleNotFoundError: No module named 'only" in str(
+        error
+    )
+
+
+def test_records_need_a_folder_that_every_worker_sees(tmp_path, monkeypatch):
+    (tmp_path / "experiment.json").write_text("{}")
+    elsewhere = types.SimpleNamespace(everywhere=lambda function, file, content: [True, False])
+    with pytest.raises(WorkerError, match="a worker does not see the folder of the results"):
+        results._require_shared(elsewhere, tmp_path)
+    here = types.SimpleNamespace(everywhere=lambda function, *given: [function(*given)])
+    results._require_shared(here, tmp_path)
+    assert not results._sees(tmp_path / "none", b"")
+
+
 # ------------------------------------------------------------------------------------------------- addresses
 
 
@@ -356,3 +444,11 @@ def test_a_wrong_file_of_slurm_is_refused(tmp_path, text, says):
     (tmp_path / "jobs.yaml").write_text(text)
     with pytest.raises(ParameterError, match=says):
         on_cluster.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
+
+
+def test_without_the_extra_an_error_says_what_to_install(monkeypatch):
+    for name, package in (("distributed", "distributed"), ("dask_jobqueue.slurm", "dask-jobqueue")):
+        with monkeypatch.context() as patch:
+            patch.setitem(sys.modules, name, None)
+            with pytest.raises(MissingExtra, match=rf"{package}.*pip install 'deodar\[cluster\]'"):
+                on_cluster.slurm_script(Cluster("slurm:none.yaml", trust_network=True))

@@ -82,6 +82,11 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--check", action="store_true", help="only check whether it can be run, and in which batches"
     )
+    parser.add_argument(
+        "--plan",
+        action="store_true",
+        help="only measure the beginning of a batch, and print memory and time for numbers of workers",
+    )
     _options.add_json(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
 
@@ -111,6 +116,8 @@ def run(args: argparse.Namespace) -> int:
     setup = experiment.setup(args.trust)
     if args.check:
         return _check(args, setup)
+    if args.plan:
+        return _plan(args, setup)
     out: Path = args.out or places.free(Path.cwd(), experiment.name)
     _confirm(args, setup, out)
     try:
@@ -250,6 +257,26 @@ def _check(args: argparse.Namespace, setup: Any) -> int:
         print(codec.line({"trials": sum(pieces), "batched": setup.batched, "pieces": pieces}))
     else:
         print(f"{setup.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
+    return 0
+
+
+def _plan(args: argparse.Namespace, setup: Any) -> int:
+    # start-up time: these bring JAX
+    from deodar.experiments.planning import plan
+
+    found = plan(setup)
+    times = {n: found.duration(n) for n in found.counts()}
+    if args.json:
+        answer = {"pieces": list(found.pieces), "memory": found.memory, "seconds": found.seconds}
+        print(codec.text({**answer, "times": {str(n): seconds for n, seconds in times.items()}}))
+        return 0
+    print(
+        f"{setup.experiment.name}: {sum(found.pieces)} trials in {found.most} pieces of at most"
+        f" {max(found.pieces)}; about {found.memory / 2**20:.0f} MB of memory for each worker"
+    )
+    for n, seconds in times.items():
+        print(f"  {n} worker{'s' if n > 1 else ''}: at most {_long.duration(seconds)}")
+    print(f"More than {found.most} workers do not help. Measured on this machine; trials may end earlier.")
     return 0
 
 

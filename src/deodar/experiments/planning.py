@@ -1,0 +1,72 @@
+"""What an experiment needs on several workers, from one measured piece."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import psutil
+
+from deodar.experiments.setup import Setup
+
+START_SECONDS = 5.0
+"""Wall time in which a worker starts and opens the model, in seconds (measured on one machine)."""
+
+
+@dataclass(frozen=True)
+class WorkPlan:
+    """The pieces of an experiment and the time of one of them.
+
+    Attributes:
+        pieces: number of trials of each piece.
+        seconds: wall time of a trial of the largest piece, if every trial lasted until the limit, in s.
+        memory: memory of this process after a piece, in bytes, as a worker needs it.
+    """
+
+    pieces: tuple[int, ...]
+    seconds: float
+    memory: int
+
+    @property
+    def most(self) -> int:
+        """Number of workers from which on another one does not help: one for each piece."""
+        return len(self.pieces)
+
+    def duration(self, workers: int) -> float:
+        """Return the wall time on some workers in s: each takes the next piece when it has none.
+
+        It is an upper bound, because trials may end before the limit.
+        """
+        free = [START_SECONDS] * max(1, min(workers, self.most))
+        for trials in self.pieces:
+            first = free.index(min(free))
+            free[first] += trials * self.seconds
+        return max(free)
+
+    def counts(self) -> list[int]:
+        """Return numbers of workers to compare: powers of two, and the largest useful one."""
+        powers = [2**k for k in range(math.ceil(math.log2(max(2, self.most))) + 1)]
+        return [n for n in powers if n < self.most] + [self.most]
+
+
+def plan(setup: Setup, steps: int = 200) -> WorkPlan:
+    """Run the beginning of the largest piece of an experiment in this process, and plan its pieces.
+
+    Args:
+        setup: the opened experiment.
+        steps: steps of the beginning; doubled until they take 0.2 s.
+    """
+    pieces = setup.pieces()
+    largest = max(pieces, key=len)
+    setup.shortened(1).rows(largest)  # compiles
+    n = min(steps, setup.steps)
+    while True:
+        began = time.perf_counter()
+        setup.shortened(n).rows(largest)
+        wall = time.perf_counter() - began
+        if wall >= 0.2 or n >= setup.steps:
+            break
+        n = min(2 * n, setup.steps)
+    seconds = wall * setup.steps / n / len(largest)
+    return WorkPlan(tuple(map(len, pieces)), seconds, psutil.Process().memory_info().rss)
