@@ -68,6 +68,8 @@ def test_copies_that_diverge_are_named(tmp_path, address):
 def test_what_a_cluster_cannot_compute_is_refused(address):
     with pytest.raises(ParameterError, match="workers and cluster exclude each other"):
         simulated(workers=2, cluster=address)
+    with pytest.raises(ParameterError, match="devices and cluster exclude each other"):
+        simulated(devices=2, cluster=address)
     with pytest.raises(WorkerError, match="a record states one machine"):
         simulated(cluster=Cluster(address, mixed=True))
     with pytest.raises(WorkerError, match="Camera is bound to this machine"):

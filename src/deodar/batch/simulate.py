@@ -148,8 +148,9 @@ def simulate(
     request = SimulationRequest(
         duration, dt, seed, record, every, *copies, precision, workers, batch, device, devices, accuracy
     )
-    if workers is not None and cluster is not None:
-        raise ParameterError("workers and cluster exclude each other", fix="Leave one of them out")
+    for name, given in (("workers", workers), ("devices", devices)):
+        if given is not None and cluster is not None:
+            raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
     spread = None if cluster is None else functools.partial(on_cluster, Cluster.of(cluster))
     file = None if out is None else RunOutput(Path(out), force, snapshots)
     return warned(model, request, world, progress, file, spread)
