@@ -141,10 +141,9 @@ def compute(
             doc,
             precision,
             filled,
-            device,
+            distribution or device,
             request.accuracy,
             embodied(doc, world),
-            distribution,
         )
         values = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values]
         numbered = [*numbers, *[numbers[-1]] * more_trials]

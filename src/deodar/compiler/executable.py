@@ -34,7 +34,7 @@ from deodar.compiler.batch import Batch
 from deodar.compiler.body import Body, batched
 from deodar.compiler.device import Device
 from deodar.compiler.division import Distribution, DividedCopies, Division
-from deodar.compiler.functions import Constants
+from deodar.compiler.functions import Constants, Replacements
 from deodar.compiler.layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
@@ -151,9 +151,8 @@ class Executable:
             self.layout.swept,
             body,
             copies=self.part.size if self.device.platform == "cpu" else 0,
-            kernels=self.kernels,
+            replaced=Replacements(self.kernels, None if self.fields is None else self.fields.tapped),
             pictures=body is None and batch.points is None and distribution is None,
-            tapped=None if self.fields is None else self.fields.tapped,
         )
         self.division: Division | None = self.fields
         if distribution is not None and self.fields is None:
@@ -569,10 +568,9 @@ def executable(
     doc: Document | None = None,
     precision: str = "float32",
     batch: Batch | None = None,
-    device: str | None = None,
+    device: str | Distribution | None = None,
     accuracy: str = "default",
     body: Body | None = None,
-    distribution: Distribution | None = None,
 ) -> Executable:
     """The executable of a document, by default the model's present one, for the CPU, a device or several;
     kept by the model, so that it compiles once.
@@ -580,9 +578,9 @@ def executable(
     `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may
     take what is cheaper and errs by less than 1e-4 in activation.
     """
-    batch, doc, place = batch or Batch(), doc or model.document, devices.find(device)
-    if distribution is not None:
-        place = distribution.devices[0]
+    batch, doc = batch or Batch(), doc or model.document
+    distribution = device if isinstance(device, Distribution) else None
+    place = devices.find(device) if not isinstance(device, Distribution) else device.devices[0]
     if precision not in PRECISIONS:
         raise ParameterError(f"precision is {precision!r}; expected float32 or float64")
     if accuracy not in ACCURACIES:

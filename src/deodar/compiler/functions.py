@@ -22,6 +22,18 @@ TappedOver = Callable[[Axes, Array, Array, str, int], Array]
 """A convolution by lags along one of some axes: the axes, and the arguments of `convolution.tapped`."""
 
 
+class Replacements(NamedTuple):
+    """Functions that replace those of `numerics` on some devices.
+
+    Attributes:
+        kernels: compiled kernels for parts of the step.
+        tapped: the convolution by lags, where devices divide an axis.
+    """
+
+    kernels: Kernels | None = None
+    tapped: TappedOver | None = None
+
+
 class Constants(NamedTuple):
     """The constants of a group between steps; a JAX PyTree.
 

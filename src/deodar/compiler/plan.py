@@ -1,14 +1,13 @@
 """The plan between model and program: plain data without JAX, for printing and tests.
 
 Nodes of equal structure are rows of one group, stacked on a leading axis. The schedule is a list of calls,
-and every sum of the graph a list of index arrays. A planner may replace the partition, or rewrite a plan into
-another one.
+and every sum of the graph a list of index arrays. A planner may rewrite a plan into another one.
 """
 
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
@@ -26,7 +25,6 @@ from deodar.numerics.choice import MANY, Shards
 from deodar.numerics.exact import LOW
 from deodar.parameters import Parameter
 
-Partition = Callable[[Node, bool, frozenset[str], Strategy], Hashable]
 Leaf = tuple[str, str]
 """Element id and path of a traced leaf inside the element."""
 
@@ -197,7 +195,6 @@ def plan(
     lifted: frozenset[Leaf] = frozenset(),
     exact: bool = False,
     copies: int = 1,
-    partition: Partition | None = None,
     readings: Readings = "constant",
     trials: int = 1,
     devices: int = 1,
@@ -210,7 +207,6 @@ def plan(
             left it once).
         exact: whether all kernels are to be applied by matrices. Those of which a width is lifted always are.
         copies: how many copies of the model run at once.
-        partition: which nodes share a group; none: `by_structure`.
         readings: how readings of sensors change during a chunk.
         trials: how many of the copies have the same parameters.
         devices: number of devices that divide the fields of one copy.
@@ -236,7 +232,7 @@ def plan(
     nodes = shared(nodes, found)
     between = _still(nodes, False) if readings == "held" else still
     sensory = {n.id: between[n.id] and not still[n.id] and not n.element.external for n in nodes}
-    groups, row = _groups(nodes, neutral, still, sensory, found, partition or by_structure)
+    groups, row = _groups(nodes, neutral, still, sensory, found)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
     reads = {
@@ -288,14 +284,13 @@ def _groups(
     still: Mapping[str, bool],
     sensory: Mapping[str, bool],
     found: Mapping[str, Strategy],
-    partition: Partition,
 ) -> tuple[list[RowGroup], dict[str, tuple[int, int]]]:
     keys: dict[Hashable, int] = {}
     groups: list[RowGroup] = []
     row: dict[str, tuple[int, int]] = {}
     # by stored id, so that the order of declaration has no effect
     for n in sorted(nodes, key=lambda n: n.id):
-        key = (partition(n, still[n.id], neutral[n.id], found[n.id]), sensory[n.id])
+        key = (by_structure(n, still[n.id], neutral[n.id], found[n.id]), sensory[n.id])
         g = keys.setdefault(key, len(groups))
         if g == len(groups):
             # noise at its neutral strength 0 is omitted from the program, unless that value may change

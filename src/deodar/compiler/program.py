@@ -21,7 +21,7 @@ from jax import Array, lax
 
 from deodar.compiler.arguments import EitherArray, NoiseKeys, ProgramClock, ProgramState, ProgramValues
 from deodar.compiler.body import Body
-from deodar.compiler.functions import Constants, StepArguments, TappedOver
+from deodar.compiler.functions import Constants, Replacements, StepArguments
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
@@ -29,7 +29,7 @@ from deodar.element import Arrays, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
-from deodar.numerics.native import LEAST_NOISE, Kernels
+from deodar.numerics.native import LEAST_NOISE
 from deodar.numerics.noise import Cells, block, element_keys, no_block, normal, of_block
 
 T = TypeVar("T")
@@ -112,9 +112,8 @@ class Program:
             tick.
 
     `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
-    `kernels`: compiled kernels for parts of the step, if there are any.
+    `replaced`: functions that replace those of `numerics`.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
-    `tapped`: the convolution by lags, where devices divide an axis.
     """
 
     def __init__(
@@ -124,12 +123,12 @@ class Program:
         sweep: Sequence[Sequence[int]] = (),
         body: Body | None = None,
         copies: int = 1,
-        kernels: Kernels | None = None,
+        replaced: Replacements | None = None,
         pictures: bool = False,
-        tapped: TappedOver | None = None,
     ) -> None:
         self.plan = plan
-        self.kernels = kernels
+        replaced = replaced or Replacements()
+        self.kernels = kernels = replaced.kernels
         self.body = body
         self.precision = precision
         self.dtype: np.dtype[np.floating] = np.dtype(precision)
@@ -153,7 +152,7 @@ class Program:
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
-        self.functions = [functions(g.like, g.strategy, kernels, tapped) for g in plan.groups]
+        self.functions = [functions(g.like, g.strategy, *replaced) for g in plan.groups]
 
     # --------------------------------------------------------------------------------------- prepare and init
 

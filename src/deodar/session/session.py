@@ -262,9 +262,8 @@ class Session:
             model or self._model,
             document,
             self._precision,
-            device=self.device,
+            device=self._distribution or self.device,
             accuracy=self._accuracy,
-            distribution=self._distribution,
         )
 
     def precompile(self, program: Executable) -> None:
