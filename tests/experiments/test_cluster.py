@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import pickle
 import re
@@ -21,7 +22,7 @@ from deodar.batch.cluster import Cluster, slurm_settings
 from deodar.batch.on_cluster import ClusterPool
 from deodar.errors import MissingExtra, ParameterError, RecordError, WorkerError
 from deodar.experiments import results
-from deodar.recording import writer_lock
+from deodar.recording import provenance, writer_lock
 from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds.camera import Camera
 from tests.experiments import clustered
@@ -169,12 +170,37 @@ def test_workers_of_two_kinds_are_refused_or_named(tmp_path, pieces, monkeypatch
 
 def test_rows_of_a_mixed_cluster_name_their_machine(tmp_path, rows, pieces, scheduler):
     data = _run(tmp_path / "out", Cluster(scheduler.scheduler_address, mixed=True))
-    made = results.provenance.machine()
+    made = provenance.machine()
     assert set(data.machine.values.tolist()) == {made}
     marked = [line.removesuffix("}") + f', "machine": "{made}"}}' for line in rows if '"key"' in line]
     assert [line for line in clustered.lines(tmp_path / "out") if '"key"' in line] == marked
     with pytest.raises(results.DeodarError, match="made_by differ"):
         _run(tmp_path / "out", scheduler.scheduler_address)
+
+
+DISGUISE = """
+from deodar.recording import provenance
+provenance.machine = lambda: "another machine"
+"""
+
+
+def test_outcomes_are_compared_on_two_kinds_of_machines(tmp_path, rows, pieces, scheduler):
+    (tmp_path / "disguise.py").write_text(DISGUISE)
+    command = [sys.executable, "-m", "distributed.cli.dask_worker", scheduler.scheduler_address]
+    command += ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--preload", str(tmp_path / "disguise.py")]
+    environment = {**os.environ, "NPROC": "1", "PYTHONPATH": _paths()}
+    with subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL) as disguised:
+        try:
+            clustered.within(lambda: scheduler.wait_for_workers(2, timeout=60))
+            _run(tmp_path / "out", Cluster(scheduler.scheduler_address, mixed=True))
+        finally:
+            disguised.terminate()
+    with (tmp_path / "out" / "machines.csv").open(newline="") as file:
+        table = list(csv.DictReader(file))
+    assert [row["trial"] for row in table] == ["0", "1"], "the two trials of one piece of twelve"
+    kinds = {provenance.machine(), "another machine"}
+    assert all({row["machine"], row["other machine"]} == kinds for row in table)
+    assert all(row["equal"] == "True" and row["outcome"] == row["other outcome"] for row in table)
 
 
 def test_no_worker_is_an_error_after_a_while(tmp_path, pieces):

@@ -129,6 +129,7 @@ class ClusterPool:
         self._staffed = self._checked = time.monotonic()
         self._failed: BaseException | None = None
         self._class: dict[str, str] = {}
+        self._kinds: dict[str, str] = {}
         self._here: dict[str, str] = {}
         self._known: dict[str, str] = {}
         self._stack = contextlib.ExitStack()
@@ -164,10 +165,19 @@ class ClusterPool:
         """Number of workers now."""
         return len(self._seen.workers)
 
-    def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any) -> None:
-        """Submit a task; `wait` returns its result under the key."""
+    @property
+    def machines(self) -> list[str]:
+        """The kinds of machines of the workers that answered `everywhere` and still exist."""
+        return sorted({kind for address, kind in self._kinds.items() if address in self._seen.workers})
+
+    def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any, machine: str = "") -> None:
+        """Submit a task; `wait` returns its result under the key.
+
+        `machine`: the kind of machine that should run it, one of `machines`; another one does if none of that
+        kind is left.
+        """
         payload = pickled(function, arguments)
-        future, follower = self._submitted(key, payload, 0)
+        future, follower = self._submitted(key, payload, 0, machine)
         self._tasks[key] = _Task(key, payload, 0, future, follower)
 
     def wait(self, seconds: float) -> list[tuple[Any, Any]]:
@@ -211,6 +221,7 @@ class ClusterPool:
             if isinstance(answer, BaseException):
                 raise _unable(answer, f"the worker {address}")
             self._accept(answer[0], f"the worker {address}")
+            self._kinds[address] = answer[0]["machine"]
             good, result = pickle.loads(answer[1])
             if not good:
                 raise result
@@ -293,13 +304,20 @@ class ClusterPool:
     # -------------------------------------------------------------------------------------------------- tasks
 
     def _submitted(
-        self, key: Hashable, payload: bytes, attempt: int
+        self, key: Hashable, payload: bytes, attempt: int, machine: str = ""
     ) -> tuple[Any, concurrent.futures.Future[None]]:
         name = f"deodar-{self._token}-{hashlib.sha256(payload).hexdigest()[:16]}-{attempt}"
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that the payload is large
             future = self._client.submit(
-                cluster_task.run, payload, self._precision, key=name, pure=False, retries=0
+                cluster_task.run,
+                payload,
+                self._precision,
+                key=name,
+                pure=False,
+                retries=0,
+                workers=[address for address, kind in self._kinds.items() if kind == machine] or None,
+                allow_other_workers=bool(machine),
             )
         return future, asyncio.run_coroutine_threadsafe(self._follow(key, attempt, future), self._loop)
 

@@ -23,6 +23,7 @@ from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
 from deodar.experiments import packed
+from deodar.experiments.comparing import compare
 from deodar.experiments.jobs import MACHINE, Job, Progress, run_jobs
 from deodar.experiments.migrations import migrate
 from deodar.experiments.observations import DIVERGED
@@ -112,7 +113,10 @@ def _run_trials(
             output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
         if pool is not None and records is not None:
             _require_shared(pool, out)
-        run_jobs(list(_jobs(setup, handed, records, part)), rows, progress, workers, stopped, pool)
+        jobs = list(_jobs(setup, handed, records, part))
+        run_jobs(jobs, rows, progress, workers, stopped, pool)
+        if pool is not None and pool.cluster.mixed:
+            compare(jobs, rows, pool, out)
     data = dataset(list(rows.found.values()), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)

@@ -1,0 +1,120 @@
+"""Trials of an experiment that are run again on another kind of machine, to compare their outcomes."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses as dc
+import io
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from deodar.batch.on_cluster import ClusterPool
+from deodar.errors import RunWarning
+from deodar.experiments.jobs import MACHINE, Job
+from deodar.experiments.rows import KEY, Row, Rows
+from deodar.model import output
+from deodar.session.interrupt import stoppable
+
+SHARE = 0.02
+"""Share of the pieces that are run on two kinds of machines."""
+
+TABLE = "machines.csv"
+
+
+@dc.dataclass(frozen=True)
+class ComparedTrial:
+    """The outcome of one trial on two kinds of machines.
+
+    Attributes:
+        trial: number of the trial.
+        machines: the machine of its row, and the other one.
+        outcomes: the outcome on each.
+    """
+
+    trial: int
+    machines: tuple[str, str]
+    outcomes: tuple[str, str]
+
+    @property
+    def equal(self) -> bool:
+        """Whether both outcomes are the same."""
+        return self.outcomes[0] == self.outcomes[1]
+
+
+def compare(jobs: Sequence[Job], rows: Rows, pool: ClusterPool, out: Path) -> None:
+    """Run a share of the pieces again on another kind of machine, and write their outcomes as `machines.csv`.
+
+    Nothing is done where the workers are of one kind, or the file exists. Rows stay as they are.
+
+    Warns:
+        RunWarning: outcomes differ.
+    """
+    path = out / TABLE
+    if path.exists():
+        return
+    found = list(_compared(jobs, rows, pool))
+    if not found:
+        return
+    output.write(path, _table(found).encode())
+    different = sum(not one.equal for one in found)
+    if different:
+        warnings.warn(
+            f"{different} of {len(found)} compared trials have another outcome on another kind of machine:"
+            f" see {path}",
+            RunWarning,
+            stacklevel=2,
+        )
+
+
+def _compared(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[ComparedTrial]:
+    with stoppable() as check:
+        for job in chosen(jobs):
+            own = str(rows.found[job.keys[0]].get(MACHINE, ""))
+            other = next((kind for kind in pool.machines if kind != own), None)
+            if other is None:
+                continue
+            while not pool.idle:
+                yield from _arrived(pool, rows)
+                check()
+            unrecorded = dc.replace(job, arguments={**job.arguments, "records": None})
+            pool.give(job.keys, again, unrecorded, machine=other)
+        while pool.busy:
+            yield from _arrived(pool, rows)
+            check()
+
+
+def chosen(jobs: Sequence[Job]) -> list[Job]:
+    """Return the pieces that are compared: `SHARE` of them, at least one, at regular distances."""
+    count = math.ceil(SHARE * len(jobs))
+    return [jobs[k * len(jobs) // count] for k in range(count)]
+
+
+def _arrived(pool: ClusterPool, rows: Rows) -> Iterator[ComparedTrial]:
+    for _, (machine, repeated) in pool.wait(0.2):
+        for row in repeated:
+            stored = rows.found[row[KEY]]
+            machines = str(stored.get(MACHINE, "")), machine
+            if machines[0] != machines[1]:  # a worker of the other kind may have left
+                yield ComparedTrial(
+                    int(row["trial"]), machines, (str(stored["outcome"]), str(row["outcome"]))
+                )
+
+
+def again(job: Job) -> tuple[str, list[Row]]:
+    """Return the machine of this worker, and the rows of a piece."""
+    # start-up time: this brings JAX
+    from deodar.recording import provenance
+
+    return provenance.machine(), list(job.run())
+
+
+def _table(found: Sequence[ComparedTrial]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["trial", "machine", "outcome", "other machine", "other outcome", "equal"])
+    for one in sorted(found, key=lambda one: one.trial):
+        (here, there), (own, other) = one.machines, one.outcomes
+        writer.writerow([one.trial, here, own, there, other, one.equal])
+    return text.getvalue()
