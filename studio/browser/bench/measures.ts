@@ -12,7 +12,8 @@ import { onStage } from "./stage";
 const SCRIPT = asScript(install);
 const CONTEXTS = 5;
 const SECONDS = 8;
-const PLOTS = ".plot-host > .uplot > .u-wrap > canvas, .plot-heat";
+/** Of each plot the canvas with its values: that of a map lies above the one with its axes. */
+const PLOTS = ".plot-heat, .plot-host:not(:has(.plot-heat)) > .uplot > .u-wrap > canvas";
 
 /** From the address to the first picture, each time with a new browser profile. */
 export async function firstPaint(name: string, document: object | null, stands: string): Promise<void> {
@@ -117,9 +118,16 @@ async function running(page: Page): Promise<void> {
   await page.waitForFunction(() => window.probe.clock?.running === true);
 }
 
-/** Wait until programs are compiled, plots are laid out, and the first garbage is collected. */
+/**
+ * Wait until programs are compiled, plots are laid out, and the first garbage is collected. Where boxes are
+ * too small for live pictures nothing is drawn.
+ */
 async function settled(page: Page): Promise<void> {
-  await page.waitForFunction(() => window.probe.draws > 200, undefined, { timeout: 120_000 });
+  await page.waitForFunction(
+    () => window.probe.draws > 200 || document.querySelector(".plot-host, .graph-live") === null,
+    undefined,
+    { timeout: 120_000 },
+  );
   await page.waitForTimeout(3000);
 }
 
