@@ -24,7 +24,7 @@ def test_the_suite_has_the_calls_of_the_makefile() -> None:
         for line in recipe.splitlines()
         if " -m pytest " in line and "native/tests" not in line  # a distribution of its own
     ]
-    bare = [re.sub(r" --durations \d+", "", line) for line in called]
+    bare = [re.sub(r" --durations \d+| \$\(SHORT\)", "", line) for line in called]
     assert bare == [" ".join(call) for call in (*suite.CALLS, suite.FAST)]
 
 

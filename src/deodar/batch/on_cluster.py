@@ -86,7 +86,7 @@ class _Task:
 
 
 @dataclass(frozen=True)
-class _Answer:
+class _TaskAnswer:
     """What arrived of a task: what its worker is and its pickled result, or an error."""
 
     key: Hashable
@@ -123,7 +123,7 @@ class ClusterPool:
         self.made_by: dict[str, str] = {}
         self._distributed = library()
         self._tasks: dict[Hashable, _Task] = {}
-        self._inbox: queue.SimpleQueue[_Answer] = queue.SimpleQueue()
+        self._inbox: queue.SimpleQueue[_TaskAnswer] = queue.SimpleQueue()
         self._token = uuid.uuid4().hex[:8]
         self._seen = _Seen(time.monotonic(), {}, frozenset())
         self._staffed = self._checked = time.monotonic()
@@ -325,22 +325,22 @@ class ClusterPool:
         try:
             about, result = await future
         except asyncio.CancelledError as error:
-            self._inbox.put(_Answer(key, attempt, {}, b"", error))
+            self._inbox.put(_TaskAnswer(key, attempt, {}, b"", error))
             raise
         except BaseException as error:
-            self._inbox.put(_Answer(key, attempt, {}, b"", error))
+            self._inbox.put(_TaskAnswer(key, attempt, {}, b"", error))
         else:
-            self._inbox.put(_Answer(key, attempt, about, result))
+            self._inbox.put(_TaskAnswer(key, attempt, about, result))
 
-    def _arrived(self, seconds: float) -> list[_Answer]:
-        out: list[_Answer] = []
+    def _arrived(self, seconds: float) -> list[_TaskAnswer]:
+        out: list[_TaskAnswer] = []
         with contextlib.suppress(queue.Empty):
             out.append(self._inbox.get(timeout=seconds))
             while True:
                 out.append(self._inbox.get_nowait())
         return out
 
-    def _take(self, answer: _Answer, out: list[tuple[Any, Any]]) -> None:
+    def _take(self, answer: _TaskAnswer, out: list[tuple[Any, Any]]) -> None:
         task = self._tasks.get(answer.key)
         if task is None or task.attempt != answer.attempt:
             return  # of an attempt that was given up
