@@ -57,6 +57,8 @@ DEFAULT_PROGRAM = (
     "tests/benchmarks/test_resolution.py",
     "tests/docs/test_pages.py::test_a_page_runs[saliency]",
     "tests/docs/test_pages.py::test_a_page_runs[spa]",
+    "tests/papers/looking/test_looking.py",
+    "tests/papers/pointing/test_trials.py",
     "tests/papers/saliency/test_demo.py",
     "tests/papers/saliency/test_untuned.py",
     "tests/session/test_memory.py",

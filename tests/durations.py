@@ -22,7 +22,7 @@ LIMIT = 0.2
 CLOCK = 2.0
 """Seconds by the clock of all cases of a function above which it is slow, also on a busy machine."""
 
-SHARE = 3.0
+SHARE = 1.5
 """Most CPU seconds of a function outside of the marker `long`."""
 
 
