@@ -73,4 +73,4 @@ def test_what_a_cluster_cannot_compute_is_refused(address):
     with pytest.raises(WorkerError, match="a record states one machine"):
         simulated(cluster=Cluster(address, mixed=True))
     with pytest.raises(WorkerError, match="Camera is bound to this machine"):
-        cluster_pieces.run(Cluster(address), decider(), Camera(0), [], 0, None, int)
+        cluster_pieces.run(Cluster(address), decider(), Camera(0), [], None, int)

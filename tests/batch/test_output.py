@@ -102,10 +102,10 @@ def sent_here(monkeypatch: pytest.MonkeyPatch) -> None:
     """Compute the pieces of workers in this process, and receive pickled what they send."""
 
     def run(
+        workers: int,
         model: dd.Model,
         world: dd.World | None,
         pieces: Sequence[SimulationRequest],
-        workers: int,
         out: RunOutput,
         between: Callable[[int], None],
     ) -> list[PieceResult | None]:

@@ -33,7 +33,7 @@ class TwoKinds:
         return len(self.done)
 
     def give(self, key: Any, function: Any, job: Job, machine: str) -> None:
-        self.done.append((key, (machine, function(job)[1])))
+        self.done.append((key, [{**row, MACHINE: machine} for row in function(job)]))
 
     def wait(self, seconds: float) -> list[Any]:
         out, self.done = self.done, []

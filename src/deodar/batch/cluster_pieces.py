@@ -31,7 +31,6 @@ def run(
     model: Model,
     world: World | None,
     pieces: Sequence[SimulationRequest],
-    workers: int,
     out: RunOutput | None,
     between: Callable[[int], None],
 ) -> list[PieceResult | None]:
@@ -42,7 +41,6 @@ def run(
         model: the model in its present state.
         world: the world of its sensors; every piece has a copy of it.
         pieces: the simulation of each piece.
-        workers: not used: the workers of the cluster share the pieces.
         out: the file that receives the samples of all pieces; pieces that it has are not run again.
         between: function that is called from time to time with the number of completed steps of all pieces; a
             KeyboardInterrupt that it raises stops all, after the pieces that were submitted.

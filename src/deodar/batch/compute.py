@@ -38,10 +38,10 @@ from deodar.session.session import LARGEST_SEED, require_model, require_seed
 from deodar.worlds._base import World
 
 Spread = Callable[
-    [Model, World | None, Sequence[SimulationRequest], int, RunOutput | None, Callable[[int], None]],
+    [Model, World | None, Sequence[SimulationRequest], RunOutput | None, Callable[[int], None]],
     list[pieces.PieceResult | None],
 ]
-"""A function that runs pieces in worker processes, as `deodar.batch.workers.run` does."""
+"""A function that runs pieces in other processes, as `workers.run` and `cluster_pieces.run` do."""
 
 
 MOST_OWN = 2**16
@@ -59,14 +59,13 @@ def compute(
     progress: Shown = None,
     spread: Spread | None = None,
     out: RunOutput | OutputPart | None = None,
-    always: bool = False,
 ) -> pieces.PieceResult:
     """Compute a whole run of `simulate`, or one piece of it.
 
     If all copies diverge, the error is returned beside the record.
 
-    `spread` runs pieces in worker processes, if the request has workers, or `always`. With `out` the samples
-    are written to a file; the result has none.
+    `spread` runs pieces in other processes. With `out` the samples are written to a file; the result has
+    none.
     """
     sweep, precision, device = request.sweep, request.precision, request.device
     places = devices.several(request.devices, device)
@@ -114,28 +113,21 @@ def compute(
     if cut.count > 1:
         jobs = cut.requests(dc.replace(request, dt=float(step)), labels, listed)
         assert not isinstance(out, OutputPart)
-        workers, run_there = request.workers, None
-        if spread is not None and (workers is not None or always):
-            run_there = functools.partial(spread, model, world, jobs, workers or 0, out)
+        run_there = None if spread is None else functools.partial(spread, model, world, jobs, out)
         parts = _in_pieces(model, jobs, world, steps, progress, run_there, out)
         return _whole(cut, parts, asked)
     stopped, nothing = False, None
     with stoppable() as check:
         more_points, more_trials = _missing(request.width, points, len(numbers))
-        distribution = None
-        if len(places) > 1:
-            whole_batch = Batch(
-                points.size + more_points if swept else None, len(numbers) + more_trials if names else None
-            )
-            distribution, full = division.distributed(whole_batch, places)
-            more_points = (full.points or points.size) - points.size
-            more_trials = (full.trials or len(numbers)) - len(numbers)
-        filled = Batch(
+        wide = Batch(
             points.size + more_points if swept else None,
             len(numbers) + more_trials if names else None,
             tuple(map(tuple, points.leaves)),
             own_noise=own_noise,
         )
+        distribution, filled = division.distributed(wide, places)
+        more_points = (filled.points or points.size) - points.size
+        more_trials = (filled.trials or len(numbers)) - len(numbers)
         program = executable(
             model,
             doc,

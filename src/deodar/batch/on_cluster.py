@@ -11,7 +11,8 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import contextlib
-import hashlib
+import dataclasses as dc
+import itertools
 import logging
 import os
 import pickle
@@ -21,7 +22,6 @@ import time
 import uuid
 import warnings
 from collections.abc import Callable, Coroutine, Hashable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
@@ -67,25 +67,27 @@ OWN = ("machine", "device", "cores", INSTRUCTIONS)
 """What may differ between the caller and a worker; versions may not."""
 
 
-@dataclass
+@dc.dataclass
 class _Task:
     """A task, its present future, and what follows the future.
 
     Attributes:
+        machine: the kind of machine that should run it; empty: any.
         fetching: when the task was first seen completed without its result here; 0: it is not.
         lost: when the task was first seen with no worker, although workers were idle; 0: it is not.
     """
 
     key: Hashable
     payload: bytes
-    attempt: int
-    future: Any
-    follower: concurrent.futures.Future[None]
+    machine: str
+    attempt: int = 0
+    future: Any = None
+    follower: concurrent.futures.Future[None] = dc.field(default_factory=concurrent.futures.Future)
     fetching: float = 0.0
     lost: float = 0.0
 
 
-@dataclass(frozen=True)
+@dc.dataclass(frozen=True)
 class _TaskAnswer:
     """What arrived of a task: what its worker is and its pickled result, or an error."""
 
@@ -96,7 +98,7 @@ class _TaskAnswer:
     error: BaseException | None = None
 
 
-@dataclass(frozen=True)
+@dc.dataclass(frozen=True)
 class _Seen:
     """The last answer of the scheduler: its time, the threads of each worker, the tasks that workers have."""
 
@@ -124,7 +126,7 @@ class ClusterPool:
         self._distributed = library()
         self._tasks: dict[Hashable, _Task] = {}
         self._inbox: queue.SimpleQueue[_TaskAnswer] = queue.SimpleQueue()
-        self._token = uuid.uuid4().hex[:8]
+        self._token, self._numbers = uuid.uuid4().hex[:8], itertools.count()
         self._seen = _Seen(time.monotonic(), {}, frozenset())
         self._staffed = self._checked = time.monotonic()
         self._failed: BaseException | None = None
@@ -177,8 +179,7 @@ class ClusterPool:
         kind is left.
         """
         payload = pickled(function, arguments)
-        future, follower = self._submitted(key, payload, 0, machine)
-        self._tasks[key] = _Task(key, payload, 0, future, follower)
+        self._tasks[key] = self._submit(_Task(key, payload, machine))
 
     def wait(self, seconds: float) -> list[tuple[Any, Any]]:
         """Return keys and results of completed tasks, after waiting at most `seconds` for one.
@@ -303,23 +304,25 @@ class ClusterPool:
 
     # -------------------------------------------------------------------------------------------------- tasks
 
-    def _submitted(
-        self, key: Hashable, payload: bytes, attempt: int, machine: str = ""
-    ) -> tuple[Any, concurrent.futures.Future[None]]:
-        name = f"deodar-{self._token}-{hashlib.sha256(payload).hexdigest()[:16]}-{attempt}"
+    def _submit(self, task: _Task) -> _Task:
+        """Submit a task under a name that no other one has had, and return it."""
+        where = [address for address, kind in self._kinds.items() if kind == task.machine]
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that the payload is large
-            future = self._client.submit(
+            task.future = self._client.submit(
                 cluster_task.run,
-                payload,
+                task.payload,
                 self._precision,
-                key=name,
+                key=f"deodar-{self._token}-{next(self._numbers)}",
                 pure=False,
                 retries=0,
-                workers=[address for address, kind in self._kinds.items() if kind == machine] or None,
-                allow_other_workers=bool(machine),
+                workers=where or None,
+                allow_other_workers=bool(where),
             )
-        return future, asyncio.run_coroutine_threadsafe(self._follow(key, attempt, future), self._loop)
+        task.follower = asyncio.run_coroutine_threadsafe(
+            self._follow(task.key, task.attempt, task.future), self._loop
+        )
+        return task
 
     async def _follow(self, key: Hashable, attempt: int, future: Any) -> None:
         try:
@@ -379,7 +382,7 @@ class ClusterPool:
         with contextlib.suppress(Exception):
             task.future.release()
         task.attempt += 1
-        task.future, task.follower = self._submitted(task.key, task.payload, task.attempt)
+        self._submit(task)
         task.fetching = task.lost = 0.0
 
     # ------------------------------------------------------------------------------------------------- checks

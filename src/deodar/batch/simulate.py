@@ -189,13 +189,14 @@ def _computed(
     spread: Spread | None,
 ) -> tuple[xarray.Dataset, NotFinite | None]:
     """Return the record, and the error if all copies diverged."""
-    run, always = spread or in_workers, spread is not None
+    if spread is None and request.workers is not None:
+        spread = functools.partial(in_workers, request.workers)
     if out is None:
-        data, _, lost = compute(model, request, world, progress, run, always=always)
+        data, _, lost = compute(model, request, world, progress, spread)
         assert data is not None
         return data, lost
     try:
-        _, _, lost = compute(model, request, world, progress, run, out, always)
+        _, _, lost = compute(model, request, world, progress, spread, out)
     except BaseException as error:
         data = out.abandon()
         if isinstance(error, Interrupted):

@@ -52,10 +52,10 @@ class WorkerTask:
 
 
 def run(
+    workers: int,
     model: Model,
     world: World | None,
     pieces: Sequence[SimulationRequest],
-    workers: int,
     out: RunOutput | None,
     between: Callable[[int], None],
 ) -> list[PieceResult | None]:
@@ -64,10 +64,10 @@ def run(
     The record is None if the run was stopped before the piece began.
 
     Args:
+        workers: number of processes.
         model: the model in its present state.
         world: the world of its sensors; every worker has a copy of it.
         pieces: the simulation of each piece.
-        workers: number of processes.
         out: the file that receives the samples of all pieces; pieces that it has are not run again.
         between: function that is called from time to time with the number of completed steps of all pieces; a
             KeyboardInterrupt that it raises stops all.

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from deodar.batch.on_cluster import ClusterPool
 from deodar.errors import RunWarning
-from deodar.experiments.jobs import MACHINE, Job
-from deodar.experiments.rows import KEY, Row, Rows
+from deodar.experiments.jobs import MACHINE, Job, named
+from deodar.experiments.rows import KEY, Rows
 from deodar.model import output
 from deodar.session.interrupt import stoppable
 
@@ -79,7 +79,7 @@ def _compared(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[Co
                 yield from _arrived(pool, rows)
                 check()
             unrecorded = dc.replace(job, arguments={**job.arguments, "records": None})
-            pool.give(job.keys, again, unrecorded, machine=other)
+            pool.give(job.keys, named, unrecorded, machine=other)
         while pool.busy:
             yield from _arrived(pool, rows)
             check()
@@ -92,22 +92,14 @@ def chosen(jobs: Sequence[Job]) -> list[Job]:
 
 
 def _arrived(pool: ClusterPool, rows: Rows) -> Iterator[ComparedTrial]:
-    for _, (machine, repeated) in pool.wait(0.2):
+    for _, repeated in pool.wait(0.2):
         for row in repeated:
             stored = rows.found[row[KEY]]
-            machines = str(stored.get(MACHINE, "")), machine
+            machines = str(stored.get(MACHINE, "")), str(row[MACHINE])
             if machines[0] != machines[1]:  # a worker of the other kind may have left
                 yield ComparedTrial(
                     int(row["trial"]), machines, (str(stored["outcome"]), str(row["outcome"]))
                 )
-
-
-def again(job: Job) -> tuple[str, list[Row]]:
-    """Return the machine of this worker, and the rows of a piece."""
-    # start-up time: this brings JAX
-    from deodar.recording import provenance
-
-    return provenance.machine(), list(job.run())
 
 
 def _table(found: Sequence[ComparedTrial]) -> str:

@@ -145,7 +145,7 @@ def _in_workers(
     jobs: Sequence[Job], pool: Pool | ClusterPool, stopped: Callable[[], bool] | None
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     running, interrupted = dict[tuple[str, ...], Job](), False
-    run = _named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
+    run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
     with stoppable() as check:
         waiting = list(reversed(jobs))
         while waiting or pool.busy:
@@ -166,7 +166,7 @@ def _in_workers(
         raise KeyboardInterrupt
 
 
-def _named(job: Job) -> list[Row]:
+def named(job: Job) -> list[Row]:
     """Return the rows of a job with the machine that this worker runs on."""
     # start-up time: this brings JAX
     from deodar.recording.provenance import machine
