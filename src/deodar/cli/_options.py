@@ -193,13 +193,8 @@ def add_rounding(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_run(parser: argparse.ArgumentParser) -> None:
-    """Add `--seed`, `--precision`, `--accuracy`, `--device`, `--cores`, `--separate-rounding` and
-    `--no-progress`.
-    """
-    parser.add_argument(
-        "--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)"
-    )
+def add_accuracy(parser: argparse.ArgumentParser) -> None:
+    """Add `--precision` and `--accuracy`."""
     parser.add_argument(
         "--precision", choices=("float32", "float64"), help="of all numbers (default float32)"
     )
@@ -208,6 +203,16 @@ def add_run(parser: argparse.ArgumentParser) -> None:
         choices=("default", "exact"),
         help="of convolutions: default is within 1e-4, exact takes longer",
     )
+
+
+def add_run(parser: argparse.ArgumentParser) -> None:
+    """Add `--seed`, `--precision`, `--accuracy`, `--device`, `--cores`, `--separate-rounding` and
+    `--no-progress`.
+    """
+    parser.add_argument(
+        "--seed", type=whole, metavar="N", help="seed of all noise, 0 to 4294967295 (default 0)"
+    )
+    add_accuracy(parser)
     parser.add_argument(
         "--device",
         metavar="NAME",

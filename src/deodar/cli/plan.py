@@ -31,14 +31,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--device", metavar="KIND", help="with --devices all: cpu or gpu, whose devices are counted"
     )
-    parser.add_argument(
-        "--precision", choices=("float32", "float64"), help="of all numbers (default float32)"
-    )
-    parser.add_argument(
-        "--accuracy",
-        choices=("default", "exact"),
-        help="of convolutions: default is within 1e-4, exact takes longer",
-    )
+    _options.add_accuracy(parser)
     _options.add_json(parser)
 
 
@@ -48,7 +41,6 @@ def run(args: argparse.Namespace) -> int:
     from deodar.compiler import device
     from deodar.compiler.plan import plan
     from deodar.compiler.shard import planned
-    from deodar.errors import DeviceError
     from deodar.importers.opening import load
     from deodar.session import memory
 
@@ -57,8 +49,8 @@ def run(args: argparse.Namespace) -> int:
     precision = args.precision or "float32"
     exact = args.accuracy == "exact" or precision == "float64"
     count = len(device.several("all", args.device)) if args.devices == "all" else args.devices
-    if count == 0:
-        raise DeviceError("devices is 0; expected a number of devices, at least 1, or 'all'")
+    if count is not None:
+        device.require_count(count)
     made = plan(model.document, exact=exact, devices=count or 1)
     if made.shards is None:
         about: JsonObject = {"plan": made.describe().splitlines()}

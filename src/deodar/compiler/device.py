@@ -85,8 +85,7 @@ def several(count: int | str | None, kind: str | None = None) -> tuple[Device, .
     found = _of(wanted)
     if isinstance(count, str) and count == ALL:
         return tuple(found)
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
-        raise DeviceError(f"devices is {show(count)}; expected a number of devices, at least 1, or {ALL!r}")
+    count = require_count(count)
     if count > len(found):
         more = f"; {HOST_DEVICES}={count} in the environment of Python divides the CPU into {count}"
         raise DeviceError(
@@ -94,7 +93,18 @@ def several(count: int | str | None, kind: str | None = None) -> tuple[Device, .
             f" {', '.join(map(name, found))}",
             fix=f"Type devices={len(found)} or devices={ALL!r}{more if wanted == 'cpu' else ''}",
         )
-    return tuple(found[: int(count)])
+    return tuple(found[:count])
+
+
+def require_count(count: object) -> int:
+    """Return a number of devices, or raise an error if it is none.
+
+    Raises:
+        DeviceError: it is not a whole number, at least 1.
+    """
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
+        raise DeviceError(f"devices is {show(count)}; expected a number of devices, at least 1, or {ALL!r}")
+    return int(count)
 
 
 def name(device: Device) -> str:

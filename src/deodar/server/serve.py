@@ -26,8 +26,8 @@ PORT = 8430
 
 TRIED = 20
 TURN = 5e-4
-"""s after which a thread of the interpreter lets another one run (the interpreter's own is 5e-3). Edits that
-follow one another while 50 elements run and compile then reach the page in about 20 ms instead of 50.
+"""s after which a thread of the interpreter lets another one run (the interpreter's own is 5e-3; a guess that
+shortens the way of an edit, which changes threads several times while a program is traced).
 """
 
 MOST_MESSAGE = 64 * 2**20

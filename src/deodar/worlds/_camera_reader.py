@@ -17,7 +17,9 @@ from deodar.worlds._address import Address
 from deodar.worlds._reachable import Unreachable, unreachable
 
 LEAVING = 1.0
-"""s that the end of a program waits for a picture that is being read (a guessed constant)."""
+"""s that closing a camera, also at the end of a program, waits for a picture that is being read (a guessed
+constant).
+"""
 
 CameraForm = Literal["device", "file", "address"]
 
@@ -123,8 +125,7 @@ class CameraReader:
 
     def close(self) -> None:
         """Release the camera. A thread that waits for a picture ends when its patience does."""
-        self._stream.closing.set()
-        self._thread.join(timeout=1.0)
+        _leave(self._thread, self._stream.closing)
 
     def _failed(self, answered: bool, seconds: float) -> WorldError:
         """Return why no picture came."""
@@ -200,7 +201,7 @@ class _Stream:
 
 
 def _leave(thread: threading.Thread, closing: threading.Event) -> None:
-    """Wait for the end of a reading thread before the interpreter ends.
+    """End a reading thread, and wait for its end, also before the interpreter ends.
 
     A thread that returns from OpenCV to an interpreter that is ending aborts the process.
     """
