@@ -28,7 +28,7 @@ from deodar.compiler.traffic import Traffic, collectives
 from deodar.errors import DeviceError
 from deodar.numerics import convolution, interaction
 from deodar.numerics.axes import Axes, shape
-from deodar.numerics.choice import Shards
+from deodar.numerics.choice import Shards, exchanged
 
 ARRIVING, INPUT_REST = "input" + WAVES, "input" + REST
 """Ports of what arrives as spectral modes, and of what does not."""
@@ -89,18 +89,13 @@ def _transformed(group: RowGroup, axes: Axes, read: bool) -> list[str]:
 
 def _of_kernels(group: RowGroup, key: str, axes: Axes, shards: Shards, itemsize: int) -> Traffic:
     """Return the traffic of the kernels with one kind of boundaries."""
-    like, index, whole = group.like, shards.index(axes), math.prod(shape(axes)) * itemsize
-    assert index is not None
+    like, whole = group.like, math.prod(shape(axes)) * itemsize
     choice = dict(group.strategy.choices).get(key)
     method = "matrices" if choice is None else choice.method
     size = whole
-    if choice is not None and method == "waves":
-        size = math.prod(w.count for w in choice.waves) * itemsize
-    elif choice is not None and method == "taps":
-        size = 2 * choice.reaches[index] * whole // shards.samples
-        if len(axes) > 1:  # over one axis the kernels are one row of weights
-            terms = [k for k in like.element.kernels() if interaction.boundaries(k, axes) == key]
-            size *= sum(len(k.widths()) for k in terms)
+    if choice is not None and method in ("waves", "taps"):
+        kernels = [k for k in like.element.kernels() if interaction.boundaries(k, axes) == key]
+        size = itemsize * exchanged(choice, axes, sum(len(k.widths()) for k in kernels), shards)
     if size >= whole:
         raise DeviceError(
             f"its kernel is applied by {method} along the axis {shards.axis!r}, which is divided among"

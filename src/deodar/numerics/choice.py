@@ -160,21 +160,37 @@ def between_devices(
     found: list[Choice] = []
     cells = math.prod(a.samples for a in axes)
     few = _divided(_few(axes, boundaries, widths), index)
-    modes = math.prod(w.count for w in few)
-    if _fit(few) and modes < cells:
-        traffic = 4 * modes
-        cost = _transforms(few, MANY) / shards.devices + LINK_NS * traffic + LINK_CALL_NS
-        found.append(Choice("waves", few, (), cost))
+    by_modes = Choice("waves", few, (), math.inf)
+    if _fit(few) and (modes := exchanged(by_modes, axes, terms, shards)) < cells:
+        cost = _transforms(few, MANY) / shards.devices + LINK_NS * 4 * modes + LINK_CALL_NS
+        found.append(dataclasses.replace(by_modes, nanoseconds=cost))
     reaches = tuple(_reach(axis, widest) for axis, (_, widest) in zip(axes, widths, strict=True))
     halo, part = reaches[index], shards.samples // shards.devices
     inside = all(2 * r < a.samples for a, r in zip(axes, reaches, strict=True)) and halo <= part
     if len(axes) <= 2 and inside and 2 * halo * terms < shards.samples:
-        sums = terms if len(axes) > 1 else 1
+        by_lags = Choice("taps", (), reaches, math.inf)
         operations = TAP_PLANE_NS * cells * sum(reaches) / shards.devices
-        traffic = 4 * 2 * halo * cells // shards.samples
-        cost = sums * (operations + LINK_NS * traffic + 2 * LINK_CALL_NS)
-        found.append(Choice("taps", (), reaches, cost))
+        cost = _sums(axes, terms) * (operations + 2 * LINK_CALL_NS)
+        cost += LINK_NS * 4 * exchanged(by_lags, axes, terms, shards)
+        found.append(dataclasses.replace(by_lags, nanoseconds=cost))
     return found
+
+
+def exchanged(choice: Choice, axes: Axes, terms: int, shards: Shards) -> int:
+    """Return how many numbers pass between devices where `terms` kernels are applied by spectral modes or by
+    lags over a divided axis.
+    """
+    if choice.method == "waves":
+        return math.prod(w.count for w in choice.waves)
+    index = shards.index(axes)
+    assert index is not None
+    cells = math.prod(a.samples for a in axes)
+    return _sums(axes, terms) * (2 * choice.reaches[index] * cells // shards.samples)
+
+
+def _sums(axes: Axes, terms: int) -> int:
+    """Return how many sums by lags `terms` kernels need: over one axis they are one row of weights."""
+    return terms if len(axes) > 1 else 1
 
 
 def together(
