@@ -13,6 +13,7 @@ from deodar.experiments import results
 from deodar.experiments.design import Design
 from deodar.experiments.jobs import MACHINE
 from deodar.experiments.rows import KEY, Row, Rows, claim, different
+from deodar.experiments.table import dataset, table
 from deodar.model import output
 from deodar.recording import files, writer_lock
 
@@ -77,10 +78,10 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
         merged.append(row for row, _ in sorted(found.values(), key=lambda one: one[0]["trial"]))
         for name in (results.EXPERIMENT, results.MODEL):
             _copy(places[0], folder, name)
-        data = results.dataset(list(merged.found.values()), about)
-        output.write(folder / results.TABLE, results.table(data).encode())
+        data = dataset(merged.found.values(), about)
+        output.write(folder / results.TABLE, table(data).encode())
         files.save_record(data, folder / results.DATASET, force=True)
-    known = {row["trial"] for row in merged.found.values()}
+    known = set(data["trial"].values.tolist())
     return MergedResults(data, gaps(known, len(Design.load(folder / results.EXPERIMENT).cells)))
 
 

@@ -5,15 +5,11 @@ the rows.
 from __future__ import annotations
 
 import contextlib
-import csv
 import hashlib
-import io
 import tempfile
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
-
-import numpy as np
 
 from deodar import codec, renamed
 from deodar.batch.cluster import Cluster
@@ -24,11 +20,11 @@ from deodar.compiler.device import find
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
 from deodar.experiments import packed
 from deodar.experiments.comparing import compare
-from deodar.experiments.jobs import MACHINE, Job, Progress, run_jobs
+from deodar.experiments.jobs import Job, Progress, run_jobs
 from deodar.experiments.migrations import migrate
-from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.setup import Setup
+from deodar.experiments.table import dataset, table
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
@@ -117,7 +113,7 @@ def _run_trials(
         run_jobs(jobs, rows, progress, workers, stopped, pool)
         if pool is not None and pool.cluster.mixed:
             compare(jobs, rows, pool, out)
-    data = dataset(list(rows.found.values()), about)
+    data = dataset(rows.found.values(), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
     return data
@@ -251,10 +247,10 @@ def load_results(path: str | Path) -> xarray.Dataset:
         RecordError: it is not the folder of an experiment.
     """
     folder = output.location(path)
-    about, rows = stored(folder)
     try:
-        return dataset(rows, about)
-    except (ValueError, LookupError, TypeError):
+        with _reading(folder) as (about, rows):
+            return dataset(rows, about)
+    except (OSError, ValueError, LookupError, TypeError):
         raise _no_results(folder) from None
 
 
@@ -265,10 +261,17 @@ def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
         RecordError: it is not the folder of an experiment.
     """
     try:
-        lines = [codec.parse(line) for line in (folder / ROWS).read_text(encoding="utf-8").split("\n")[:-1]]
-        return lines[0][ABOUT], lines[1:]
+        with _reading(folder) as (about, rows):
+            return about, list(rows)
     except (OSError, ValueError, LookupError, TypeError):
         raise _no_results(folder) from None
+
+
+@contextlib.contextmanager
+def _reading(folder: Path) -> Generator[tuple[JsonObject, Iterator[Row]]]:
+    """Read the identity of the experiment of a folder, and its rows one by one."""
+    with (folder / ROWS).open(encoding="utf-8") as file:
+        yield codec.parse(file.readline())[ABOUT], (codec.parse(line) for line in file if line[-1] == "\n")
 
 
 def _no_results(folder: Path) -> RecordError:
@@ -277,89 +280,6 @@ def _no_results(folder: Path) -> RecordError:
         where=str(folder),
         fix="Name a folder that deodar experiment wrote",
     )
-
-
-def dataset(rows: Sequence[Row], about: Mapping[str, Any]) -> xarray.Dataset:
-    """Return rows as a Dataset over `trial`.
-
-    Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time
-    of each condition and the measures are variables. A condition that did not occur is NaN. Measures of
-    several numbers have a dimension of their own. If trials diverged, the variable `diverged` gives the
-    reason of each (empty: it did not diverge), and the attribute of this name counts them.
-    """
-    # start-up time
-    import xarray
-
-    rows = sorted(rows, key=lambda row: row["trial"])
-    unit = {"units": about["time_unit"]}
-    conditions, measures = list(about.get("conditions", {})), list(about.get("measures", {}))
-    coords: dict[str, Any] = {"trial": ("trial", np.asarray([r["trial"] for r in rows], np.int64))}
-    for name in about.get("factors", {}):
-        coords[name] = ("trial", _column([r["levels"][name] for r in rows]))
-    out: dict[str, Any] = {
-        key: ("trial", np.asarray([r[key] for r in rows], dtype=str)) for key in ("outcome", "awaited")
-    }
-    reasons = [r.get(DIVERGED, "") for r in rows]
-    attributes = {provenance.KEY: codec.line(about), "title": about["name"]}
-    if any(reasons):
-        out[DIVERGED] = ("trial", np.asarray(reasons, dtype=str))
-        bad = [text for text in reasons if text]
-        where = f"the variable {DIVERGED!r} gives the reasons, the first is: {bad[0]}"
-        attributes[DIVERGED] = f"{len(bad)} of {len(rows)} trials diverged; {where}"
-    if any(MACHINE in r for r in rows):
-        out[MACHINE] = ("trial", np.asarray([r.get(MACHINE, "") for r in rows], dtype=str))
-    out["duration"] = ("trial", np.asarray([r["duration"] for r in rows], float), unit)
-    for name in conditions:
-        out[name] = (
-            "trial",
-            _column([_or_nan(r["events"][name]) for r in rows]),
-            {**unit, "long_name": f"time of {name}"},
-        )
-    for name in measures:
-        found = [r["measures"][name] for r in rows]
-        count = max((len(v) for v in found if isinstance(v, list)), default=0)
-        if count:
-            values = np.asarray([[np.nan] * count if v is None else v for v in found], float)
-            out[name] = (("trial", f"{name}.axis"), values)
-        else:
-            out[name] = ("trial", np.asarray([_or_nan(v) for v in found], float))
-    return xarray.Dataset(out, coords, attributes)
-
-
-def table(data: xarray.Dataset) -> str:
-    """Return the table as CSV, one line per trial; a cell is empty if the condition did not occur."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    columns: list[tuple[str, np.ndarray]] = []
-    for name in [*data.coords, *data.data_vars]:
-        values = data[name].values
-        if values.ndim == 1:
-            columns.append((str(name), values))
-        else:
-            columns += [(f"{name}.{k}", values[:, k]) for k in range(values.shape[1])]
-    writer.writerow([name for name, _ in columns])
-    for k in range(data.sizes["trial"]):
-        writer.writerow([_cell(values[k]) for _, values in columns])
-    return text.getvalue()
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, (float, np.floating)):
-        return "" if np.isnan(value) else repr(float(value)).removesuffix(".0")
-    return str(value)
-
-
-def _column(values: Sequence[Any]) -> np.ndarray:
-    """Return numbers if all values are numbers, else text."""
-    return (
-        np.asarray(values, float)
-        if not any(isinstance(v, str) for v in values)
-        else np.asarray([str(v) for v in values], dtype=str)
-    )
-
-
-def _or_nan(value: Any) -> Any:
-    return np.nan if value is None else value
 
 
 if not TYPE_CHECKING:

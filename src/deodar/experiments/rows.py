@@ -4,9 +4,9 @@ extended.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, ValuesView
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
 from deodar import codec
 from deodar.codec import Json, JsonObject
@@ -18,6 +18,73 @@ Row = dict[str, Any]
 """The results of one trial as plain data; `key` identifies the trial."""
 
 ABOUT, KEY = "about", "key"
+
+
+class StoredRows(Mapping[str, Row]):
+    """The rows of a file by their keys; memory holds the keys and where each row begins.
+
+    Reading one row opens the file; `values` reads it once, from the beginning.
+
+    Args:
+        path: the file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._places: dict[str, int] = {}
+
+    def __getitem__(self, key: str) -> Row:
+        place = self._places[key]
+        with self._path.open("rb") as file:
+            file.seek(place)
+            return codec.parse(file.readline())
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._places
+
+    def values(self) -> ValuesView[Row]:
+        return _InOneReading(self)
+
+    def place(self, key: str, at: int) -> None:
+        """State at which byte of the file the row of a key begins."""
+        self._places[key] = at
+
+    def read(self) -> Iterator[Row]:
+        """Yield the rows in the order of the file; of two rows with one key the last one."""
+        if not self._places:
+            return
+        with self._path.open("rb") as file:
+            for at, line in _places(file):
+                row = codec.parse(line)
+                if self._places.get(row.get(KEY)) == at:
+                    yield row
+
+
+class _InOneReading(ValuesView[Row]):
+    """The rows of a file, read from its beginning."""
+
+    def __init__(self, rows: StoredRows) -> None:
+        super().__init__(rows)
+        self._rows = rows
+
+    def __iter__(self) -> Iterator[Row]:
+        return self._rows.read()
+
+
+def _places(file: IO[bytes]) -> Iterator[tuple[int, bytes]]:
+    """Yield each line that is complete, after the byte at which it begins."""
+    at = 0
+    for line in file:
+        if not line.endswith(b"\n"):
+            return
+        yield at, line
+        at += len(line)
 
 
 class Rows:
@@ -36,7 +103,7 @@ class Rows:
         read: function that converts the `about` of the file to the present version.
 
     Attributes:
-        found: rows by their keys.
+        found: rows by their keys, read from the file when they are asked for.
 
     Raises:
         OutputExists: the file holds another experiment.
@@ -52,16 +119,14 @@ class Rows:
         read: Callable[[JsonObject], JsonObject] = dict,
     ) -> None:
         self.path = path
-        self.found: dict[str, Row] = {}
+        self.found = StoredRows(path)
         stored = codec.parse(codec.line({ABOUT: about}))
         places.require_parent(path)
-        lines = self._lines()
-        if not lines:
+        identity = self._identity()
+        if identity is None:
             output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
             return
-        if not isinstance(lines[0].get(ABOUT), dict):
-            raise RecordError("holds no rows of an experiment", where=str(path), fix="Choose another name")
-        made = read([line[ABOUT] for line in lines if KEY not in line][-1])
+        made = read(identity)
         changed = different(stored[ABOUT], made, by_condition)
         if changed:
             raise OutputExists(
@@ -71,44 +136,66 @@ class Rows:
             )
         if made != stored[ABOUT]:
             output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
-        self.found = {row[KEY]: row for row in lines if KEY in row}
 
     def append(self, rows: Iterable[Row]) -> None:
         """Store rows, on the disk when this returns; a row whose key exists is left out."""
-        new = [row for row in rows if row[KEY] not in self.found]
-        if new:
-            text = "".join(codec.line(row, ascii=True, finite=True) + "\n" for row in new)
-            output.append(self.path, text.encode())
-            self.found |= {row[KEY]: codec.parse(codec.line(row)) for row in new}
+        new: dict[str, bytes] = {}
+        for row in rows:
+            if row[KEY] not in self.found and row[KEY] not in new:
+                new[row[KEY]] = (codec.line(row, ascii=True, finite=True) + "\n").encode()
+        if not new:
+            return
+        at = self.path.stat().st_size
+        output.append(self.path, b"".join(new.values()))
+        for key, line in new.items():
+            self.found.place(key, at)
+            at += len(line)
 
-    def _lines(self) -> list[Row]:
+    def _identity(self) -> JsonObject | None:
+        """Note where the rows of an existing file begin, and return its last identity; None: it has none yet.
+
+        An incomplete last line is removed.
+        """
         if not self.path.exists():
-            return []
-        content = self.path.read_bytes()
-        whole = content.rfind(b"\n") + 1
-        lines: list[Row] = []
-        for number, line in enumerate(content[:whole].splitlines(), 1):
-            try:
-                found = codec.parse(line)
-            except ValueError:
-                found = None
-            if not isinstance(found, dict) or (
-                number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)
-            ):
-                raise RecordError(
-                    f"line {number} is not a row",
-                    where=str(self.path),
-                    fix="Remove that line; the trial is then run again",
-                )
-            lines.append(found)
-        if whole < len(content):
-            if not lines and b'{"' + ABOUT.encode() != content[: 3 + len(ABOUT) - 1]:
-                raise RecordError(
-                    "holds no rows of an experiment", where=str(self.path), fix="Choose another name"
-                )
+            return None
+        made: JsonObject | None = None
+        whole, number = 0, 0
+        with self.path.open("rb") as file:
+            for at, line in _places(file):
+                whole, number = at + len(line), number + 1
+                found = self._line(line, number)
+                if KEY in found and number > 1:
+                    self.found.place(found[KEY], at)
+                else:
+                    made = found[ABOUT]
+            file.seek(whole)
+            rest = file.read(3 + len(ABOUT))
+        if rest:
+            if not whole and b'{"' + ABOUT.encode() != rest[: 3 + len(ABOUT) - 1]:
+                raise self._no_rows()
             with self.path.open("r+b") as file:
                 file.truncate(whole)
-        return lines
+        return made
+
+    def _line(self, line: bytes, number: int) -> Row:
+        try:
+            found = codec.parse(line)
+        except ValueError:
+            found = None
+        if not isinstance(found, dict) or (
+            number > 1 and KEY not in found and not isinstance(found.get(ABOUT), dict)
+        ):
+            raise RecordError(
+                f"line {number} is not a row",
+                where=str(self.path),
+                fix="Remove that line; the trial is then run again",
+            )
+        if number == 1 and not isinstance(found.get(ABOUT), dict):
+            raise self._no_rows()
+        return cast("Row", found)
+
+    def _no_rows(self) -> RecordError:
+        return RecordError("holds no rows of an experiment", where=str(self.path), fix="Choose another name")
 
 
 def different(new: Mapping[str, Any], made: Mapping[str, Any], by_condition: Sequence[str] = ()) -> list[str]:

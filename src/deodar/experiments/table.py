@@ -1,0 +1,135 @@
+"""The table of an experiment: its rows as columns over the trials."""
+
+from __future__ import annotations
+
+import csv
+import io
+from array import array
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from deodar import codec
+from deodar.experiments.jobs import MACHINE
+from deodar.experiments.observations import DIVERGED
+from deodar.experiments.rows import Row
+from deodar.recording import provenance
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def dataset(rows: Iterable[Row], about: Mapping[str, Any]) -> xarray.Dataset:
+    """Return rows as a Dataset over `trial`.
+
+    Levels are coordinates; `outcome`, `awaited` (the conditions that the limit cut off), `duration`, the time
+    of each condition and the measures are variables. A condition that did not occur is NaN. Measures of
+    several numbers have a dimension of their own. If trials diverged, the variable `diverged` gives the
+    reason of each (empty: it did not diverge), and the attribute of this name counts them.
+
+    Args:
+        rows: the rows in any order; each is read once and not kept.
+        about: the identity of the experiment.
+    """
+    # start-up time
+    import xarray
+
+    columns = _TableColumns(about)
+    for row in rows:
+        columns.append(row)
+    order = np.argsort(np.asarray(columns.trials), kind="stable")
+    unit = {"units": about["time_unit"]}
+    coords: dict[str, Any] = {"trial": ("trial", np.asarray(columns.trials, np.int64)[order])}
+    for name, labels in columns.levels.items():
+        coords[name] = ("trial", _column(labels)[order])
+    out: dict[str, Any] = {
+        key: ("trial", np.asarray(columns.words[key], dtype=str)[order]) for key in ("outcome", "awaited")
+    }
+    attributes = {provenance.KEY: codec.line(about), "title": about["name"]}
+    reasons = columns.words[DIVERGED]
+    bad = [reasons[k] for k in order if reasons[k]] if any(reasons) else []
+    if bad:
+        out[DIVERGED] = ("trial", np.asarray(reasons, dtype=str)[order])
+        where = f"the variable {DIVERGED!r} gives the reasons, the first is: {bad[0]}"
+        attributes[DIVERGED] = f"{len(bad)} of {len(reasons)} trials diverged; {where}"
+    if columns.machines:
+        out[MACHINE] = ("trial", np.asarray(columns.words[MACHINE], dtype=str)[order])
+    out["duration"] = ("trial", np.asarray(columns.durations)[order], unit)
+    for name, times in columns.events.items():
+        out[name] = ("trial", np.asarray(times)[order], {**unit, "long_name": f"time of {name}"})
+    for name, found in columns.measures.items():
+        count = max((len(v) for v in found if isinstance(v, list)), default=0)
+        if count:
+            values = np.asarray([[np.nan] * count if v is None else v for v in found], float)
+            out[name] = (("trial", f"{name}.axis"), values[order])
+        else:
+            out[name] = ("trial", np.asarray([_or_nan(v) for v in found], float)[order])
+    return xarray.Dataset(out, coords, attributes)
+
+
+class _TableColumns:
+    """The columns of a table while rows arrive; equal words are kept once.
+
+    Attributes:
+        machines: whether a row names its machine.
+    """
+
+    def __init__(self, about: Mapping[str, Any]) -> None:
+        self.trials, self.durations = array("q"), array("d")
+        self.levels: dict[str, list[Any]] = {name: [] for name in about.get("factors", {})}
+        self.words: dict[str, list[str]] = {key: [] for key in ("outcome", "awaited", DIVERGED, MACHINE)}
+        self.events = {name: array("d") for name in about.get("conditions", {})}
+        self.measures: dict[str, list[Any]] = {name: [] for name in about.get("measures", {})}
+        self.machines = False
+        self._known: dict[Any, Any] = {}
+
+    def append(self, row: Row) -> None:
+        known = self._known
+        self.trials.append(row["trial"])
+        self.durations.append(_or_nan(row["duration"]))
+        for name, labels in self.levels.items():
+            label = row["levels"][name]
+            labels.append(known.setdefault((type(label), label), label))
+        for key, words in self.words.items():
+            word = row[key] if key in ("outcome", "awaited") else row.get(key, "")
+            words.append(known.setdefault((str, word), word))
+        self.machines |= MACHINE in row
+        for name, times in self.events.items():
+            times.append(_or_nan(row["events"][name]))
+        for name, values in self.measures.items():
+            values.append(row["measures"][name])
+
+
+def table(data: xarray.Dataset) -> str:
+    """Return the table as CSV, one line per trial; a cell is empty if the condition did not occur."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    columns: list[tuple[str, np.ndarray]] = []
+    for name in [*data.coords, *data.data_vars]:
+        values = data[name].values
+        if values.ndim == 1:
+            columns.append((str(name), values))
+        else:
+            columns += [(f"{name}.{k}", values[:, k]) for k in range(values.shape[1])]
+    writer.writerow([name for name, _ in columns])
+    for k in range(data.sizes["trial"]):
+        writer.writerow([_cell(values[k]) for _, values in columns])
+    return text.getvalue()
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, (float, np.floating)):
+        return "" if np.isnan(value) else repr(float(value)).removesuffix(".0")
+    return str(value)
+
+
+def _column(values: list[Any]) -> np.ndarray:
+    """Return numbers if all values are numbers, else text."""
+    if any(isinstance(v, str) for v in values):
+        return np.asarray([str(v) for v in values], dtype=str)
+    return np.asarray(values, float)
+
+
+def _or_nan(value: Any) -> Any:
+    return np.nan if value is None else value
