@@ -48,6 +48,9 @@ FETCH_SECONDS = 20.0
 """Wall time in which the result of a completed task must arrive; later the task is submitted again, in
 seconds."""
 
+CANCELLED_SECONDS = 1.0
+"""Wall time in which a cancelled task must say so itself; later it is submitted again, in seconds."""
+
 LOST_SECONDS = 20.0
 """Wall time after which a task that no worker has, while workers are idle, is submitted again, in seconds."""
 
@@ -429,9 +432,8 @@ class ClusterPool:
         missing = status == "pending" and idle and str(task.future.key) not in self._seen.processing
         task.fetching = (task.fetching or now) if arriving else 0.0
         task.lost = (task.lost or now) if missing else 0.0
-        late = task.fetching and now - task.fetching > (
-            1.0 if status in ("cancelled", "lost") else FETCH_SECONDS
-        )
+        allowed = CANCELLED_SECONDS if status in ("cancelled", "lost") else FETCH_SECONDS
+        late = task.fetching and now - task.fetching > allowed
         if late or (task.lost and now - task.lost > LOST_SECONDS):
             self._submit_again(task)
 

@@ -24,7 +24,7 @@ from deodar.experiments.jobs import Job, Progress, run_jobs
 from deodar.experiments.migrations import migrate
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.setup import Setup
-from deodar.experiments.table import dataset, table
+from deodar.experiments.table import dataset, lacks, table
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
@@ -248,30 +248,43 @@ def load_results(path: str | Path) -> xarray.Dataset:
     """
     folder = output.location(path)
     try:
-        with _reading(folder) as (about, rows):
-            return dataset(rows, about)
-    except (OSError, ValueError, LookupError, TypeError):
+        with (folder / ROWS).open(encoding="utf-8") as file:
+            about = codec.parse(file.readline())[ABOUT]
+            return dataset((codec.parse(line) for line in file if line[-1] == "\n"), about)
+    except (OSError, ValueError, LookupError, TypeError, OverflowError):
+        stored(folder)  # names a line that is not a row
         raise _no_results(folder) from None
 
 
 def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
-    """Return the identity of the experiment of a folder, and its rows.
+    """Return the identity of the experiment of a folder, and its rows; an incomplete last line is left out.
 
     Raises:
-        RecordError: it is not the folder of an experiment.
+        RecordError: it is not the folder of an experiment, or a line is not a row of it; the line is named.
     """
     try:
-        with _reading(folder) as (about, rows):
-            return about, list(rows)
+        with (folder / ROWS).open("rb") as file:
+            about = codec.parse(file.readline())[ABOUT]
+            lacking = lacks(about)
+            lines = (line for line in file if line.endswith(b"\n"))
+            return about, [_row(line, number, file.name, lacking) for number, line in enumerate(lines, 2)]
     except (OSError, ValueError, LookupError, TypeError):
         raise _no_results(folder) from None
 
 
-@contextlib.contextmanager
-def _reading(folder: Path) -> Generator[tuple[JsonObject, Iterator[Row]]]:
-    """Read the identity of the experiment of a folder, and its rows one by one."""
-    with (folder / ROWS).open(encoding="utf-8") as file:
-        yield codec.parse(file.readline())[ABOUT], (codec.parse(line) for line in file if line[-1] == "\n")
+def _row(line: bytes, number: int, file: str, lacking: Callable[[Any], str]) -> Row:
+    try:
+        row = codec.parse(line)
+    except ValueError:
+        row = None
+    wrong = lacking(row)
+    if wrong:
+        raise RecordError(
+            f"line {number} is not a row of its experiment: {wrong}",
+            where=file,
+            fix="Remove that line; the trial is then run again",
+        )
+    return cast("Row", row)
 
 
 def _no_results(folder: Path) -> RecordError:

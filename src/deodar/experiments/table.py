@@ -5,19 +5,55 @@ from __future__ import annotations
 import csv
 import io
 from array import array
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from deodar import codec
 from deodar.experiments.jobs import MACHINE
 from deodar.experiments.observations import DIVERGED
-from deodar.experiments.rows import Row
+from deodar.experiments.rows import KEY, Row
 from deodar.recording import provenance
 
 if TYPE_CHECKING:
     import xarray
+
+NUMBER = (int, float, type(None))
+"""Types of a number in a row; None: there is none."""
+
+
+def lacks(about: Mapping[str, Any]) -> Callable[[Any], str]:
+    """Return a function that says what a row of an experiment lacks; "" if it is complete.
+
+    Args:
+        about: the identity of the experiment.
+
+    Raises:
+        LookupError, TypeError: it is no identity of an experiment.
+    """
+    names = {part: [*about.get(part, {})] for part in ("factors", "conditions", "measures")}
+    inside = {"levels": names["factors"], "events": names["conditions"], "measures": names["measures"]}
+    kinds = {KEY: str, "trial": int, "outcome": str, "awaited": str, "duration": NUMBER}
+
+    def lacking(row: Any) -> str:
+        if not isinstance(row, dict):
+            return "it is no object of JSON"
+        given = cast("Row", row)
+        for name, kind in kinds.items():
+            if not isinstance(given.get(name), kind):
+                return name
+        for part, wanted in inside.items():
+            found = given.get(part)
+            if not isinstance(found, dict) or not all(name in found for name in wanted):
+                return part
+        if not all(isinstance(given["events"][name], NUMBER) for name in inside["events"]):
+            return "events"
+        if not all(isinstance(given["measures"][name], (list, *NUMBER)) for name in inside["measures"]):
+            return "measures"
+        return ""
+
+    return lacking
 
 
 def dataset(rows: Iterable[Row], about: Mapping[str, Any]) -> xarray.Dataset:
