@@ -1,18 +1,22 @@
 """An experiment on a cluster of this machine: whether rows agree, what survives kills, and what it costs.
 
-    python benchmarks/cluster.py rows     # rows of this process, of two workers and of local:2
-    python benchmarks/cluster.py kills    # workers, callers and schedulers are killed at random moments
-    python benchmarks/cluster.py cost     # processor time of the caller for each task, and efficiency
+    python benchmarks/cluster.py rows         # ten experiments in this process, by workers, on two clusters
+    python benchmarks/cluster.py kills        # workers, callers and schedulers are killed at random moments
+    python benchmarks/cluster.py kills --long # 20 kills of workers, 5 of the caller, 2 of the scheduler
+    python benchmarks/cluster.py cost         # processor time of the caller for each task
+    python benchmarks/cluster.py many         # memory of the caller, and reading: --trials 1000000
+    python benchmarks/cluster.py efficiency   # two workers against one, for pieces of several lengths
 
 `kills` repeats a call until it is complete, as a user would. A row is lost if the complete folder has none of
 its trial, double if it has two, different if it is not that of a run in one process. A call hangs if it takes
 more than three times as long as an undisturbed one. Any of these fails. The load of the machine is printed:
-times are judged on a quiet machine only.
+times are judged on a quiet machine only, that is below a load of 1 at the start.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses as dc
 import json
 import os
 import random
@@ -20,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +33,20 @@ import psutil
 WORKERS = 2
 PIECE = 5
 """Number of trials of a piece."""
+
+QUIET = 1.0
+"""Load of the machine from which on times are not judged."""
+
+TASK_MS, ROWS_SECONDS, MEMORY, READ_SECONDS, FIRST_SECONDS, EFFICIENCY = 15.0, 5.0, 200.0, 10.0, 3.0, 0.90
+"""Targets, of our own: processor time of the caller for a task in ms, and for 10,000 rows in s; memory that
+10,000 trials add to the caller in MiB; wall time to read a table in s; wall time of the first piece of a worker
+with stored programs in s; efficiency of two workers with pieces of one second and more."""
+
+LENGTHS = (0.1, 0.3, 1.0, 3.0)
+"""Durations of a piece in s whose efficiency is measured."""
+
+LONG = {"worker": 20, "all workers": 2, "caller": 5, "scheduler": 2}
+"""Numbers of kills of the long form."""
 
 
 def experiment(trials: int, steps: int) -> Any:
@@ -111,15 +130,35 @@ def in_process(folder: Path, given: argparse.Namespace) -> tuple[list[str], floa
 
 
 def rows(given: argparse.Namespace, folder: Path) -> bool:
-    """Compare the rows of this process, of worker processes and of a cluster."""
-    right, _ = in_process(folder, given)
-    good = True
-    for name, how in (("workers=2", {"workers": WORKERS}), ("local:2", {"cluster": f"local:{WORKERS}"})):
-        experiment(given.trials, given.steps).run(folder / name, **how)
-        lost, double, different = compared(folder / name, right)
-        print(f"{name:10} {len(right)} rows: {lost} lost, {double} double, {different} different")
-        good &= not (lost or double or different)
+    """Compare the rows of ten experiments in this process, in worker processes and on clusters."""
+    from cluster_experiments import TEN
+    from deodar.experiments import setup
+
+    setup.MOST_COPIES, good = PIECE, True
+    ways: dict[str, dict[str, Any]] = {"workers=2": {"workers": 2}}
+    ways |= {f"local:{n}": {"cluster": f"local:{n}"} for n in (2, 4)}
+    for name, make in TEN.items():
+        out = folder / name
+        out.mkdir()
+        run(make(given.trials), out / "here")
+        right = stored(out / "here")
+        outcomes = sorted({json.loads(row)["outcome"] for row in right})
+        for way, how in ways.items():
+            run(make(given.trials), out / way, **how)
+        found = {way: compared(out / way, right) for way in ways}
+        good &= len(right) == given.trials and not any(any(each) for each in found.values())
+        print(
+            f"{name:10} {len(right)} rows ({', '.join(outcomes)}); lost, double, different: {found}",
+            flush=True,
+        )
     return good
+
+
+def run(made: Any, folder: Path, **how: Any) -> None:
+    """Run an experiment; trials that diverge are part of it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made.run(folder, **how)
 
 
 def kills(given: argparse.Namespace, folder: Path) -> bool:
@@ -130,10 +169,15 @@ def kills(given: argparse.Namespace, folder: Path) -> bool:
     calm, good = time.perf_counter() - began, True
     print(f"undisturbed {calm:.1f} s, {compared(folder / 'calm', right)} lost, double, different")
     draw = random.Random(given.seed)
-    for number in range(given.rounds):
-        for what in ("worker", "all workers", "caller", "scheduler"):
+    wanted = LONG if given.long else dict.fromkeys(LONG, given.kills * given.rounds)
+    for what, of in wanted.items():
+        killed_so_far, number = 0, 0
+        while killed_so_far < of and number < of + 3:
+            number += 1
             place = folder / f"{what.replace(' ', '-')}-{number}"
-            killed, calls, longest = disturbed(place, given, what, draw, calm)
+            most = min(given.kills, of - killed_so_far)
+            killed, calls, longest = disturbed(place, given, what, most, draw, calm)
+            killed_so_far += killed
             found = compared(place, right)
             good &= found == (0, 0, 0) and longest <= 3 * calm
             print(
@@ -141,13 +185,14 @@ def kills(given: argparse.Namespace, folder: Path) -> bool:
                 f" lost, double, different: {found}; load {os.getloadavg()[0]:.1f}",
                 flush=True,
             )
+        good &= killed_so_far >= of
     return good
 
 
 def disturbed(
-    place: Path, given: argparse.Namespace, what: str, draw: random.Random, calm: float
+    place: Path, given: argparse.Namespace, what: str, most: int, draw: random.Random, calm: float
 ) -> tuple[int, int, float]:
-    """Repeat a call until it is complete; kill at most `given.kills` times, at random moments after the first
+    """Repeat a call until it is complete; kill at most `most` times, at random moments after the first
     row of a call. Return the kills, the calls and the wall time of the longest call.
     """
     killed, calls, longest = 0, 0, 0.0
@@ -161,7 +206,7 @@ def disturbed(
         due: float | None = None
         while process.poll() is None and time.perf_counter() - began < 5 * calm:
             now = time.perf_counter()
-            if due is None and killed < given.kills and len(stored(place)) > before:
+            if due is None and killed < most and len(stored(place)) > before:
                 due = now + draw.random() * calm / 8
             if due is not None and now >= due:
                 due, before, killed = None, len(stored(place)), killed + 1
@@ -190,48 +235,152 @@ def disturbed(
 
 
 def cost(given: argparse.Namespace, folder: Path) -> bool:
-    """Print the processor time of the caller for each task, and the efficiency of the workers."""
+    """Print the processor time of the caller for each task of one row."""
     from deodar.batch.cluster import Cluster
     from deodar.batch.on_cluster import ClusterPool
     from deodar.experiments.jobs import Job, run_jobs
     from deodar.experiments.rows import Rows
 
-    right, here = in_process(folder, given)
     with ClusterPool(Cluster(f"local:{WORKERS}")) as pool:
         began, cpu = time.perf_counter(), time.process_time()
         keys = [f"{k:06}" for k in range(given.tasks)]
         jobs = [Job((key,), json.loads, {"s": json.dumps([{"key": key}])}) for key in keys]
         run_jobs(jobs, Rows(folder / "rows.jsonl", {}), cluster=pool)
         cpu, wall = time.process_time() - cpu, time.perf_counter() - began
+    each = 1000 * cpu / given.tasks
     print(
-        f"{given.tasks} tasks of one row: {1000 * cpu / given.tasks:.2f} ms of the caller's processor each"
-        f" (with the scheduler, and the row on the disk), {wall:.1f} s in total;"
-        f" load {os.getloadavg()[0]:.1f}"
+        f"{given.tasks} tasks of one row: {each:.2f} ms of the caller's processor each (at most {TASK_MS:g};"
+        f" with the scheduler, and the row on the disk), {wall:.1f} s in total; load {os.getloadavg()[0]:.1f}"
     )
+    return each <= TASK_MS
+
+
+def many(given: argparse.Namespace, folder: Path) -> bool:
+    """Run many short trials of 100 nodes; print memory and time of the caller, and the time of reading."""
+    import deodar as dd
+
+    model = dd.Model("nodes")
+    for k in range(100):
+        model.add(dd.Field(f"n{k}", [], tau=20, resting_level=-1, noise=3.0))
+    measures = [dd.Measure("end", "n0.activation", "max")]
+    seen = [dd.Crosses("decided", "n0.activation")]
+    made = dd.Experiment("nodes", model, 10, given.trials, seen, measures=measures)
+    dd.Experiment("warm", model, 10, 250, seen, measures=measures).run()
+    before, cpu, began = resident(), time.process_time(), time.perf_counter()
+    most, first = before, list[float]()
+
+    def told(progress: Any) -> None:
+        nonlocal most
+        now = resident()
+        first[:] = first or ([now] if progress.rows else [])
+        most = max(most, now)
+
+    run(made, folder / "many", cluster=f"local:{WORKERS}", progress=told)
+    most = max(most, resident())
+    cpu, wall = time.process_time() - cpu, time.perf_counter() - began
     began = time.perf_counter()
-    experiment(given.trials, given.steps).run(folder / "there", cluster=f"local:{WORKERS}")
-    wall = time.perf_counter() - began
+    data = dd.load_results(folder / "many")
+    reading = time.perf_counter() - began
+    size = (folder / "many" / "trials.jsonl").stat().st_size / 2**20
+    per = 1e4 * cpu / given.trials
     print(
-        f"{len(right)} trials: {here:.1f} s in one process, {wall:.1f} s on local:{WORKERS} with its start;"
-        f" efficiency {here / wall / WORKERS:.2f}"
+        f"{data.sizes['trial']} trials in {wall:.0f} s: the caller grew by {most - before:.0f} MiB, of which"
+        f" {first[0] - before:.0f} before the first rows; {per:.1f} s of its processor for 10,000 rows (with"
+        f" the scheduler); {size:.0f} MiB of rows read in {reading:.1f} s; load {os.getloadavg()[0]:.1f}"
     )
-    return True
+    good = data.sizes["trial"] == given.trials and per <= ROWS_SECONDS
+    return good and (most - before <= MEMORY or given.trials > 10_000) and reading <= READ_SECONDS
+
+
+def resident() -> float:
+    """Return the memory of this process in MiB."""
+    return psutil.Process().memory_info().rss / 2**20
+
+
+def efficiency(given: argparse.Namespace, folder: Path) -> bool:
+    """Print the efficiency of two workers for pieces of several lengths, and how long a first piece takes.
+
+    The time of a run begins with its first piece: start-up is printed by itself.
+    """
+    from deodar.experiments import setup
+
+    setup.MOST_COPIES, quiet, good = PIECE, os.getloadavg()[0] < QUIET, True
+    run(steady(PIECE, 20_000), folder / "compiled")
+    began = time.perf_counter()
+    run(steady(PIECE, 20_000), folder / "measured")
+    rate = 20_000 / (time.perf_counter() - began)
+    for length in LENGTHS:
+        pieces = 2 * max(5, round(given.seconds / length / 2))
+        made = steady(PIECE * pieces, 10 * round(rate * length / 10))
+        (alone, first, start), (both, _, _) = (
+            timed(made, folder / f"{length}-{n}.jsonl", n) for n in (1, WORKERS)
+        )
+        found = alone / both / WORKERS
+        good &= not quiet or ((length < 1 or found >= EFFICIENCY) and first <= FIRST_SECONDS + length)
+        print(
+            f"pieces of {alone / pieces:.2f} s: {pieces} in {alone:.1f} s on one worker, {both:.1f} s on"
+            f" {WORKERS}, efficiency {found:.2f}; first piece after {first:.2f} s; start of one worker"
+            f" {start:.1f} s; load {os.getloadavg()[0]:.1f}",
+            flush=True,
+        )
+    return good
+
+
+def steady(trials: int, steps: int) -> Any:
+    """Return an experiment whose trials all last to the limit."""
+    return dc.replace(experiment(trials, steps), conditions=(), every=10)
+
+
+def timed(made: Any, file: Path, count: int) -> tuple[float, float, float]:
+    """Run an experiment on some workers; return the wall times of all pieces, of the first one, and of the
+    start.
+    """
+    from deodar.batch.cluster import Cluster
+    from deodar.batch.on_cluster import ClusterPool
+    from deodar.experiments import packed
+    from deodar.experiments.jobs import Job, run_jobs
+    from deodar.experiments.rows import Rows
+
+    setup, began, first = made.setup(), time.perf_counter(), list[float]()
+    handed = packed.PackedExperiment.of(setup)
+    jobs = [
+        Job(
+            tuple(f"{k:06}" for k in piece), packed.work, {"handed": handed, "trials": piece, "records": None}
+        )
+        for piece in setup.pieces()
+    ]
+    with ClusterPool(Cluster(f"local:{count}")) as pool:
+        pool.everywhere(packed.prepare, handed)
+        start, began = time.perf_counter() - began, time.perf_counter()
+
+        def told(progress: Any) -> None:
+            if progress.rows and not first:
+                first.append(time.perf_counter() - began)
+
+        run_jobs(jobs, Rows(file, {}), told, cluster=pool)
+        return time.perf_counter() - began, first[0], start
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("what", choices=("rows", "kills", "cost"))
-    parser.add_argument("--trials", type=int, default=200)
+    parser.add_argument("what", choices=("rows", "kills", "cost", "many", "efficiency"))
+    parser.add_argument(
+        "--trials", type=int, help="20 of each of ten experiments, 200 of others, 10,000 of many"
+    )
     parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--rounds", type=int, default=2)
     parser.add_argument("--kills", type=int, default=3, help="kills of a round")
     parser.add_argument("--tasks", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--long", action="store_true", help=f"kills: {LONG}")
+    parser.add_argument("--seconds", type=float, default=30.0, help="duration of a run on one worker")
     given = parser.parse_args()
+    given.trials = given.trials or {"rows": 20, "many": 10_000}.get(given.what, 200)
     os.environ["NPROC"] = "1"
     print(f"load {os.getloadavg()[0]:.1f}; times count on a quiet machine only")
     with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-        good = {"rows": rows, "kills": kills, "cost": cost}[given.what](given, Path(folder))
+        parts = {"rows": rows, "kills": kills, "cost": cost, "many": many, "efficiency": efficiency}
+        good = parts[given.what](given, Path(folder))
     sys.exit(0 if good else 1)
 
 
