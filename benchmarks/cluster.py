@@ -39,8 +39,8 @@ QUIET = 1.0
 
 TASK_MS, ROWS_SECONDS, MEMORY, READ_SECONDS, FIRST_SECONDS, EFFICIENCY = 15.0, 5.0, 200.0, 10.0, 3.0, 0.90
 """Targets, of our own: processor time of the caller for a task in ms, and for 10,000 rows in s; memory that
-10,000 trials add to the caller in MiB; wall time to read a table in s; wall time of the first piece of a worker
-with stored programs in s; efficiency of two workers with pieces of one second and more."""
+10,000 trials add to the caller in MiB; wall time to read a table in s; wall time of a worker's first piece,
+with stored programs, in s; efficiency of two workers with pieces of one second and more."""
 
 LENGTHS = (0.1, 0.3, 1.0, 3.0)
 """Durations of a piece in s whose efficiency is measured."""
