@@ -255,10 +255,15 @@ def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatc
     assert call("--plan") == 0
     out = capsys.readouterr().out
     assert (
-        "when: 16 trials in 4 pieces of at most 4; about" in out and "More than 4 workers do not help" in out
+        "when: 16 trials in 4 pieces of at most 4; about" in out
+        and "More than 4 workers do not help: each has one piece." in out
     )
+    assert re.search(r"stored: \d+ bytes for a row of each trial, [0-9.]+ kB in total", out)
     assert "  1 worker: at most" in out and "  4 workers: at most" in out
     assert call("--plan", "--json") == 0
     found = json.loads(capsys.readouterr().out)
     assert list(found["times"]) == ["1", "2", "4"] and found["pieces"] == [4] * 4
+    assert found["stored"] == 16 * found["row"]
+    assert cli.main(["plan", "when.json", "--cluster"]) == 0
+    assert "when: 16 trials in 4 pieces of at most 4; about" in capsys.readouterr().out
     assert not list(tmp_path.glob("when-*"))

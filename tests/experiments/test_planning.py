@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 from deodar.experiments import planning
 from deodar.experiments.planning import WorkPlan, plan
 from tests.experiments import clustered
@@ -16,9 +18,22 @@ def test_time_shrinks_until_every_piece_has_a_worker(monkeypatch):
     assert WorkPlan((1,) * 6, 1.0, 0).counts() == [1, 2, 4, 6]
 
 
+def test_short_pieces_keep_the_caller_busy(monkeypatch):
+    monkeypatch.setattr(planning, "TASK_SECONDS", 0.01)
+    found = WorkPlan((5,) * 1000, 0.02, 0, row=300, record=700)
+    assert found.most == 10, "ten workers end a piece of 0.1 s every 0.01 s"
+    assert found.duration(10) == found.duration(20) == planning.START_SECONDS + 10.0
+    assert found.stored == 5_000_000
+
+
 def test_one_piece_is_measured(monkeypatch):
     clustered.small_pieces(monkeypatch)
     found = plan(clustered.experiment(10, 300.0).setup(), 20)
     assert sum(found.pieces) == 10 and max(found.pieces) == 2
     assert 0 < found.seconds < 10 and found.memory > 50 * 2**20
-    assert found.duration(2) < found.duration(1)
+    assert 100 < found.row < 400 and found.record == 0 and found.stored == 10 * found.row
+
+
+def test_records_are_counted(monkeypatch):
+    made = dc.replace(clustered.experiment(4, 300.0), record=["u.activation"], every=10)
+    assert plan(made.setup(), 20).record == 31 * 4

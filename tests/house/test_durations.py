@@ -53,6 +53,11 @@ def test_a_function_spends_its_share_and_the_other_cases_are_long() -> None:
     assert long - set(cases) == {"a.py::whole", *(f"a.py::heavy[{k}]" for k in range(3))}
 
 
+def test_some_functions_are_never_long() -> None:
+    assert all(durations.exists(name) for name in durations.ALWAYS)
+    assert durations.long_cases(durations.ALWAYS, dict.fromkeys(durations.ALWAYS, 90.0)) == set()
+
+
 def test_every_long_file_of_browser_tests_exists() -> None:
     studio = Path(conftest.__file__).parents[1] / "studio"
     listed = re.findall(r'^  "(\w+)",$', (studio / "vitest.short.ts").read_text(), re.MULTILINE)

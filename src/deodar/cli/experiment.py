@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar import codec
-from deodar.cli import _long, _options
+from deodar.cli import _long, _options, _work_plan
 from deodar.cli._bar import Bar
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
@@ -117,7 +117,7 @@ def run(args: argparse.Namespace) -> int:
     if args.check:
         return _check(args, setup)
     if args.plan:
-        return _plan(args, setup)
+        return _work_plan.show(setup, args.json)
     out: Path = args.out or places.free(Path.cwd(), experiment.name)
     _confirm(args, setup, out)
     try:
@@ -257,26 +257,6 @@ def _check(args: argparse.Namespace, setup: Any) -> int:
         print(codec.line({"trials": sum(pieces), "batched": setup.batched, "pieces": pieces}))
     else:
         print(f"{setup.experiment.name}: {sum(pieces)} trials, {way}. Nothing is wrong with it.")
-    return 0
-
-
-def _plan(args: argparse.Namespace, setup: Any) -> int:
-    # start-up time: these bring JAX
-    from deodar.experiments.planning import plan
-
-    found = plan(setup)
-    times = {n: found.duration(n) for n in found.counts()}
-    if args.json:
-        answer = {"pieces": list(found.pieces), "memory": found.memory, "seconds": found.seconds}
-        print(codec.text({**answer, "times": {str(n): seconds for n, seconds in times.items()}}))
-        return 0
-    print(
-        f"{setup.experiment.name}: {sum(found.pieces)} trials in {found.most} pieces of at most"
-        f" {max(found.pieces)}; about {found.memory / 2**20:.0f} MB of memory for each worker"
-    )
-    for n, seconds in times.items():
-        print(f"  {n} worker{'s' if n > 1 else ''}: at most {_long.duration(seconds)}")
-    print(f"More than {found.most} workers do not help. Measured on this machine; trials may end earlier.")
     return 0
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from deodar import codec
-from deodar.cli import _options
+from deodar.cli import _options, _work_plan
 
 if TYPE_CHECKING:
     from deodar.codec import JsonObject
@@ -31,6 +31,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--device", metavar="KIND", help="with --devices all: cpu or gpu, whose devices are counted"
     )
+    parser.add_argument(
+        "--cluster", action="store_true", help="plan the trials of an experiment for many workers"
+    )
     _options.add_accuracy(parser)
     _options.add_json(parser)
 
@@ -41,9 +44,13 @@ def run(args: argparse.Namespace) -> int:
     from deodar.compiler import device
     from deodar.compiler.plan import plan
     from deodar.compiler.shard import planned
+    from deodar.experiments.experiment import Experiment
     from deodar.importers.opening import load
     from deodar.session import memory
 
+    if args.cluster:
+        _options.use_cores(None)  # one core, as workers use
+        return _work_plan.show(Experiment.load(args.file, load).setup(), args.json)
     model = load(args.file)
     model.require()
     precision = args.precision or "float32"

@@ -8,10 +8,16 @@ from dataclasses import dataclass
 
 import psutil
 
+from deodar import codec
 from deodar.experiments.setup import Setup
 
 START_SECONDS = 5.0
 """Wall time in which a worker starts and opens the model, in seconds (measured on one machine)."""
+
+
+TASK_SECONDS = 0.005
+"""Processor time that the caller and its scheduler need for a piece, in seconds (measured by
+`benchmarks/cluster.py cost`, rounded up)."""
 
 
 @dataclass(frozen=True)
@@ -22,16 +28,28 @@ class WorkPlan:
         pieces: number of trials of each piece.
         seconds: wall time of a trial of the largest piece, if every trial lasted until the limit, in s.
         memory: memory of this process after a piece, in bytes, as a worker needs it.
+        row: size of a row in the file of rows, in bytes.
+        record: size of the records of a trial that lasts until the limit, in bytes, without compression.
     """
 
     pieces: tuple[int, ...]
     seconds: float
     memory: int
+    row: int = 0
+    record: int = 0
 
     @property
     def most(self) -> int:
-        """Number of workers from which on another one does not help: one for each piece."""
-        return len(self.pieces)
+        """Number of workers from which on another one does not help: each has one piece, or the caller is
+        busy with the pieces that end.
+        """
+        served = max(self.pieces) * self.seconds / TASK_SECONDS
+        return max(1, min(len(self.pieces), int(served)))
+
+    @property
+    def stored(self) -> int:
+        """Size of all rows and records, in bytes."""
+        return sum(self.pieces) * (self.row + self.record)
 
     def duration(self, workers: int) -> float:
         """Return the wall time on some workers in s: each takes the next piece when it has none.
@@ -42,7 +60,7 @@ class WorkPlan:
         for trials in self.pieces:
             first = free.index(min(free))
             free[first] += trials * self.seconds
-        return max(free)
+        return max(*free, START_SECONDS + TASK_SECONDS * len(self.pieces))
 
     def counts(self) -> list[int]:
         """Return numbers of workers to compare: powers of two, and the largest useful one."""
@@ -63,10 +81,12 @@ def plan(setup: Setup, steps: int = 200) -> WorkPlan:
     n = min(steps, setup.steps)
     while True:
         began = time.perf_counter()
-        setup.shortened(n).rows(largest)
+        rows = setup.shortened(n).rows(largest)
         wall = time.perf_counter() - began
         if wall >= 0.2 or n >= setup.steps:
             break
         n = min(2 * n, setup.steps)
     seconds = wall * setup.steps / n / len(largest)
-    return WorkPlan(tuple(map(len, pieces)), seconds, psutil.Process().memory_info().rss)
+    row = max(len(codec.line(row, ascii=True)) + 1 for row in rows)
+    memory = psutil.Process().memory_info().rss
+    return WorkPlan(tuple(map(len, pieces)), seconds, memory, row, int(setup.record_bytes))

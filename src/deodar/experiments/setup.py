@@ -239,15 +239,19 @@ class Setup:
         out.programs = self.model.programs
         return out
 
-    def _most(self) -> int:
-        """Return the largest number of trials in one batch."""
-        nodes = resolve(self.model.document)[0]
-        size, e = memory.copy_bytes(nodes, self.experiment.precision), self.experiment
-        by = {node.id: node for node in nodes}
-        looks = e.limit / (e.every or e.dt or self.model.document.step) + 1
+    @property
+    def record_bytes(self) -> float:
+        """Size in bytes of the records of a trial that lasts until the limit."""
+        e, by = self.experiment, {node.id: node for node in resolve(self.model.document)[0]}
+        looks = e.limit / (e.every or self.dt) + 1
         cells = 0
         for name in e.record:
             entry, port = find.shown(self.model.document, name)
             cells += math.prod(shape(by[entry.id].axes(port)))
-        recorded = cells * looks * (8 if e.precision == "float64" else 4)
+        return cells * looks * (8 if e.precision == "float64" else 4)
+
+    def _most(self) -> int:
+        """Return the largest number of trials in one batch."""
+        size = memory.copy_bytes(resolve(self.model.document)[0], self.experiment.precision)
+        recorded = self.record_bytes
         return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), int(RECORD_BYTES // max(1.0, recorded))))
