@@ -2,7 +2,7 @@
 
 `pytest --write-durations` measures the tests that it runs, in one process, and replaces their rows in
 `durations.csv`; rows of other tests are kept. The seconds of a function are those of all its cases,
-with the processes that they start. A test without a row is fast.
+with the processes that they start and the fixtures of a module that it uses. A test without a row is fast.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -95,16 +96,44 @@ def write(measured: dict[str, float], file: Path = FILE) -> None:
 
 
 class Recorder:
-    """Measure the CPU seconds of this process and of those that ended in it, test by test."""
+    """Measure the CPU seconds of this process and of those that ended in it, test by test.
+
+    What a fixture of a module takes counts for every function that uses it: without the others, each would
+    have to pay it.
+    """
 
     def __init__(self) -> None:
         self.seconds: Counter[str] = Counter()
+        self._shared: dict[tuple[str, str], float] = {}
+        self._paid: set[tuple[str, tuple[str, str]]] = set()
+        self._inside = 0.0
 
     @pytest.hookimpl(wrapper=True, tryfirst=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
-        before = sum(os.times()[:4])
+        before, self._inside = sum(os.times()[:4]), 0.0
         result = yield
-        self.seconds[function(item.nodeid)] += sum(os.times()[:4]) - before
+        name = function(item.nodeid)
+        self.seconds[name] += sum(os.times()[:4]) - before - self._inside
+        for fixture in getattr(item, "fixturenames", ()):
+            key = (item.nodeid.split("::")[0], fixture)
+            if key in self._shared and (name, key) not in self._paid:
+                self._paid.add((name, key))
+                self.seconds[name] += self._shared[key]
+        return result  # type: ignore[return-value]
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_fixture_setup(
+        self, fixturedef: pytest.FixtureDef[Any], request: pytest.FixtureRequest
+    ) -> Iterator[None]:
+        if fixturedef.scope not in ("module", "class"):
+            return (yield)  # type: ignore[return-value]
+        before, outer = sum(os.times()[:4]), self._inside
+        result = yield
+        taken = sum(os.times()[:4]) - before
+        key = (request.node.nodeid.split("::")[0], fixturedef.argname)
+        # a fixture that another one needs is among the names of the test, and counts by itself
+        self._shared[key] = self._shared.get(key, 0.0) + taken - (self._inside - outer)
+        self._inside = outer + taken
         return result  # type: ignore[return-value]
 
     def pytest_sessionfinish(self) -> None:

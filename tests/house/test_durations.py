@@ -99,3 +99,26 @@ def test_processes_keep_byte_code(tmp_path: Path) -> None:
     (tmp_path / "imported.py").write_text("x = 1\n")
     subprocess.run([sys.executable, "-c", "import imported"], cwd=tmp_path, check=True)
     assert list(tmp_path.rglob("imported.*.pyc"))
+
+
+def test_what_a_fixture_of_a_module_takes_counts_for_every_user(tmp_path: Path) -> None:
+    (tmp_path / "test_shared.py").write_text(
+        "import pytest, time\n"
+        "@pytest.fixture(scope='module')\n"
+        "def made():\n"
+        "    end = time.process_time() + 0.5\n"
+        "    while time.process_time() < end: pass\n"
+        "@pytest.mark.parametrize('k', [1, 2])\n"
+        "def test_first(made, k): pass\n"
+        "def test_second(made): pass\n"
+        "def test_other(): pass\n"
+    )
+    code = (
+        "import pytest; from tests import durations\n"
+        "recorder = durations.Recorder(); durations.write = lambda found: None\n"
+        f"assert pytest.main(['-q', {str(tmp_path)!r}], [recorder]) == 0\n"
+        "print({name.split('::')[1]: round(s, 1) for name, s in recorder.seconds.items()})"
+    )
+    root = Path(conftest.__file__).parents[1]
+    run = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
+    assert "{'test_first': 0.5, 'test_second': 0.5, 'test_other': 0.0}" in run.stdout
