@@ -149,10 +149,7 @@ class ChunkedArray:
         Raises:
             OSError: the system refused.
         """
-        content = self._codec.encode(np.ascontiguousarray(values, self.dtype))
-        if self._checked:
-            content += struct.pack("<I", google_crc32c.value(content))
-        path = self.path(place)
+        content, path = self.encode(values), self.path(place)
         try:
             output.replace(path, content)
         except FileNotFoundError:  # the folders of the array are not removed while it is written
@@ -176,15 +173,34 @@ class ChunkedArray:
         except FileNotFoundError:
             found.fill(self.fill)
             return found
+        self.decode(content, found)
+        return found
+
+    def encode(self, values: np.ndarray) -> bytes:
+        """Return the content of the file of a chunk."""
+        content = bytes(self._codec.encode(np.ascontiguousarray(values, self.dtype)))
+        return content + struct.pack("<I", google_crc32c.value(content)) if self._checked else content
+
+    def decode(self, content: np.ndarray, room: np.ndarray) -> None:
+        """Write the values of a chunk into an array of its shape.
+
+        Args:
+            content: the bytes of its file.
+            room: the array.
+
+        Raises:
+            ChunkError: it is damaged.
+        """
         if self._checked:
             content, checksum = content[:-4], content[-4:]
-            if checksum.tobytes() != struct.pack("<I", google_crc32c.value(content)):
+            # the checksum is computed from a buffer
+            bare: Any = content
+            if checksum.tobytes() != struct.pack("<I", google_crc32c.value(bare)):
                 raise ChunkError("its checksum is that of other values")
         try:
-            self._codec.decode(content, found)
+            self._codec.decode(content, room)
         except (ValueError, RuntimeError) as error:
             raise ChunkError(str(error)) from None
-        return found
 
     def empty(self) -> np.ndarray:
         """Return a chunk of fill values."""

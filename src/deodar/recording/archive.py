@@ -1,0 +1,186 @@
+"""Several records as one Zarr group (version 3) in a zip file.
+
+Each record is a group of its own, with the arrays of every Zarr record of deodar, so that records of
+different lengths are stored as they are, without padding, and other programs open one by its name:
+`xarray.open_zarr(zarr.storage.ZipStore(FILE), group=NAME, consolidated=False)`. Chunks are compressed once,
+and stored in the zip file as they are. Equal records give equal bytes: entries have a fixed date. Zarr's own
+functions need tens of milliseconds for a record, this module about two.
+"""
+
+from __future__ import annotations
+
+import io
+import itertools
+import math
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import xarray
+
+from deodar import codec
+from deodar.codec import Json, JsonObject
+from deodar.errors import RecordError
+from deodar.recording import portable
+from deodar.recording.chunks import ChunkedArray, ChunkError
+
+CHUNK_BYTES = 2**26
+"""Bytes of a chunk before compression: most arrays of a trial have one chunk, and are read whole."""
+
+META = "zarr.json"
+"""Name of the metadata of a group or an array."""
+
+CODECS: tuple[JsonObject, ...] = (
+    {"name": "bytes", "configuration": {"endian": "little"}},
+    {
+        "name": "blosc",
+        "configuration": {"cname": "lz4", "clevel": 1, "shuffle": "shuffle", "typesize": 1, "blocksize": 0},
+    },
+    {"name": "crc32c"},
+)
+"""What arrays are encoded by, as in every Zarr record of deodar; `typesize` follows from the array."""
+
+
+class ArchiveWriter:
+    """Collects records, and returns the bytes of the file."""
+
+    def __init__(self) -> None:
+        self._file = io.BytesIO()
+        self._zip = zipfile.ZipFile(self._file, "w", zipfile.ZIP_STORED)
+
+    def add(self, name: str, data: xarray.Dataset) -> None:
+        """Add a record as the group `name`."""
+        stored = portable.pack(data, narrow=False)
+        names: Mapping[str, str] = codec.parse(stored.attrs[portable.KEY])["names"]
+        members: JsonObject = {}
+        for new, variable in stored.variables.items():
+            old = data.variables[names.get(str(new), str(new))]
+            whole = old if portable.large(old) else variable
+            about = _array(variable)
+            array, members[str(new)] = ChunkedArray(Path(str(new)), about), about
+            values = np.asarray(whole.values)
+            for place in itertools.product(*(range(math.ceil(n / c)) for n, c in _grid(array))):
+                chunk = array.empty()
+                outer = tuple(slice(k * c, (k + 1) * c) for k, c in zip(place, array.chunks, strict=True))
+                part = values[outer]
+                chunk[tuple(slice(n) for n in part.shape)] = part
+                self._store("/".join([name, str(new), "c", *map(str, place)]), array.encode(chunk))
+            self._store(f"{name}/{new}/{META}", codec.line(about).encode())
+        inline: JsonObject = {"kind": "inline", "must_understand": False, "metadata": members}
+        self._store(f"{name}/{META}", _group(dict(stored.attrs), inline))
+
+    def close(self, attributes: Mapping[str, Json]) -> bytes:
+        """Return the file; `attributes` are those of the group that contains all records.
+
+        They are the last entry, beside the directory of the zip file, so that both are read at once.
+        """
+        self._store(META, _group(dict(attributes)))
+        self._zip.close()
+        return self._file.getvalue()
+
+    def _store(self, name: str, content: bytes) -> None:
+        entry = zipfile.ZipInfo(name)
+        entry.create_system, entry.external_attr = 3, 0o644 << 16  # the same bytes on every system
+        self._zip.writestr(entry, content)
+
+
+class Archive:
+    """An opened file of records.
+
+    Args:
+        file: the file, which must allow seeking; `close` closes it.
+        where: its name, for errors.
+
+    Attributes:
+        attributes: attributes of the group that contains all records.
+
+    Raises:
+        RecordError: it is damaged, or no such file.
+    """
+
+    def __init__(self, file: IO[bytes], where: str) -> None:
+        self._file, self.where = file, where
+        try:
+            self._zip = zipfile.ZipFile(file)
+            self.attributes: dict[str, Any] = codec.parse(self._zip.read(META))["attributes"]
+        except Exception as error:  # libraries that read untrusted bytes may raise any exception
+            file.close()
+            raise self._damaged(error) from None
+
+    def read(self, name: str) -> xarray.Dataset:
+        """Return a record; its values are compared with their checksums.
+
+        Raises:
+            RecordError: it does not exist, or is damaged.
+        """
+        try:
+            group = codec.parse(self._zip.read(f"{name}/{META}"))
+            members: Mapping[str, Any] = group["consolidated_metadata"]["metadata"]
+            variables = {new: self._variable(name, new, about) for new, about in members.items()}
+            return portable.unpack(xarray.Dataset(variables, attrs=group["attributes"]))
+        except Exception as error:  # libraries that read untrusted bytes may raise any exception
+            raise self._damaged(error, name) from None
+
+    def close(self) -> None:
+        """Close the file."""
+        self._zip.close()
+        self._file.close()
+
+    def _variable(self, name: str, new: str, about: Mapping[str, Any]) -> xarray.Variable:
+        array = ChunkedArray(Path(new), about)
+        values, chunk = np.empty(array.shape, array.dtype.newbyteorder("=")), array.empty()
+        for place in itertools.product(*(range(math.ceil(n / c)) for n, c in _grid(array))):
+            content = self._zip.read("/".join([name, new, "c", *map(str, place)]))
+            try:
+                array.decode(np.frombuffer(content, np.uint8), chunk)
+            except ChunkError as error:
+                raise RecordError(f"{new}: {error}") from None
+            outer = (slice(k * c, (k + 1) * c) for k, c in zip(place, array.chunks, strict=True))
+            part = values[(*outer, ...)]  # a view, also of an array without axes
+            part[...] = chunk[tuple(slice(n) for n in part.shape)]
+        return xarray.Variable(about["dimension_names"], values, about["attributes"])
+
+    def _damaged(self, error: Exception, name: str = "") -> RecordError:
+        text = " ".join(str(error).split())[:200]
+        what = f"the record {name} of it cannot be read" if name else "cannot be read as a file of records"
+        return RecordError(
+            f"{what}, it may be damaged ({type(error).__name__}: {text})",
+            where=self.where,
+            fix="Take another copy, or run its trials again",
+        )
+
+
+def _grid(array: ChunkedArray) -> list[tuple[int, int]]:
+    """Return the number of samples along each axis, and that of a chunk."""
+    return list(zip(array.shape, array.chunks, strict=True))
+
+
+def _array(variable: xarray.Variable) -> JsonObject:
+    """Return the metadata of an array, as Zarr (version 3) states them."""
+    inner = max(1, variable.dtype.itemsize * math.prod(variable.shape[1:]))
+    first = [min(variable.shape[0], max(1, CHUNK_BYTES // inner))] if variable.ndim else []
+    blosc: Any = CODECS[1]
+    settings = {**blosc["configuration"], "typesize": variable.dtype.itemsize}
+    return {
+        "zarr_format": 3,
+        "node_type": "array",
+        "shape": list(variable.shape),
+        "data_type": str(variable.dtype.newbyteorder("=")),
+        "chunk_grid": {
+            "name": "regular",
+            "configuration": {"chunk_shape": [max(1, n) for n in (*first, *variable.shape[1:])]},
+        },
+        "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
+        "fill_value": {"b": False, "f": 0.0}.get(variable.dtype.kind, 0),
+        "codecs": [CODECS[0], {**blosc, "configuration": settings}, CODECS[2]],
+        "attributes": dict(variable.attrs),
+        "dimension_names": [str(d) for d in variable.dims],
+        "storage_transformers": [],
+    }
+
+
+def _group(attributes: JsonObject, inline: JsonObject | None = None) -> bytes:
+    about: JsonObject = {"zarr_format": 3, "node_type": "group", "attributes": attributes}
+    return codec.line(about | ({} if inline is None else {"consolidated_metadata": inline})).encode()
