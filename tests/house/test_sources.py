@@ -20,6 +20,7 @@ IMPORTERS = {
     "dask": "batch.on_cluster",
     "dask_jobqueue": "batch.on_cluster",
     "distributed": "batch.on_cluster",
+    "fsspec": "recording.remote_store",
 }
 
 # Names that are written once, when their module is imported, and hold something that could change; a `Family`

@@ -1,0 +1,83 @@
+"""The address of a store of records, whose credentials no message and no file shows."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+from urllib.request import url2pathname
+
+from deodar.errors import ParameterError
+from deodar.model import output
+from deodar.recording.record_store import FolderStore, RecordStore
+from deodar.recording.remote_store import RemoteStore
+from deodar.worlds._address import HIDDEN, masked
+
+_URL = re.compile(r"[a-zA-Z][\w+.-]*://")
+LOCAL = ("file", "local")
+"""Schemes of addresses that name a folder."""
+
+
+@dataclass(frozen=True)
+class StoreAddress:
+    """A folder, or an address of fsspec such as `s3://BUCKET/NAME`.
+
+    Attributes:
+        shown: the absolute path, or the address without credentials.
+        full: the same with credentials; only the store receives it.
+    """
+
+    shown: str
+    full: str = field(repr=False)
+
+    @classmethod
+    def of(cls, given: str | os.PathLike[str]) -> StoreAddress:
+        """Read the path of a folder, or an address.
+
+        Raises:
+            ParameterError: it is neither, or its credentials were replaced by `***`.
+        """
+        text = str(given) if isinstance(given, str | os.PathLike) else ""
+        fix = "Name a folder, or an address such as s3://BUCKET/NAME"
+        if not text.strip():
+            raise ParameterError(f"{given!r} names no store of records", fix=fix)
+        if "::" in text and "://" in text:
+            what = "a chain of addresses (::) is no store of records"
+            raise ParameterError(what, where=masked(text), fix=fix)
+        if not _URL.match(text):
+            path = str(output.location(text).absolute())
+            return cls(path, path)
+        if HIDDEN in text:
+            what = "the address of the store was written without its credentials"
+            raise ParameterError(what, where=masked(text), fix="Name it again, with the whole address")
+        if urlsplit(text).scheme.lower() in LOCAL:
+            path = str(Path(url2pathname(urlsplit(text).path)).absolute())
+            return cls(path, path)
+        text = text.rstrip("/")
+        return cls(masked(text), text)
+
+    def open(self) -> RecordStore:
+        """Return the store.
+
+        Raises:
+            MissingExtra: fsspec is not installed.
+            ParameterError: no installed package reads such addresses.
+        """
+        if not _URL.match(self.full):
+            return FolderStore(Path(self.full))
+        return RemoteStore(self.full, self.shown, self.hidden)
+
+    @property
+    def local(self) -> bool:
+        """Whether the store exists in the memory of this process alone."""
+        return self.full.lower().startswith("memory:")
+
+    def hidden(self, text: str) -> str:
+        """Return a text without the credentials of the address, wherever in it they are."""
+        login, at, _ = urlsplit(self.full).netloc.rpartition("@")
+        secrets = [login, *login.split(":", 1)[1:]] if at else []
+        for secret in sorted({*secrets, *map(unquote, secrets)} - {""}, key=len, reverse=True):
+            text = text.replace(secret, HIDDEN)
+        return masked(text)

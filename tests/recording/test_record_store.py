@@ -1,0 +1,147 @@
+"""Stores of records: a file is there whole or not at all, errors name what is wrong, and nothing shows
+credentials.
+"""
+
+from __future__ import annotations
+
+import errno
+import sys
+
+import pytest
+
+from deodar.errors import MissingExtra, OutputError, ParameterError, RecordError
+from deodar.model import output
+from deodar.recording.record_store import FolderStore, refused
+from deodar.recording.store_address import StoreAddress
+from tests.recording.failing_store import FailingFileSystem, register
+
+NAME = "records/0000/00000000-00000001.zarr.zip"
+
+
+@pytest.fixture(autouse=True)
+def failing():
+    """Make fsspec know the file system of these tests, empty."""
+    register()
+
+
+@pytest.fixture(params=["folder", "file", "memory", "failing"])
+def address(request, tmp_path):
+    """Return the address of a store that does not exist yet, of each kind."""
+    return StoreAddress.of(
+        {
+            "folder": tmp_path / "a store",
+            "file": (tmp_path / "a store").as_uri(),
+            "memory": f"memory://{tmp_path.name}/store",
+            "failing": "failing://user:top%20secret@bucket/store/",
+        }[request.param]
+    )
+
+
+def test_files_are_stored_listed_read_and_replaced(address):
+    store = address.open()
+    assert store.get(NAME) is None and store.sizes() == {}
+    store.create()
+    store.put(NAME, b"first")
+    store.put(NAME, b"the second")
+    store.put("index.jsonl", b"")
+    again = address.open()
+    assert again.get(NAME) == b"the second"
+    assert again.sizes() == {NAME: 10, "index.jsonl": 0} and again.sizes("records") == {NAME: 10}
+    with again.open(NAME) as file:
+        file.seek(4)
+        assert file.read(3) == b"sec"
+    with pytest.raises(RecordError, match="there is no such file of records"), again.open("none"):
+        pass
+    assert "secret" not in store.shown and store.shown == address.shown
+
+
+def test_a_store_is_made_where_its_parent_exists(tmp_path):
+    for text in (tmp_path / "none" / "store", "failing://elsewhere/store"):
+        with pytest.raises(OutputError, match=r"the store of the records is not there. Connect or"):
+            StoreAddress.of(text).open().create()
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_that_is_gone_is_not_made_again(tmp_path):
+    with pytest.raises(OutputError, match="the store of the records is not there"):
+        FolderStore(tmp_path / "gone").put(NAME, b"content")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("first", [b"", b"an earlier content"])
+def test_a_folder_that_is_full_holds_no_part_of_a_file(tmp_path, monkeypatch, first):
+    store = FolderStore(tmp_path)
+    if first:
+        store.put(NAME, first)
+
+    def sync(path):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(output, "sync", sync)
+    with pytest.raises(OutputError, match=r"00000001.zarr.zip: the store of the records is full. Make room"):
+        store.put(NAME, b"content")
+    assert [p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()] == ([first] if first else [])
+
+
+def test_a_file_system_that_is_full_holds_no_part_of_a_file():
+    store = StoreAddress.of("failing://bucket/store").open()
+    store.put(NAME, b"content")
+    FailingFileSystem.become("full")
+    with pytest.raises(OutputError, match="the store of the records is full"):
+        store.put(NAME, b"another content")
+    assert store.get(NAME) == b"content" and FailingFileSystem.names() == [f"/bucket/store/{NAME}"]
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [
+        (OSError(errno.EDQUOT, "Disk quota exceeded"), "is full. Make room there"),
+        (OSError(errno.EROFS, "Read-only file system"), "cannot be written .*Permit it there"),
+        (PermissionError("403"), r"cannot be written \(403\). Permit it there"),
+        (NotImplementedError(), "cannot be written .no message.. Permit it there"),
+        (OSError(errno.ESTALE, "Stale file handle"), "is not there. Connect or create it"),
+        (FileNotFoundError("The specified bucket does not exist"), "is not there"),
+        (ConnectionError("refused"), r"took no file \(ConnectionError: refused\)"),
+        (RuntimeError("of a package"), "took no file .RuntimeError: of a package"),
+    ],
+)
+def test_errors_say_what_is_wrong_and_that_the_call_resumes(error, says):
+    text = str(refused("there", error))
+    assert text.startswith("there: the store of the records ")
+    assert text.endswith("Rows that exist are kept, and the same call resumes")
+    with pytest.raises(OutputError, match=says):
+        raise refused("there", error)
+
+
+def test_addresses_that_cannot_be_used_are_refused(monkeypatch):
+    monkeypatch.setitem(sys.modules, "s3fs", None)
+    with pytest.raises(ParameterError, match=r"s3://b/n: the address of the store needs.*install s3fs"):
+        StoreAddress.of("s3://b/n").open()
+    with pytest.raises(ParameterError, match=r"is not the address of a store.*such as s3://BUCKET/NAME"):
+        StoreAddress.of("nonsense://a/b").open()
+    with pytest.raises(ParameterError, match="a chain of addresses"):
+        StoreAddress.of("simplecache::s3://a/b")
+    for nothing in ("", "  ", None, 3):
+        with pytest.raises(ParameterError, match="names no store of records"):
+            StoreAddress.of(nothing)
+    with pytest.raises(ParameterError, match=r"was written without its credentials. Name it again"):
+        StoreAddress.of("ftp://***@host/store")
+    monkeypatch.setitem(sys.modules, "fsspec.core", None)
+    with pytest.raises(MissingExtra, match=r"needs the package fsspec.*pip install 'deodar\[store\]'"):
+        StoreAddress.of("memory://a").open()
+
+
+def test_credentials_are_hidden():
+    address = StoreAddress.of("ftp://user:top%20secret@host/store?token=abcdef/")
+    assert address.shown == "ftp://***@host/store?token=***" and "secret" not in repr(address)
+    for text in ("user:top secret", "login top%20secret", "ftp://user:top%20secret@host/x", "top secret"):
+        assert "secret" not in address.hidden(text)
+
+
+@pytest.mark.parametrize("mode", ["silent", "forbidden"])
+def test_errors_of_packages_show_no_credentials(mode):
+    store = StoreAddress.of("failing://user:top%20secret@bucket/store").open()
+    FailingFileSystem.become(mode)
+    with pytest.raises(OutputError) as caught:
+        store.put(NAME, b"")
+    assert "secret" not in str(caught.value) and "***" in str(caught.value)
