@@ -161,6 +161,8 @@ MEASURES = [
         "dd.Measure",
         "dd.load_results",
         "dd.merge_results",
+        "dd.open_records",
+        "deodar.experiments.stored_records.StoredRecords",
         "dd.run_trial",
         "dd.run_batch",
         "deodar.experiments.trial.Trial",

@@ -155,6 +155,7 @@ from deodar.experiments.merging import merge_results as merge_results
 from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.run import run_trial as run_trial
+from deodar.experiments.stored_records import open_records as open_records
 from deodar.exporters.exporting import export as export
 from deodar.figures._files import save_figure as save_figure
 from deodar.figures.bifurcation import bifurcation_diagram as bifurcation_diagram

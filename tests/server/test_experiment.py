@@ -222,6 +222,23 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
         play(address, scene)
 
 
+def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
+    few(1, record=["u"], every=5.0).run(folder / "results", workers=1, records=folder / "store")
+    row = json.loads((folder / "results" / "trials.jsonl").read_text().splitlines()[2])
+    assert row["trial"] == 1 and row["record"]["object"].startswith("records/0000/")
+
+    async def scene() -> None:
+        async with desk(folder) as d:
+            await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
+            await d.do(to_server.RepeatTrial(trial=1))
+            assert d.hub.project.record is not None
+
+    asyncio.run(scene())
+    with dd.open_records(folder / "store") as records:
+        repeated = dd.load_record(folder / "results" / "repeats" / "000001.nc")
+        assert records[1]["u.activation"].equals(repeated["u.activation"])
+
+
 @pytest.mark.parametrize("repeated", [False, True], ids=["never repeated", "repeated before"])
 def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeated: bool) -> None:
     few(1).run(folder / "results")

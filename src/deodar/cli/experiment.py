@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import dataclasses as dc
+import shlex
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -16,6 +17,7 @@ from deodar.cli import _long, _options, _work_plan
 from deodar.cli._bar import Bar
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
+from deodar.worlds._address import masked
 
 if TYPE_CHECKING:
     import xarray
@@ -75,6 +77,14 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="share the trials among N processes of one core each",
     )
+    parser.add_argument(
+        "--records",
+        metavar="STORE",
+        help=(
+            "write the records of trials into a folder, or to an address such as s3://BUCKET/NAME (extra"
+            " store), with one object for each batch; all workers must reach it"
+        ),
+    )
     _options.add_cluster(parser, "trials", mixed=True)
     _options.wrong(parser)
     _long.add_yes(parser)
@@ -114,6 +124,7 @@ def run(args: argparse.Namespace) -> int:
         return _follow(args, len(experiment.cells) if part is None else part[1] - part[0])
     cluster = _options.cluster(args)
     setup = experiment.setup(args.trust)
+    setup.store = args.records or ""
     if args.check:
         return _check(args, setup)
     if args.plan:
@@ -131,6 +142,7 @@ def run(args: argparse.Namespace) -> int:
             "--seed": args.seed,
             "--world": args.world,
             "--workers": args.workers,
+            "--records": None if args.records is None else shlex.quote(masked(args.records)),
         }
         again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
         again += [f"{name} {value}" for name, value in options.items() if value is not None]
@@ -276,12 +288,14 @@ def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
             "diverged": lost,
             "files": names,
         }
-        print(codec.text(answer))
+        print(codec.text(answer | ({} if args.records is None else {"records": masked(args.records)})))
         return
     for line in _cells(data):
         print(line)
     print(f"{data.sizes['trial']} trials: {', '.join(f'{name} {n}' for name, n in outcomes.items())}.")
     print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
+    if args.records is not None:
+        print(f"Records written to {masked(args.records)}; dd.open_records reads them.")
 
 
 def _diverged(data: xarray.Dataset) -> int:

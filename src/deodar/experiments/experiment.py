@@ -80,6 +80,7 @@ class Experiment(Design):
         trust: bool = False,
         cluster: Cluster | str | None = None,
         part: tuple[int, int] | None = None,
+        records: str | Path | None = None,
     ) -> xarray.Dataset:
         """Run all trials without a row, and return the table of all trials.
 
@@ -93,6 +94,9 @@ class Experiment(Design):
                 such as `local:4` or `tcp://HOST:8786`.
             part: the first trial and the one after the last, to run a part of the trials; batches that begin
                 there are run whole. `dd.merge_results` merges the folders of all parts.
+            records: folder, or address of fsspec such as `s3://BUCKET/NAME`, of a store for the records of
+                trials: one object for each batch. All workers must reach it. `dd.open_records` reads it.
+                None: each trial has files of its own, in `records/` beside the rows.
 
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: it did
@@ -103,11 +107,14 @@ class Experiment(Design):
 
         Raises:
             OutputExists: the folder contains another experiment, or something else.
-            RecordError: another process runs an experiment in this folder.
+            RecordError: another process runs an experiment in this folder; or rows exist whose records are
+                not in the store that `records` names.
+            OutputError: the store cannot be written; rows that exist are kept.
             WorkerError: the workers cannot run the experiment; rows that exist are kept.
             KeyboardInterrupt: on Ctrl-C, after the running pieces have ended; their rows are stored.
         """
         setup = self.setup(trust)
+        setup.store = "" if records is None else str(records)
         if setup.trials * setup.steps >= LONG_STEPS:
             total = (
                 f"{setup.trials * setup.steps:.3g} steps in total ({setup.trials} trials of at most"

@@ -12,6 +12,7 @@ from deodar.errors import OutputExists, RecordError
 from deodar.experiments import results
 from deodar.experiments.design import Design
 from deodar.experiments.jobs import MACHINE
+from deodar.experiments.record_target import PLACE, RECORD, stored_place
 from deodar.experiments.rows import KEY, Row, Rows, claim, different
 from deodar.experiments.table import dataset, table
 from deodar.model import output
@@ -38,7 +39,8 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
     """Write the rows of several folders of the same experiment into a new folder.
 
     Each folder has a part of the trials, as `experiment.run(part=(A, B))` or `--trials A:B` runs it. A trial
-    that is in several folders must have the same row in each. Records of trials stay where they are.
+    that is in several folders must have the same row in each. Records of trials stay where they are. If all
+    parts wrote them into one store, `experiment.run(OUT, records=STORE)` writes its index.
 
     Args:
         folders: the folders.
@@ -76,7 +78,8 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
     with writer_lock.locked(folder):
         merged = Rows(folder / results.ROWS, about)
         merged.append(row for row, _ in sorted(found.values(), key=lambda one: one[0]["trial"]))
-        for name in (results.EXPERIMENT, results.MODEL):
+        stores = {stored_place(place) for place in places}
+        for name in (results.EXPERIMENT, results.MODEL, *((PLACE,) if len(stores) == 1 else ())):
             _copy(places[0], folder, name)
         data = dataset(merged.found.values(), about)
         output.write(folder / results.TABLE, table(data).encode())
@@ -101,7 +104,7 @@ def gaps(trials: set[int], of: int) -> tuple[tuple[int, int], ...]:
 
 
 def _bare(row: Row) -> Row:
-    return {key: value for key, value in row.items() if key != MACHINE}
+    return {key: value for key, value in row.items() if key not in (MACHINE, RECORD)}
 
 
 def _copy(source: Path, folder: Path, name: str) -> None:

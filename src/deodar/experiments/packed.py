@@ -10,6 +10,7 @@ from pathlib import Path
 from deodar import codec
 from deodar.batch import packed
 from deodar.experiments.design import Design
+from deodar.experiments.record_target import RecordTarget
 from deodar.experiments.rows import Row
 from deodar.experiments.setup import Setup
 
@@ -42,7 +43,7 @@ class PackedExperiment:
         return Setup(Design.from_data(codec.parse(self.experiment)), model, self.setup.world())
 
 
-def work(handed: PackedExperiment, trials: Sequence[int], records: Path | None) -> list[Row]:
+def work(handed: PackedExperiment, trials: Sequence[int], records: Path | RecordTarget | None) -> list[Row]:
     """Run some trials in a worker and return their rows."""
     return _opened(handed).rows(trials, records)
 

@@ -18,10 +18,18 @@ from deodar.batch.packed import require_portable
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
-from deodar.experiments import packed
+from deodar.experiments import packed, record_index
 from deodar.experiments.comparing import compare
 from deodar.experiments.jobs import Job, Progress, run_jobs
 from deodar.experiments.migrations import migrate
+from deodar.experiments.record_target import (
+    RecordTarget,
+    claimed,
+    require_here,
+    require_shared,
+    require_visible,
+    unseen,
+)
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.setup import Setup
 from deodar.experiments.table import dataset, lacks, table
@@ -30,6 +38,7 @@ from deodar.model import files as documents
 from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, provenance, writer_lock
+from deodar.recording.store_address import StoreAddress
 from deodar.worlds._address import masked_data
 
 if TYPE_CHECKING:
@@ -75,6 +84,8 @@ def run_trials(
             f"the trials {part[0]} to {part[1]} are no part of 0 to {setup.trials}",
             fix=f"For example 0:{max(1, setup.trials // 2)}",
         )
+    if setup.store:
+        _require_records(setup, out, bool(workers) or cluster is not None)
     where = None if cluster is None else Cluster.of(cluster)
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
@@ -95,20 +106,26 @@ def _run_trials(
     part: tuple[int, int] | None,
 ) -> xarray.Dataset:
     handed = packed.PackedExperiment.of(setup) if workers or cluster else None
-    records = (
-        out / RECORDS
-        if setup.experiment.record or any(type(a).__name__ == "Snapshot" for a in setup.experiment.actions)
-        else None
-    )
     with _opened(setup, handed, cluster) as pool:
         about = _about(setup, workers, out) if pool is None else _about(setup, 1, out, pool.made_by)
-        rows = Rows(out / ROWS, about, read=lambda made: _of_today(made, about, setup.model.document))
+
+        def read(made: JsonObject) -> JsonObject:
+            return _of_today(made, about, setup.model.document)
+
+        rows = Rows(out / ROWS, about, read=read)
         if not (out / MODEL).exists():
             documents.save(setup.model.document, out / MODEL)
         if not (out / EXPERIMENT).exists():
             output.write(out / EXPERIMENT, (codec.text(_plan(setup)) + "\n").encode())
-        if pool is not None and records is not None:
-            _require_shared(pool, out)
+        records: Path | RecordTarget | None = out / RECORDS if setup.recorded else None
+        if setup.store:
+            target = records = claimed(StoreAddress.of(setup.store), about, rows.found, out, read)
+            if pool is not None:
+                require_visible(target, pool.everywhere(unseen, target))
+        elif len(rows.found) < setup.trials:
+            require_here(rows.found, out)
+            if pool is not None and records is not None:
+                _require_shared(pool, out)
         jobs = list(_jobs(setup, handed, records, part))
         run_jobs(jobs, rows, progress, workers, stopped, pool)
         if pool is not None and pool.cluster.mixed:
@@ -116,7 +133,29 @@ def _run_trials(
     data = dataset(rows.found.values(), about)
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
+    if isinstance(records, RecordTarget) and len(rows.found) == setup.trials:
+        record_index.write(records, list(rows.found.values()))
     return data
+
+
+def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> None:
+    """Refuse a store of records for an experiment without records or without a folder of rows, and one that
+    workers cannot see.
+    """
+    if not setup.recorded:
+        raise ParameterError(
+            "a store of records is named, but the trials record nothing",
+            fix="Name ports in record=[...] of the experiment, or leave records out",
+        )
+    if out is None:
+        raise ParameterError(
+            "a store of records needs a folder of rows, which name the records",
+            fix="Name it too: run('results', records=...)",
+        )
+    address = StoreAddress.of(setup.store)
+    address.open()
+    if workers:
+        require_shared(address)
 
 
 @contextlib.contextmanager
@@ -158,7 +197,7 @@ def _sees(file: Path, content: bytes) -> bool:
 def _jobs(
     setup: Setup,
     handed: packed.PackedExperiment | None,
-    records: Path | None,
+    records: Path | RecordTarget | None,
     part: tuple[int, int] | None,
 ) -> Iterator[Job]:
     for piece in setup.pieces():

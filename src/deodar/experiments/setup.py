@@ -5,22 +5,24 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from deodar import codec
 from deodar.batch.pieces import BATCH_BYTES
+from deodar.experiments.actions import Snapshot
 from deodar.experiments.batch import run_batch
 from deodar.experiments.checking import check
 from deodar.experiments.design import Design
 from deodar.experiments.levels import set_values, swept
 from deodar.experiments.observations import DIVERGED, TIME
+from deodar.experiments.record_target import RECORD, PieceRecords, RecordTarget
 from deodar.experiments.rows import KEY, Row
 from deodar.experiments.run import run_trial
 from deodar.experiments.trial import Trial
-from deodar.experiments.writing import write_record, write_records
+from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load
 from deodar.model.resolve import resolve
@@ -51,11 +53,14 @@ class Setup:
         experiment: the experiment.
         model: its model.
         world: its world, or None.
+        store: folder or address of the store of the records; empty: each trial has files of its own, beside
+            the rows. It does not belong to the identity of the experiment.
     """
 
     experiment: Design
     model: Model
     world: World | None
+    store: str = field(default="", repr=False)
 
     @classmethod
     def open(cls, experiment: Design, trust: bool = False) -> Setup:
@@ -76,6 +81,11 @@ class Setup:
     def trials(self) -> int:
         """Number of trials in total."""
         return len(self.cells)
+
+    @property
+    def recorded(self) -> bool:
+        """Whether trials have records or snapshots."""
+        return bool(self.experiment.record) or any(isinstance(a, Snapshot) for a in self.experiment.actions)
 
     @property
     def dt(self) -> float:
@@ -153,9 +163,18 @@ class Setup:
             out |= factor.sets[level]
         return out
 
-    def rows(self, trials: Sequence[int], records: Path | None = None) -> list[Row]:
-        """Run some trials and return their rows; `records`: the folder of their records."""
+    def rows(self, trials: Sequence[int], records: Path | RecordTarget | None = None) -> list[Row]:
+        """Run some trials and return their rows.
+
+        Args:
+            trials: numbers of the trials.
+            records: the folder or the store of their records; None: no records.
+
+        Raises:
+            OutputError: the records cannot be written; the store is not seen.
+        """
         out: list[Row] = []
+        stored = PieceRecords(records, trials) if isinstance(records, RecordTarget) else None
         for k, result, model in self._results(trials, () if records is None else self.experiment.record):
             row = self._row(k, result)
             if records is not None:
@@ -167,9 +186,14 @@ class Setup:
                     "outcome": result.outcome,
                 }
                 about |= {DIVERGED: row[DIVERGED]} if DIVERGED in row else {}
-                write_records(records, row[KEY], model.document, self.experiment.record, result, about)
+                found = trial_records(model.document, self.experiment.record, result, about)
+                if isinstance(records, Path):
+                    write_records(records, row[KEY], found)
+                elif stored is not None:
+                    stored.add(row, found)
             out.append(row)
-        return out
+        entry = stored.put() if stored is not None else None
+        return out if entry is None else [{**row, RECORD: entry} for row in out]
 
     def _row(self, trial: int, result: Trial) -> Row:
         e = self.experiment

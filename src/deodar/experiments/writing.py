@@ -1,4 +1,4 @@
-"""Records of trials: one file for each trial."""
+"""Records of trials, and their files: one for each trial."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray
 
 from deodar.codec import Json
 from deodar.experiments.trial import Trial
@@ -19,45 +20,51 @@ from deodar.recording.record import dataset
 RECORDS = "records"
 
 
-def write_records(
-    folder: Path, key: str, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
-) -> None:
+def trial_records(
+    doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
+) -> dict[str, xarray.Dataset]:
+    """Return the records of a trial: under "" what was recorded in it, if anything, and each snapshot under
+    its label.
+    """
+    out: dict[str, xarray.Dataset] = {}
+    if record:
+        out[""] = _labelled(doc, record, result.recorded, result.values, about)
+    for label, (time, values) in result.snapshots.items():
+        kept = {path: array[None] for path, array in values.items()}
+        out[label] = _labelled(doc, list(kept), np.asarray([time]), kept, {**about, "snapshot": label})
+    return out
+
+
+def write_records(folder: Path, key: str, records: Mapping[str, xarray.Dataset]) -> None:
     """Write the record of a trial as KEY.nc, and each snapshot as KEY-LABEL.nc; files of an earlier attempt
     are replaced.
     """
-    if record:
-        _write(folder / f"{key}.nc", doc, record, result.recorded, result.values, about)
-    for label, (time, values) in result.snapshots.items():
-        kept = {path: array[None] for path, array in values.items()}
-        _write(
-            folder / f"{key}-{label}.nc",
-            doc,
-            list(kept),
-            np.asarray([time]),
-            kept,
-            {**about, "snapshot": label},
-        )
+    for label, data in records.items():
+        _write(folder / (f"{key}-{label}.nc" if label else f"{key}.nc"), data)
 
 
 def write_record(
     path: Path, doc: Document, record: Sequence[str], result: Trial, about: Mapping[str, Json]
 ) -> None:
     """Write the record of a trial to a file; an existing one is replaced."""
-    _write(path, doc, record, result.recorded, result.values, about)
+    _write(path, _labelled(doc, record, result.recorded, result.values, about))
 
 
-def _write(
-    path: Path,
+def _labelled(
     doc: Document,
     names: Sequence[str],
     times: np.ndarray,
     values: Mapping[str, np.ndarray],
     about: Mapping[str, Json],
-) -> None:
+) -> xarray.Dataset:
     nodes = {node.id: node for node in resolve(doc)[0]}
     variables: list[Any] = []
     for name in names:
         entry, port = find.shown(doc, name)
         variables.append((entry, port, nodes[entry.id].axes(port), values[name]))
+    return dataset(doc, variables, times, None, {}, about)
+
+
+def _write(path: Path, data: xarray.Dataset) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    files.save_record(dataset(doc, variables, times, None, {}, about), path, force=True)
+    files.save_record(data, path, force=True)

@@ -123,6 +123,15 @@ class Archive:
         except Exception as error:  # libraries that read untrusted bytes may raise any exception
             raise self._damaged(error, name) from None
 
+    def require_sound(self) -> None:
+        """Raise RecordError if a part of the file is not what was written."""
+        try:
+            bad = self._zip.testzip()
+        except Exception as error:  # libraries that read untrusted bytes may raise any exception
+            raise self._damaged(error) from None
+        if bad is not None:
+            raise RecordError(f"is damaged: the checksum of {bad} is wrong", where=self.where)
+
     def close(self) -> None:
         """Close the file."""
         self._zip.close()

@@ -15,6 +15,7 @@ from deodar.batch.pool import Pool
 from deodar.errors import DeodarError, Problem, RecordError
 from deodar.experiments import packed
 from deodar.experiments.jobs import Progress
+from deodar.experiments.record_target import RECORD
 from deodar.experiments.results import run_trials
 from deodar.experiments.rows import Row
 from deodar.experiments.setup import Setup
@@ -128,7 +129,7 @@ class ExperimentRun:
                 line = codec.line(self._again(trial, path))
                 output.write(beside, line.encode(), durable=False)
                 row = codec.parse(line)
-            if row != stored:
+            if row != {key: value for key, value in stored.items() if key != RECORD}:
                 path.unlink(missing_ok=True)
                 beside.unlink(missing_ok=True)
                 raise RecordError(

@@ -1,0 +1,118 @@
+"""The index of a store of records: which object has which trials, with its size, checksum and levels.
+
+It is a file of JSON lines, written when all trials have rows: a header with the checksum of what follows it,
+then a line for each object. Without it, or if it is damaged, the names of the objects say which trials they
+have.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from deodar import codec
+from deodar.errors import RunWarning
+from deodar.experiments.record_target import OBJECTS, RECORD, RecordTarget, checksum
+from deodar.experiments.rows import Row
+
+INDEX = "index.jsonl"
+"""Name of the file."""
+
+VERSION = 1
+
+
+@dataclass(frozen=True, eq=False)
+class IndexedObject:
+    """An object of a store.
+
+    Attributes:
+        name: its name.
+        size: its size in bytes.
+        crc32c: its checksum, eight hexadecimal digits; empty: it is not known.
+        levels: for each of its trials the level of each factor; None: its own metadata state them.
+    """
+
+    name: str
+    size: int
+    crc32c: str
+    levels: Mapping[int, Mapping[str, Any]] | None
+
+
+def of_rows(rows: Sequence[Row]) -> list[IndexedObject]:
+    """Return the objects that rows name, in the order of their first trials."""
+    groups: dict[str, list[Row]] = {}
+    for row in sorted(rows, key=lambda row: row["trial"]):
+        groups.setdefault(row[RECORD]["object"], []).append(row)
+    return [
+        IndexedObject(
+            name,
+            int(group[0][RECORD]["size"]),
+            str(group[0][RECORD]["crc32c"]),
+            {int(row["trial"]): row["levels"] for row in group},
+        )
+        for name, group in groups.items()
+    ]
+
+
+def text(objects: Sequence[IndexedObject]) -> bytes:
+    """Return the content of the file."""
+    known = [level for one in objects for level in (one.levels or {}).values()]
+    factors = list(dict.fromkeys(name for level in known for name in level))
+    lines = [
+        codec.line(
+            {
+                "object": one.name,
+                "size": one.size,
+                "crc32c": one.crc32c,
+                "trials": list(one.levels or {}),
+                "levels": [[level.get(name) for name in factors] for level in (one.levels or {}).values()],
+            }
+        )
+        for one in objects
+    ]
+    body = "".join(f"{line}\n" for line in lines).encode()
+    header = {"index": VERSION, "trials": len(known), "factors": factors, "crc32c": checksum(body)}
+    return codec.line(header).encode() + b"\n" + body
+
+
+def parse(content: bytes) -> list[IndexedObject]:
+    """Return the objects of a file.
+
+    Raises:
+        ValueError: it is damaged, cut, or of a newer version.
+    """
+    first, _, body = content.partition(b"\n")
+    try:
+        header = codec.parse(first)
+        if header["index"] > VERSION or checksum(body) != header["crc32c"]:
+            raise ValueError
+        out: list[IndexedObject] = []
+        for line in body.splitlines():
+            one = codec.parse(line)
+            labels = [dict(zip(header["factors"], found, strict=True)) for found in one["levels"]]
+            levels = dict(zip(one["trials"], labels, strict=True))
+            out.append(IndexedObject(str(one["object"]), int(one["size"]), str(one["crc32c"]), levels))
+        return out
+    except (ValueError, LookupError, TypeError, AttributeError):
+        raise ValueError("the index is damaged") from None
+
+
+def write(target: RecordTarget, rows: Sequence[Row]) -> None:
+    """Write the index of a store all of whose trials have rows.
+
+    Warns:
+        RunWarning: the store holds objects that no row names; they stay.
+    """
+    store, objects = target.address.open(), of_rows(rows)
+    store.put(INDEX, text(objects))
+    unnamed = sorted({*store.sizes(OBJECTS)} - {one.name for one in objects})
+    if unnamed:
+        shown = ", ".join(unnamed[:3]) + (", ..." if len(unnamed) > 3 else "")
+        warnings.warn(
+            f"{target.address.shown}: {len(unnamed)} files that no row names, of a stopped run or of another"
+            f" division into pieces: {shown}. They may be deleted",
+            RunWarning,
+            stacklevel=3,
+        )
