@@ -6,6 +6,7 @@ import dataclasses as dc
 import errno
 import json
 import os
+import pickle
 import random
 import shutil
 import subprocess
@@ -21,12 +22,13 @@ from deodar.errors import RunWarning as Warned
 from deodar.experiments import setup
 from deodar.experiments.actions import Snapshot
 from deodar.experiments.merging import merge_results
-from deodar.experiments.record_target import object_name
+from deodar.experiments.record_target import claimed, object_name, require_visible, unseen
 from deodar.experiments.results import load_results
 from deodar.experiments.stored_records import open_records
 from deodar.model import output
 from deodar.recording.files import load_record
 from deodar.recording.record_store import FolderStore
+from deodar.recording.store_address import StoreAddress
 from tests.experiments import clustered
 from tests.recording.failing_store import FailingFileSystem, register
 
@@ -83,6 +85,11 @@ def copied(whole, tmp_path):
 def contents(store):
     """Return the content of each file of a store in a folder."""
     return {p.relative_to(store).as_posix(): p.read_bytes() for p in store.rglob("*") if p.is_file()}
+
+
+def identity(folder):
+    """Return what the rows state about their experiment."""
+    return json.loads((folder / "trials.jsonl").read_text().splitlines()[0])["about"]
 
 
 def bare(folder):
@@ -272,6 +279,35 @@ def test_parts_share_a_store_and_the_merged_rows_write_its_index(tmp_path, whole
     assert not merge_results([tmp_path / "first", tmp_path / "second"], tmp_path / "merged").gaps
     made().run(tmp_path / "merged", records=store)
     assert contents(store) == contents(whole[1])
+
+
+def test_two_parts_may_begin_at_the_same_moment(tmp_path, whole, monkeypatch):
+    """The other part states its experiment after this one has looked for it."""
+    real, store = FolderStore.sizes, tmp_path / "store"
+
+    def sizes(self, name=""):
+        (store / ".experiment.json.1234.json").write_text("half")
+        if not list(self.path.glob("e*")):
+            shutil.copy(whole[1] / "experiment.json", store)
+        return real(self, name)
+
+    monkeypatch.setattr(FolderStore, "sizes", sizes)
+    made().run(tmp_path / "out", part=(0, 4), records=store)
+    assert set(contents(store)) - {".experiment.json.1234.json"} == {"experiment.json", *NAMES[:2]}
+
+
+def test_a_worker_that_does_not_see_the_store_is_refused(tmp_path, whole):
+    target = claimed(StoreAddress.of(whole[1]), identity(whole[0]), {}, tmp_path, dict)
+    assert unseen(pickle.loads(pickle.dumps(target))) == ""
+    require_visible(target, ["", ""])
+    elsewhere = dc.replace(target, address=StoreAddress.of(tmp_path / "elsewhere"))
+    with pytest.raises(WorkerError, match=r"store: a worker does not see.*experiment.json in it is missing"):
+        require_visible(target, ["", unseen(elsewhere)])
+    with pytest.raises(WorkerError, match=r"another store: experiment.json in it is of another experiment"):
+        require_visible(target, [unseen(dc.replace(target, mark=b"another"))])
+    lacking = dc.replace(target, address=StoreAddress.of("nonsense://user:pass@bucket/store"))
+    with pytest.raises(WorkerError, match=r"a worker does not see the store of the records \(is not the"):
+        require_visible(target, [unseen(lacking)])
 
 
 def test_another_division_leaves_objects_that_are_reported_and_kept(tmp_path, monkeypatch):

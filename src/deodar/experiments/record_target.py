@@ -22,7 +22,7 @@ from deodar.errors import OutputError, OutputExists, ParameterError, RecordError
 from deodar.experiments.rows import Row, different
 from deodar.model import output
 from deodar.recording.archive import ArchiveWriter
-from deodar.recording.record_store import AGAIN
+from deodar.recording.record_store import AGAIN, RecordStore
 from deodar.recording.store_address import StoreAddress
 
 RECORD = "record"
@@ -163,25 +163,14 @@ def claimed(
     store = address.open()
     _require_objects(address, rows, folder)
     store.create()
-    mark = store.get(MARK)
-    if mark is None:
-        found = sorted(store.sizes())
-        if found:
-            raise OutputExists(
-                f"is not a store of records, so nothing is written into it: it holds {found[0]}",
-                where=address.shown,
-                fix="Name an empty folder or address, or a new one",
-            )
-        mark = (codec.text({"records": VERSION, "experiment": dict(about)}) + "\n").encode()
-        store.put(MARK, mark)
-    else:
-        changed = different(about, read(experiment_of(mark, address.shown)))
-        if changed:
-            raise OutputExists(
-                f"holds records of another experiment: {', '.join(changed)} differ",
-                where=address.shown,
-                fix="Name another store: records=..., on the command line --records",
-            )
+    mark = _marked(store, about)
+    changed = different(about, read(experiment_of(mark, address.shown)))
+    if changed:
+        raise OutputExists(
+            f"holds records of another experiment: {', '.join(changed)} differ",
+            where=address.shown,
+            fix="Name another store: records=..., on the command line --records",
+        )
     place = (codec.line({"store": address.shown}) + "\n").encode()
     if not (folder / PLACE).is_file() or (folder / PLACE).read_bytes() != place:
         output.write(folder / PLACE, place)
@@ -266,6 +255,28 @@ def stored_place(folder: Path) -> str:
         return str(codec.parse((folder / PLACE).read_text(encoding="utf-8"))["store"])
     except (OSError, ValueError, LookupError, TypeError):
         return ""
+
+
+def _marked(store: RecordStore, about: Mapping[str, Json]) -> bytes:
+    """Return the content of the file that states the experiment of a store; an empty store gets one."""
+    found: list[str] = []
+    for _ in range(2):
+        mark = store.get(MARK)
+        if mark is not None:
+            return mark
+        # a file under its first name may be this file, which another part of the experiment writes now
+        found = sorted(name for name in store.sizes() if not name.rpartition("/")[2].startswith("."))
+        if MARK not in found:
+            break
+    if found:
+        raise OutputExists(
+            f"is not a store of records, so nothing is written into it: it holds {found[0]}",
+            where=store.shown,
+            fix="Name an empty folder or address, or a new one",
+        )
+    mark = (codec.text({"records": VERSION, "experiment": dict(about)}) + "\n").encode()
+    store.put(MARK, mark)
+    return mark
 
 
 def _require_objects(address: StoreAddress, rows: Mapping[str, Row], folder: Path) -> None:
