@@ -19,7 +19,7 @@ import pytest
 from deodar import cli
 from deodar.errors import OutputError, OutputExists, ParameterError, RecordError, WorkerError
 from deodar.errors import RunWarning as Warned
-from deodar.experiments import setup
+from deodar.experiments import record_index, setup
 from deodar.experiments.actions import Snapshot
 from deodar.experiments.merging import merge_results
 from deodar.experiments.record_target import claimed, object_name, require_visible, unseen
@@ -505,6 +505,16 @@ def test_a_damaged_index_is_noticed_and_the_objects_are_listed(copied, whole):
             assert {k: records.levels(k) for k in records} == expected
         records.close()
     assert noticed >= len(damaged) - 8, "a letter of the header may differ without harm"
+
+
+def test_an_index_names_nothing_outside_of_its_store(copied):
+    outside = copied.parent / "outside.zarr.zip"
+    shutil.copy(copied / NAMES[0], outside)
+    for name in ("../outside.zarr.zip", "records/../../outside.zarr.zip", str(outside)):
+        one = record_index.IndexedObject(name, outside.stat().st_size, "", {0: {}, 1: {}})
+        (copied / "index.jsonl").write_bytes(record_index.text([one]))
+        with pytest.warns(Warned, match=r"index.jsonl is damaged"), open_records(copied) as records:
+            assert len(records) == TRIALS
 
 
 def test_objects_that_are_missing_or_damaged_are_named(copied):

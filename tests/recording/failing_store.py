@@ -60,15 +60,15 @@ class FailingFileSystem(MemoryFileSystem):
             raise MODES[cls.mode]
         cls.puts -= 1
 
-    def pipe_file(self, path, value, mode="overwrite", **kwargs):
+    def pipe_file(self, path, value, *args, **kwargs):
         """Store a file, of which half is written before the store is full."""
         try:
             self._require()
         except OSError:
             if self.mode == "full":
-                super().pipe_file(path, value[: len(value) // 2], mode, **kwargs)
+                super().pipe_file(path, value[: len(value) // 2], *args, **kwargs)
             raise
-        return super().pipe_file(path, value, mode, **kwargs)
+        return super().pipe_file(path, value, *args, **kwargs)
 
     def cat_file(self, path, start=None, end=None, **kwargs):
         """Return the content of a file, unless the store is unreachable."""

@@ -91,6 +91,8 @@ def parse(content: bytes) -> list[IndexedObject]:
         out: list[IndexedObject] = []
         for line in body.splitlines():
             one = codec.parse(line)
+            if not one["object"].startswith(f"{OBJECTS}/") or ".." in one["object"]:
+                raise ValueError  # a store that was downloaded may name any file
             labels = [dict(zip(header["factors"], found, strict=True)) for found in one["levels"]]
             levels = dict(zip(one["trials"], labels, strict=True))
             out.append(IndexedObject(str(one["object"]), int(one["size"]), str(one["crc32c"]), levels))
