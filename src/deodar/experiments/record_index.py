@@ -8,7 +8,7 @@ have.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,19 +40,19 @@ class IndexedObject:
     levels: Mapping[int, Mapping[str, Any]] | None
 
 
-def of_rows(rows: Sequence[Row]) -> list[IndexedObject]:
-    """Return the objects that rows name, in the order of their first trials."""
-    groups: dict[str, list[Row]] = {}
-    for row in sorted(rows, key=lambda row: row["trial"]):
-        groups.setdefault(row[RECORD]["object"], []).append(row)
+def of_rows(rows: Iterable[Row]) -> list[IndexedObject]:
+    """Return the objects that rows name, in the order of their first trials; no row is kept."""
+    records: dict[str, Any] = {}
+    levels: dict[str, dict[int, Any]] = {}
+    for row in rows:
+        name = row[RECORD]["object"]
+        records.setdefault(name, row[RECORD])
+        levels.setdefault(name, {})[int(row["trial"])] = row["levels"]
     return [
         IndexedObject(
-            name,
-            int(group[0][RECORD]["size"]),
-            str(group[0][RECORD]["crc32c"]),
-            {int(row["trial"]): row["levels"] for row in group},
+            name, int(records[name]["size"]), str(records[name]["crc32c"]), dict(sorted(own.items()))
         )
-        for name, group in groups.items()
+        for name, own in sorted(levels.items(), key=lambda one: min(one[1]))
     ]
 
 
@@ -101,7 +101,7 @@ def parse(content: bytes) -> list[IndexedObject]:
         raise ValueError("the index is damaged") from None
 
 
-def write(target: RecordTarget, rows: Sequence[Row]) -> None:
+def write(target: RecordTarget, rows: Iterable[Row]) -> None:
     """Write the index of a store all of whose trials have rows.
 
     Warns:

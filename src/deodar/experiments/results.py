@@ -134,7 +134,7 @@ def _run_trials(
     output.write(out / TABLE, table(data).encode())
     files.save_record(data, out / DATASET, force=True)
     if isinstance(records, RecordTarget) and len(rows.found) == setup.trials:
-        record_index.write(records, list(rows.found.values()))
+        record_index.write(records, rows.found.values())
     return data
 
 
