@@ -96,7 +96,7 @@ def test_a_file_system_that_is_full_holds_no_part_of_a_file():
     ("error", "says"),
     [
         (OSError(errno.EDQUOT, "Disk quota exceeded"), "is full. Make room there"),
-        (OSError(errno.EROFS, "Read-only file system"), "cannot be written .*Permit it there"),
+        (OSError(errno.EROFS, "Read-only file system"), r"written \(Read-only file system\). Permit it"),
         (PermissionError("403"), r"cannot be written \(403\). Permit it there"),
         (NotImplementedError(), "cannot be written .no message.. Permit it there"),
         (OSError(errno.ESTALE, "Stale file handle"), "is not there. Connect or create it"),

@@ -158,7 +158,8 @@ def refused(where: str, error: BaseException, what: str = "") -> OutputError:
         error: the exception of the system or of a package.
         what: its text without credentials; empty: that of the exception.
     """
-    number, text = getattr(error, "errno", None), what or first_line(error)
+    number = getattr(error, "errno", None)
+    text = what or getattr(error, "strerror", None) or first_line(error)
     if number in FULL:
         return OutputError("the store of the records is full", where=where, fix=f"Make room there. {AGAIN}")
     if number in FORBIDDEN or isinstance(error, PermissionError | NotImplementedError):
