@@ -49,36 +49,57 @@ def run(
         KeyboardInterrupt: on a second Ctrl-C.
         WorkerError: the workers cannot run the pieces.
     """
+    require_one_kind(cluster, world)
+    with ClusterPool(cluster, pieces[0].precision) as pool:
+        return in_pool(pool, model, world, pieces, out, between)
+
+
+def require_one_kind(cluster: Cluster, world: World | None) -> None:
+    """Raise an error unless workers of one kind of machine can run pieces in this world.
+
+    Raises:
+        WorkerError: the cluster may be mixed, or the world is bound to this machine.
+    """
     require_portable(world)
     if cluster.mixed:
         raise WorkerError(
             "a record states one machine, so the workers of its cluster may not be mixed",
             fix="Leave mixed out",
         )
+
+
+def in_pool(
+    pool: ClusterPool,
+    model: Model,
+    world: World | None,
+    pieces: Sequence[SimulationRequest],
+    out: RunOutput | None,
+    between: Callable[[int], None],
+) -> list[PieceResult | None]:
+    """Run the pieces on the workers of a pool that was entered, and return their records, as `run` does."""
     packed = PackedModel.of(model, world)
     known = set() if out is None else set(out.done)
     parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(len(pieces))]
     steps = [round(piece.duration / (piece.dt or 1.0)) for piece in pieces]
     waiting = [k for k in range(len(pieces))[::-1] if k not in known]
     interrupted = False
-    with ClusterPool(cluster, pieces[0].precision) as pool:
-        while waiting or pool.busy:
-            while waiting and pool.idle:
-                k = waiting.pop()
-                pool.give(k, work, packed, pieces[k], k, None if out is None else SentPart.of(out, k))
-            for number, (part, messages) in pool.wait(WAIT):
-                for message in messages:
-                    assert out is not None
-                    sent.receive(out, number, message)
-                parts[number] = part
-            if not interrupted:
-                try:
-                    between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
-                except SecondInterrupt:
-                    raise
-                except KeyboardInterrupt:
-                    interrupted = True
-                    waiting.clear()
+    while waiting or pool.busy:
+        while waiting and pool.idle:
+            k = waiting.pop()
+            pool.give(k, work, packed, pieces[k], k, None if out is None else SentPart.of(out, k))
+        for number, (part, messages) in pool.wait(WAIT):
+            for message in messages:
+                assert out is not None
+                sent.receive(out, number, message)
+            parts[number] = part
+        if not interrupted:
+            try:
+                between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
+            except SecondInterrupt:
+                raise
+            except KeyboardInterrupt:
+                interrupted = True
+                waiting.clear()
     return parts
 
 

@@ -199,7 +199,12 @@ class RunOutput:
         return tuple(mine if d == self.cut.dimension else slice(0, n) for d, n in sizes(self).items())
 
     def piece_state(self, number: int) -> StoredState | None:
-        """Return the stored state of a piece that a worker process ran; None: there is none."""
+        """Return the stored state of a piece that a worker is to run; None: there is none.
+
+        A worker process ran the piece before, or the process that wrote the record.
+        """
+        if self.state is not None and self.state[0]["piece"] == number:
+            return self.state
         place = self.record / PIECE_CHECKPOINT.format(number)
         return checkpoint.read(place) if self.resumes and place.exists() else None
 
@@ -238,8 +243,7 @@ class RunOutput:
         writer = GrowingRecord.resumed(self.record, lengths, self.longer, self.cuts)
         if self.cuts:  # other pieces may be longer than these
             taken = {int(one["piece"]): int(one["taken"]) for one in (about, *states) if one["piece"] >= 0}
-            begun = range(self.cut.count) if self.settings["workers"] is not None else taken
-            for k in (k for k in begun if k not in self.done):
+            for k in (k for k in range(self.cut.count) if k not in self.done):
                 writer.erase(self.region(k), taken.get(k, 0))
         return writer
 

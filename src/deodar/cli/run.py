@@ -116,7 +116,10 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--resume",
         action="store_true",
-        help="continue a RECORD that was killed or stopped; with --duration make a complete one longer",
+        help=(
+            "continue a RECORD that was killed or stopped, with --cluster on a cluster; with --duration make"
+            " a complete one longer"
+        ),
     )
     parser.add_argument(
         "--snapshots",
@@ -242,9 +245,10 @@ def _resume(args: argparse.Namespace) -> int:
     from deodar.recording import files, provenance
     from deodar.recording.record import about
 
-    given = [
-        _flag(name) for name in OF_A_RECORD if name != "duration" and getattr(args, name) is not None
-    ] + [f"--{name}" for name in ("out", "force") if getattr(args, name)]
+    free = ("duration", "cluster")
+    given = [_flag(name) for name in OF_A_RECORD if name not in free and getattr(args, name) is not None] + [
+        f"--{name}" for name in ("out", "force") if getattr(args, name)
+    ]
     if given:
         args.wrong(f"a run is resumed as it began, in its folder, so {', '.join(given)} cannot be given")
     old = files.open_record(args.file)
@@ -262,6 +266,7 @@ def _resume(args: argparse.Namespace) -> int:
                 args.trust,
                 False if args.no_progress or args.json else None,
                 lambda found: _accepts(args, found),
+                _options.cluster(args),
             )
     except Interrupted as error:
         data, stopped = error.data, str(error)
