@@ -7,6 +7,7 @@ import os
 import pickle
 import re
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -478,3 +479,57 @@ def test_without_the_extra_an_error_says_what_to_install(monkeypatch):
             patch.setitem(sys.modules, name, None)
             with pytest.raises(MissingExtra, match=rf"{package}.*pip install 'deodar\[cluster\]'"):
                 on_cluster.slurm_script(Cluster("slurm:none.yaml", trust_network=True))
+
+
+# ---------------------------------------------------------------------------------------------------- watched
+
+
+def test_a_run_on_a_cluster_is_watched_and_stopped(tmp_path, rows, pieces):
+    """Who watches sees the workers come, and ends them without waiting for their pieces."""
+    seen = []
+
+    def watch(now):
+        seen.append(now)
+        return now.running > 0
+
+    setup = clustered.experiment().setup()
+    with pytest.raises(KeyboardInterrupt):
+        clustered.within(lambda: results.run_trials(setup, tmp_path / "out", watch=watch, cluster="local:2"))
+    assert seen[0].running == 0, "who watches is called before the first piece"
+    assert (seen[-1].workers, seen[-1].running) == (2, 4)
+    assert not clustered.processes()
+    _run(tmp_path / "out", "local:2")
+    assert clustered.lines(tmp_path / "out") == rows
+
+
+def test_the_search_for_a_scheduler_can_be_stopped():
+    calls = []
+
+    def watch(now):
+        calls.append(now)
+        return len(calls) > 3
+
+    with socket.socket() as taken:  # bound, but nothing listens
+        taken.bind(("127.0.0.1", 0))
+        address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
+        with pytest.raises(KeyboardInterrupt), ClusterPool(Cluster(address), watch=watch):
+            pass
+    assert len(calls) == 4
+
+
+def test_a_search_without_a_scheduler_ends_with_an_error(monkeypatch):
+    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.3)
+    with (
+        pytest.raises(WorkerError, match=r"no scheduler of Dask answers at tcp://127\.0\.0\.1:9 \("),
+        ClusterPool(Cluster("tcp://127.0.0.1:9"), watch=lambda now: False),
+    ):
+        pass
+
+
+def test_the_wait_for_a_first_worker_can_be_stopped():
+    end = time.monotonic() + 1
+    with _cluster(0) as empty:
+        there = Cluster(empty.scheduler_address, patience=3600)
+        with pytest.raises(KeyboardInterrupt), ClusterPool(there, watch=lambda now: time.monotonic() > end):
+            pass
+    assert time.monotonic() - end < clustered.LIMIT

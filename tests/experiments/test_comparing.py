@@ -35,6 +35,9 @@ class TwoKinds:
     def give(self, key: Any, function: Any, job: Job, machine: str) -> None:
         self.done.append((key, [{**row, MACHINE: machine} for row in function(job)]))
 
+    def look(self) -> None:
+        self.looks = getattr(self, "looks", 0) + 1
+
     def wait(self, seconds: float) -> list[Any]:
         out, self.done = self.done, []
         return out
@@ -53,6 +56,7 @@ def test_two_per_cent_of_the_pieces_are_compared_and_other_outcomes_are_reported
     before = (tmp_path / "trials.jsonl").read_bytes()
     pool: Any = TwoKinds(["A", "B"])
     comparing.compare(jobs, rows, pool, tmp_path)
+    assert pool.looks, "the comparison can be stopped"
     table = (tmp_path / "machines.csv").read_text().splitlines()
     assert table[1:] == ["0,A,left,B,left,True", "50,A,left,B,left,True"]
     (tmp_path / "machines.csv").unlink()

@@ -18,18 +18,21 @@ import os
 import pickle
 import queue
 import signal
+import socket
 import time
 import uuid
 import warnings
 from collections.abc import Callable, Coroutine, Hashable, Mapping
 from pathlib import Path
 from typing import Any, Self
+from urllib.parse import urlsplit
 
 from deodar import codec
 from deodar.batch import cluster_task
 from deodar.batch.cluster import Cluster, slurm_settings
 from deodar.batch.cluster_task import INSTRUCTIONS
 from deodar.batch.pool import quiet
+from deodar.batch.staffing import Staffing, Watch
 from deodar.errors import MissingExtra, ParameterError, WorkerError, first_line
 
 TASKS_A_WORKER = 2
@@ -40,6 +43,9 @@ CHECK_EVERY = 0.5
 
 CONNECT_SECONDS = 20.0
 """Wall time in which a scheduler must answer at the start, in seconds."""
+
+PORT_SECONDS = 1.0
+"""Wall time of one attempt to reach the port of a scheduler, in seconds."""
 
 SILENT_SECONDS = 20.0
 """Wall time without an answer after which a scheduler is given up, in seconds."""
@@ -116,6 +122,8 @@ class ClusterPool:
     Args:
         cluster: where the workers are.
         precision: precision of the programs.
+        watch: called several times a second until the workers are ready; once it returns true,
+            KeyboardInterrupt is raised.
 
     Attributes:
         cluster: where the workers are.
@@ -123,8 +131,8 @@ class ClusterPool:
             the machine is `mixed`.
     """
 
-    def __init__(self, cluster: Cluster, precision: str = "float32") -> None:
-        self.cluster, self._precision = cluster, precision
+    def __init__(self, cluster: Cluster, precision: str = "float32", watch: Watch | None = None) -> None:
+        self.cluster, self._precision, self._watch_by = cluster, precision, watch
         self.made_by: dict[str, str] = {}
         self._distributed = library()
         self._tasks: dict[Hashable, _Task] = {}
@@ -174,6 +182,11 @@ class ClusterPool:
     def machines(self) -> list[str]:
         """The kinds of machines of the workers that answered `everywhere` and still exist."""
         return sorted({kind for address, kind in self._kinds.items() if address in self._seen.workers})
+
+    def look(self) -> None:
+        """Call `watch`; raise KeyboardInterrupt if it ends the computation."""
+        if self._watch_by is not None and self._watch_by(Staffing(self.workers, self.busy)):
+            raise KeyboardInterrupt
 
     def give(self, key: Hashable, function: Callable[..., Any], *arguments: Any, machine: str = "") -> None:
         """Submit a task; `wait` returns its result under the key.
@@ -240,15 +253,14 @@ class ClusterPool:
             where = self._local(stack)
         elif self.cluster.file is not None:
             where = self._closing(stack, _slurm(self.cluster.file))
+        elif self._watch_by is not None:
+            self._await_port()
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # of other versions, which are compared here
                 client = self._distributed.Client(where, timeout=CONNECT_SECONDS, set_as_default=False)
         except (OSError, TimeoutError, ValueError, RuntimeError) as error:
-            raise WorkerError(
-                f"no scheduler of Dask answers at {self.cluster.address} ({first_line(error)})",
-                fix="Start one there with: dask scheduler; or state its address, which it prints",
-            ) from None
+            raise self._no_scheduler(error) from None
         self._loop = client.loop.asyncio_loop
         stack.callback(_closed, client)
 
@@ -292,6 +304,26 @@ class ClusterPool:
         made.scale(self.cluster.processes)
         return made
 
+    def _await_port(self) -> None:
+        """Wait until something listens at the address of a scheduler; the client itself cannot be stopped."""
+        found = urlsplit(self.cluster.address)
+        end = time.monotonic() + CONNECT_SECONDS
+        while True:
+            try:
+                socket.create_connection((found.hostname, found.port), PORT_SECONDS).close()
+                return
+            except OSError as error:
+                if time.monotonic() > end:
+                    raise self._no_scheduler(error) from None
+            self.look()
+            time.sleep(0.1)
+
+    def _no_scheduler(self, error: Exception) -> WorkerError:
+        return WorkerError(
+            f"no scheduler of Dask answers at {self.cluster.address} ({first_line(error)})",
+            fix="Start one there with: dask scheduler; or state its address, which it prints",
+        )
+
     def _closing(self, stack: contextlib.ExitStack, made: Any) -> Any:
         stack.callback(_closed, made)
         return made
@@ -301,6 +333,7 @@ class ClusterPool:
         wanted = self.cluster.processes or 1
         while self.workers < wanted:
             time.sleep(0.05)
+            self.look()
             self._check()
             if time.monotonic() - self._staffed > self.cluster.patience:
                 break
@@ -473,13 +506,18 @@ class ClusterPool:
     def _wait_for(self, coroutine: Coroutine[Any, Any, Any], seconds: float, what: str) -> Any:
         """Return the result of a coroutine of the client's loop, after at most `seconds`."""
         asked = asyncio.run_coroutine_threadsafe(asyncio.wait_for(coroutine, seconds), self._loop)
+        end = time.monotonic() + seconds + 5
         try:
-            return asked.result(seconds + 5)
-        except TimeoutError:
-            raise WorkerError(
-                f"{what}, at {self.cluster.address}, within {seconds:g} s",
-                fix="Look at the logs of the scheduler and of the workers",
-            ) from None
+            while True:
+                try:
+                    return asked.result(0.2)
+                except TimeoutError:
+                    if asked.done() or time.monotonic() > end:
+                        raise WorkerError(
+                            f"{what}, at {self.cluster.address}, within {seconds:g} s",
+                            fix="Look at the logs of the scheduler and of the workers",
+                        ) from None
+                self.look()
         finally:
             asked.cancel()
 

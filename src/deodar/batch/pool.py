@@ -90,6 +90,11 @@ class Pool:
             worker.process.join()
 
     @property
+    def workers(self) -> int:
+        """Number of workers."""
+        return self._count
+
+    @property
     def idle(self) -> int:
         """Number of workers without a task."""
         return len(self._idle)

@@ -8,7 +8,7 @@ import dataclasses as dc
 import shlex
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +22,7 @@ from deodar.worlds._address import masked
 if TYPE_CHECKING:
     import xarray
 
-    from deodar.experiments.following import CellStanding, Standing
+    from deodar.experiments.following import Standing
 
 HELP = "run the trials of an experiment, and write a table with a row for each"
 EPILOG = """\
@@ -191,16 +191,18 @@ def _merge(args: argparse.Namespace) -> int:
 def _follow(args: argparse.Namespace, of: int) -> int:
     """Print the standing of a run whenever rows arrive; status 1 if it has stopped before its end."""
     # start-up time: these bring JAX
-    from deodar.experiments.following import standing
-    from deodar.experiments.results import stored_rows
+    from deodar.experiments.following import RowsTail, standing
+    from deodar.experiments.results import ROWS, stored_rows
     from deodar.recording import writer_lock
 
     begun: tuple[float, int] | None = None
     said = -1
+    stored_rows(args.follow)  # or the error that it is no such folder
+    tail, rows = RowsTail(args.follow / ROWS), list[dict[str, Any]]()
     with contextlib.suppress(KeyboardInterrupt):
         while True:
             running = writer_lock.is_written(args.follow)  # before the rows: it may end after them
-            rows = stored_rows(args.follow)
+            rows += tail.new()
             now = time.monotonic()
             begun = begun or (now, len(rows))
             if len(rows) != said:
@@ -224,19 +226,9 @@ def _tell_standing(args: argparse.Namespace, now: Standing) -> None:
         return
     left = "" if now.left is None else f", {_long.duration(now.left)} left"
     text = [f"{now.rows} of {now.of} trials ({100 * now.share:.0f} %){left}"]
-    text += [f"slowest: {_called(now.cells[0])}, median {now.cells[0].duration:g}"] if now.cells else []
-    text += [f"diverged: {_called(cell)}, {cell.failed} of {cell.rows}" for cell in now.failing[:3]]
+    text += [f"slowest: {now.slowest}"] if now.slowest else []
+    text += [f"diverged: {cell}" for cell in now.diverged]
     print("; ".join(text), flush=True)
-
-
-def _called(cell: CellStanding) -> str:
-    return _named(cell.levels) or "all trials"
-
-
-def _named(levels: Mapping[str, Any]) -> str:
-    """Return a combination of levels in words."""
-    shown = ((name, f"{value:g}" if isinstance(value, float) else value) for name, value in levels.items())
-    return ", ".join(f"{name} {value}" for name, value in shown)
 
 
 def _confirm(args: argparse.Namespace, setup: Any, out: Path) -> None:
@@ -308,6 +300,8 @@ def _cells(data: xarray.Dataset) -> Iterator[str]:
     # start-up time
     import numpy as np
 
+    from deodar.experiments.following import called
+
     factors = [str(name) for name in data.coords if name != "trial"]
     labels = list(zip(*(data[name].values.tolist() for name in factors), strict=True)) if factors else []
     unit = data["duration"].attrs["units"]
@@ -318,7 +312,7 @@ def _cells(data: xarray.Dataset) -> Iterator[str]:
         shares = ", ".join(
             f"{name} {100 * ended.count(name) / len(ended):.0f} %" for name in sorted(set(ended))
         )
-        where = _named(dict(zip(factors, cell, strict=True)))
+        where = called(dict(zip(factors, cell, strict=True)))
         after = "" if unit in ("abstract", "") or unit.startswith("1 =") else f" {unit}"
         durations = data["duration"].values[of]
         known = durations[~np.isnan(durations)]

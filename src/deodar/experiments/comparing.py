@@ -78,11 +78,13 @@ def _compared(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[Co
             while not pool.idle:
                 yield from _arrived(pool, rows)
                 check()
+                pool.look()
             unrecorded = dc.replace(job, arguments={**job.arguments, "records": None})
             pool.give(job.keys, named, unrecorded, machine=other)
         while pool.busy:
             yield from _arrived(pool, rows)
             check()
+            pool.look()
 
 
 def chosen(jobs: Sequence[Job]) -> list[Job]:

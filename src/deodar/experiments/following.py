@@ -1,15 +1,21 @@
-"""The standing of an experiment that another process runs, from its rows alone."""
+"""The standing of an experiment, from its rows alone: also of one that another process runs."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import median
 from typing import Any
 
+from deodar import codec
+from deodar.errors import RecordError, first_line
 from deodar.experiments.observations import DIVERGED, TIME
-from deodar.experiments.rows import Row
+from deodar.experiments.rows import KEY, Row
+
+MOST_FAILING = 3
+"""Most combinations of levels with diverged trials that are named in words."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +35,11 @@ class CellStanding:
     duration: float
     failed: int
     cut: int
+
+    @property
+    def name(self) -> str:
+        """The levels in words; `all trials` without factors."""
+        return called(self.levels) or "all trials"
 
 
 @dataclass(frozen=True)
@@ -56,6 +67,22 @@ class Standing:
     def failing(self) -> tuple[CellStanding, ...]:
         """The combinations in which trials diverged, the one with most of them first."""
         return tuple(sorted((c for c in self.cells if c.failed), key=lambda cell: -cell.failed / cell.rows))
+
+    @property
+    def slowest(self) -> str:
+        """The combination of levels with the longest trials, in words; empty without rows."""
+        return f"{self.cells[0].name}, median {self.cells[0].duration:g}" if self.cells else ""
+
+    @property
+    def diverged(self) -> tuple[str, ...]:
+        """The first of `failing`, in words."""
+        return tuple(f"{c.name}, {c.failed} of {c.rows}" for c in self.failing[:MOST_FAILING])
+
+
+def called(levels: Mapping[str, Any]) -> str:
+    """Return a combination of levels in words."""
+    shown = ((name, f"{value:g}" if isinstance(value, float) else value) for name, value in levels.items())
+    return ", ".join(f"{name} {value}" for name, value in shown)
 
 
 def standing(
@@ -86,3 +113,37 @@ def _cell(levels: Mapping[str, Any], rows: Sequence[Row]) -> CellStanding:
     failed = sum(DIVERGED in row for row in rows)
     cut = sum(row["outcome"] == TIME for row in rows)
     return CellStanding(levels, len(rows), median(durations) if durations else math.nan, failed, cut)
+
+
+class RowsTail:
+    """The rows that another process adds to a file; each is read once.
+
+    Args:
+        path: the file of rows.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._read = 0
+        self._keys: set[str] = set()
+
+    def new(self) -> list[Row]:
+        """Return the rows since the last call; an incomplete last line is left for the next one.
+
+        Raises:
+            RecordError: the file cannot be read, or a complete line is not a row.
+        """
+        try:
+            with self.path.open("rb") as file:
+                file.seek(self._read)
+                content = file.read()
+            whole = content.rfind(b"\n") + 1
+            lines: list[Row] = [codec.parse(line.decode()) for line in content[:whole].splitlines()]
+            new = [line for line in lines if KEY in line and line[KEY] not in self._keys]
+        except (OSError, ValueError, TypeError) as error:
+            raise RecordError(
+                f"its rows cannot be read ({first_line(error)})", where=str(self.path)
+            ) from None
+        self._read += whole
+        self._keys |= {row[KEY] for row in new}
+        return new

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from deodar import renamed
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
+from deodar.batch.staffing import Staffing, Watch
 from deodar.experiments.rows import KEY, Row, Rows
 from deodar.session.interrupt import stoppable
 
@@ -64,7 +65,7 @@ def run_jobs(
     rows: Rows,
     progress: Callable[[Progress], None] | None = None,
     workers: int | None = None,
-    stopped: Callable[[], bool] | None = None,
+    watch: Watch | None = None,
     cluster: ClusterPool | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
@@ -77,12 +78,12 @@ def run_jobs(
         progress: function that is called with a `Progress` after each job.
         workers: number of processes of one core each; none: this process, one job after another. A script
             that calls this with workers must do so below `if __name__ == "__main__":`.
-        stopped: function that is called several times a second while workers run; once it returns true, the
+        watch: function that is called several times a second while workers run; once it returns true, the
             running jobs are ended, and their rows are not stored.
         cluster: the workers that run the jobs, in place of `workers`; an entered `dd.ClusterPool`.
 
     Raises:
-        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `stopped`
+        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `watch`
             returned true.
         WorkerError: a worker process has died, or a cluster cannot run the jobs.
     """
@@ -110,7 +111,7 @@ def run_jobs(
             )
 
     tell([rows.found[key] for job in jobs for key in job.keys if key in rows.found])
-    for job, found in _anywhere(missing, workers, stopped, cluster):
+    for job, found in _anywhere(missing, workers, watch, cluster):
         new = [row for row in found if row[KEY] not in rows.found]
         rows.append(found)
         done += job.cost
@@ -121,16 +122,16 @@ def run_jobs(
 def _anywhere(
     jobs: Sequence[Job],
     workers: int | None,
-    stopped: Callable[[], bool] | None,
+    watch: Watch | None,
     cluster: ClusterPool | None,
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     if not jobs or not (workers or cluster):
         yield from _here(jobs)
     elif cluster is not None:
-        yield from _in_workers(jobs, cluster, stopped)
+        yield from _in_workers(jobs, cluster, watch)
     else:
         with Pool(min(workers or 1, len(jobs)), main=True) as pool:
-            yield from _in_workers(jobs, pool, stopped)
+            yield from _in_workers(jobs, pool, watch)
 
 
 def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
@@ -142,7 +143,7 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 
 
 def _in_workers(
-    jobs: Sequence[Job], pool: Pool | ClusterPool, stopped: Callable[[], bool] | None
+    jobs: Sequence[Job], pool: Pool | ClusterPool, watch: Watch | None
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     running, interrupted = dict[tuple[str, ...], Job](), False
     run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
@@ -153,10 +154,10 @@ def _in_workers(
                 job = waiting.pop()
                 pool.give(job.keys, run, job)
                 running[job.keys] = job
+            if watch is not None and watch(Staffing(pool.workers, pool.busy)):
+                raise KeyboardInterrupt
             for keys, rows in pool.wait(0.2):
                 yield running.pop(keys), rows
-            if stopped is not None and stopped():
-                raise KeyboardInterrupt
             try:
                 check()
             except KeyboardInterrupt:

@@ -15,6 +15,7 @@ from deodar import codec, renamed
 from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed import require_portable
+from deodar.batch.staffing import Watch
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
@@ -58,7 +59,7 @@ def run_trials(
     out: str | Path | None,
     workers: int | None = None,
     progress: Callable[[Progress], None] | None = None,
-    stopped: Callable[[], bool] | None = None,
+    watch: Watch | None = None,
     cluster: Cluster | str | None = None,
     part: tuple[int, int] | None = None,
 ) -> xarray.Dataset:
@@ -69,7 +70,8 @@ def run_trials(
         out: the folder; None: results are not stored.
         workers: number of processes of one core each; none: this process.
         progress: function that is called with a `Progress` after each piece.
-        stopped: function that ends the workers once it returns true (see `run_jobs`).
+        watch: function that is called several times a second while workers run or are awaited, and ends
+            them once it returns true (see `run_jobs`).
         cluster: the workers that run the trials, in place of `workers`, or their address.
         part: the first trial and the one after the last, to run a part of the trials; pieces that begin there
             are run whole, so that parts without gaps between them are the whole experiment.
@@ -89,11 +91,11 @@ def run_trials(
     where = None if cluster is None else Cluster.of(cluster)
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _run_trials(setup, Path(folder), workers, progress, stopped, where, part)
+            return _run_trials(setup, Path(folder), workers, progress, watch, where, part)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
     with writer_lock.locked(folder):
-        return _run_trials(setup, folder, workers, progress, stopped, where, part)
+        return _run_trials(setup, folder, workers, progress, watch, where, part)
 
 
 def _run_trials(
@@ -101,12 +103,12 @@ def _run_trials(
     out: Path,
     workers: int | None,
     progress: Callable[[Progress], None] | None,
-    stopped: Callable[[], bool] | None,
+    watch: Watch | None,
     cluster: Cluster | None,
     part: tuple[int, int] | None,
 ) -> xarray.Dataset:
     handed = packed.PackedExperiment.of(setup) if workers or cluster else None
-    with _opened(setup, handed, cluster) as pool:
+    with _opened(setup, handed, cluster, watch) as pool:
         about = _about(setup, workers, out) if pool is None else _about(setup, 1, out, pool.made_by)
 
         def read(made: JsonObject) -> JsonObject:
@@ -127,7 +129,7 @@ def _run_trials(
             if pool is not None and records is not None:
                 _require_shared(pool, out)
         jobs = list(_jobs(setup, handed, records, part))
-        run_jobs(jobs, rows, progress, workers, stopped, pool)
+        run_jobs(jobs, rows, progress, workers, watch, pool)
         if pool is not None and pool.cluster.mixed:
             compare(jobs, rows, pool, out)
     data = dataset(rows.found.values(), about)
@@ -160,7 +162,7 @@ def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> Non
 
 @contextlib.contextmanager
 def _opened(
-    setup: Setup, handed: packed.PackedExperiment | None, cluster: Cluster | None
+    setup: Setup, handed: packed.PackedExperiment | None, cluster: Cluster | None, watch: Watch | None
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the experiment; None without a cluster.
 
@@ -171,7 +173,7 @@ def _opened(
         yield None
         return
     require_portable(setup.world)
-    with ClusterPool(cluster, setup.experiment.precision) as pool:
+    with ClusterPool(cluster, setup.experiment.precision, watch) as pool:
         pool.everywhere(packed.prepare, handed)
         yield pool
 

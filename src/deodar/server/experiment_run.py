@@ -73,7 +73,7 @@ class ExperimentRun:
 
     def _run(self) -> None:
         try:
-            run_trials(self.setup, self.folder, self.workers, self._take, self._stop.is_set)
+            run_trials(self.setup, self.folder, self.workers, self._take, lambda now: self._stop.is_set())
         except KeyboardInterrupt:
             self.state = "stopped"
         except DeodarError as error:

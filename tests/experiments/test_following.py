@@ -1,0 +1,69 @@
+"""The standing of an experiment from its rows, and the rows that another process adds."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from deodar import codec
+from deodar.errors import RecordError
+from deodar.experiments.following import RowsTail, standing
+from deodar.experiments.rows import Rows
+
+
+def row(trial: int, place: str, duration: float | None, outcome: str = "found") -> dict[str, Any]:
+    lost = {} if duration is not None else {"diverged": "u.activation at 3 ms"}
+    levels = {"place": place, "gain": 0.5}
+    return {
+        "key": f"{trial:06}",
+        "trial": trial,
+        "levels": levels,
+        "outcome": outcome,
+        "duration": duration,
+        **lost,
+    }
+
+
+ROWS = [row(0, "near", 10.0), row(1, "near", 30.0, "time"), row(2, "far", 50.0), row(3, "far", None)]
+
+
+def test_the_slowest_cell_and_those_that_diverge_are_named() -> None:
+    now = standing(ROWS, 8, (100.0, 2), 110.0)
+    assert (now.rows, now.of, now.share, now.left) == (4, 8, 0.5, 20.0)
+    assert now.slowest == "place far, gain 0.5, median 50"
+    assert now.diverged == ("place far, gain 0.5, 1 of 2",)
+    assert [cell.cut for cell in now.cells] == [0, 1]
+
+
+def test_without_rows_or_factors_words_are_still_sentences() -> None:
+    assert standing([], 8).slowest == "" and standing([], 8).left is None
+    alone = standing([{**row(0, "near", None), "levels": {}}], 1)
+    assert alone.slowest == "all trials, median nan" and alone.diverged == ("all trials, 1 of 1",)
+    assert math.isnan(alone.cells[0].duration)
+
+
+def test_the_tail_of_a_file_returns_each_row_once(tmp_path: Path) -> None:
+    rows = Rows(tmp_path / "trials.jsonl", {"name": "one"})
+    tail = RowsTail(rows.path)
+    assert tail.new() == []
+    rows.append(ROWS[:2])
+    assert tail.new() == ROWS[:2] and tail.new() == []
+    line = codec.line(ROWS[2])
+    with rows.path.open("a") as file:
+        file.write(line[:20])
+    assert tail.new() == [], "the last line is not complete"
+    with rows.path.open("a") as file:
+        file.write(f"{line[20:]}\n{codec.line(ROWS[0])}\n")
+    assert tail.new() == [ROWS[2]], "a row that exists is left out"
+
+
+def test_a_file_that_holds_no_rows_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(RecordError, match="its rows cannot be read"):
+        RowsTail(tmp_path / "none").new()
+    for text in ("no row\n", "1\n"):
+        (tmp_path / "other").write_text(text)
+        with pytest.raises(RecordError, match="its rows cannot be read"):
+            RowsTail(tmp_path / "other").new()
