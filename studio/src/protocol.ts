@@ -1301,11 +1301,21 @@ export type RunClock = {
   recording: RecordingView | null;
 };
 
-// Run the experiment in worker processes; a run that was stopped continues.
+// Run the experiment in worker processes, or on a cluster; a run that was stopped continues.
+//
+// `workers` is the number of processes on this machine; 0: the usual one. `cluster` is an address as on the
+// command line, such as `local:4` or `tcp://HOST:8786`; empty: none. `patience` is the time in s without any
+// worker after which the run ends, `trust_network` allows a scheduler beyond this machine without encryption,
+// and `mixed` workers whose processors differ.
 export type RunExperiment = {
   type: "run_experiment";
   request?: number;
   session?: number;
+  workers?: number;
+  cluster?: string;
+  patience?: number;
+  trust_network?: boolean;
+  mixed?: boolean;
 };
 
 // Continue the run from the last frame up to a document time, with the parameters of that moment.
@@ -1330,15 +1340,25 @@ export type RunRecordFrom = {
 
 // The run of an experiment: how many rows of how many trials there are, and the remaining time in s.
 //
-// `number` changes with each run; `folder` is below the root.
+// `number` changes with each run; `folder` is below the root. A run is `followed` while another process
+// writes its rows. Of a run of this studio, `stopping` is true after a stop until it ends, `cluster` is the
+// address of its workers (empty: processes of this machine), `workers` their present number, and `pieces` the
+// number of pieces that they have. While rows arrive, `slowest` describes the combination of levels with the
+// longest trials, and `diverged` those whose trials diverge.
 export type RunView = {
   number: number;
   folder: string;
-  state: "complete" | "failed" | "running" | "stopped";
+  state: "complete" | "failed" | "followed" | "running" | "stopped";
   rows: number;
   trials: number;
   left: number | null;
   problems: ListedProblem[];
+  stopping: boolean;
+  cluster: string;
+  workers: number;
+  pieces: number;
+  slowest: string;
+  diverged: string[];
 };
 
 // Write the document to `path`, or to its own file if `path` is empty.
@@ -1855,10 +1875,16 @@ export type WatchWorld = {
 };
 
 // First message on a connection: the data that do not depend on the open document.
+//
+// An experiment runs in `usual_workers` processes unless a page states a number, `most_workers` at most;
+// `clusters`: whether pages may name any cluster, or only the processes of `local:N`.
 export type Welcome = {
   type: "welcome";
   version: string;
   root: string;
+  usual_workers: number;
+  most_workers: number;
+  clusters: boolean;
   kinds: Kind[];
   experiment: ExperimentForms;
   examples: ExampleView[];

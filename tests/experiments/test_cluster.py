@@ -458,6 +458,30 @@ def test_the_file_of_slurm_on_the_page_is_read():
     assert settings["job_script_prologue"] == ["source ~/venv/bin/activate", "export NPROC=1"]
 
 
+def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
+    (tmp_path / "jobs.yaml").write_text(SLURM)
+    code = (
+        "import signal, threading\n"
+        "from deodar.batch import on_cluster\n"
+        "from deodar.batch.cluster import Cluster\n"
+        f"there = Cluster({f'slurm:{tmp_path}/jobs.yaml'!r}, trust_network=True)\n"
+        "one = threading.Thread(target=lambda: print(on_cluster.slurm_script(there)))\n"
+        "one.start()\n"
+        "one.join()\n"
+        "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler\n"
+        "signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+        "assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | {"PYTHONPATH": _paths()},
+    )
+    assert (done.returncode, done.stderr) == (0, "") and "#SBATCH -p normal" in done.stdout
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [

@@ -22,7 +22,7 @@ import socket
 import time
 import uuid
 import warnings
-from collections.abc import Callable, Coroutine, Hashable, Mapping
+from collections.abc import Callable, Coroutine, Generator, Hashable, Mapping
 from pathlib import Path
 from typing import Any, Self
 from urllib.parse import urlsplit
@@ -556,7 +556,9 @@ def _slurm(file: Path, most: int | None = None) -> Any:
     try:
         # an extra
         import yaml
-        from dask_jobqueue.slurm import SLURMCluster
+
+        with _signals_kept():
+            from dask_jobqueue.slurm import SLURMCluster
     except ImportError:
         raise MissingExtra("dask-jobqueue", "cluster", "a cluster of SLURM") from None
     try:
@@ -571,6 +573,17 @@ def _slurm(file: Path, most: int | None = None) -> Any:
         raise ParameterError(f"dask_jobqueue refuses it: {first_line(error)}", where=str(file)) from None
     made.scale(jobs=jobs if most is None else most)
     return made
+
+
+@contextlib.contextmanager
+def _signals_kept() -> Generator[None]:
+    """Keep the handlers of signals: an import of dask_jobqueue sets that of Ctrl-C; in a thread it fails."""
+    own = signal.signal
+    signal.signal = lambda *_: None
+    try:
+        yield
+    finally:
+        signal.signal = own
 
 
 def pickled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:

@@ -65,7 +65,7 @@ def merge_results(folders: Sequence[str | Path], out: str | Path) -> MergedResul
             )
         for row in rows:
             first, where = found.setdefault(row[KEY], (row, place))
-            if _bare(first) != _bare(row):
+            if computed(first) != computed(row):
                 raise RecordError(
                     f"has another row of trial {row['trial']} than {where}",
                     where=str(place),
@@ -103,7 +103,8 @@ def gaps(trials: set[int], of: int) -> tuple[tuple[int, int], ...]:
     return tuple(out)
 
 
-def _bare(row: Row) -> Row:
+def computed(row: Row) -> Row:
+    """Return what a trial alone determines: without the machine that ran it and the place of its record."""
     return {key: value for key, value in row.items() if key not in (MACHINE, RECORD)}
 
 

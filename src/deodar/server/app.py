@@ -71,7 +71,7 @@ class Studio:
     @contextlib.asynccontextmanager
     async def _life(self, app: Starlette) -> AsyncGenerator[None]:
         service = self._service
-        self._hub = Hub(service.root, service.trust, service.world)
+        self._hub = Hub(service.root, service.trust, service.world, service.private)
         project, file = self._hub.project, service.file
         if file is not None:
             await project.queue.run(lambda: project.open_file(file.resolve(), True))

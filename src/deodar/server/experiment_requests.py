@@ -52,7 +52,7 @@ async def _close(hub: Hub, page: Page, m: to_server.CloseExperiment) -> None:
 
 @handles(to_server.RunExperiment)
 async def _run(hub: Hub, page: Page, m: to_server.RunExperiment) -> None:
-    await hub.experiment.start()
+    await hub.experiment.start(m)
 
 
 @handles(to_server.StopExperiment)

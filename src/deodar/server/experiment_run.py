@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses as dc
 import math
-import os
+import queue
 import threading
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 from deodar import codec
 from deodar.batch.pool import Pool
+from deodar.batch.staffing import Staffing
 from deodar.errors import DeodarError, Problem, RecordError
 from deodar.experiments import packed
+from deodar.experiments.following import RowsTail, Standing, standing
 from deodar.experiments.jobs import Progress
-from deodar.experiments.record_target import RECORD
-from deodar.experiments.results import run_trials
+from deodar.experiments.merging import computed
+from deodar.experiments.results import ROWS, run_trials
 from deodar.experiments.rows import Row
 from deodar.experiments.setup import Setup
 from deodar.model import find, output
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
-
-MOST_WORKERS = 8
-"""Most worker processes (a guess: each takes about 300 MB)."""
+from deodar.recording import writer_lock
+from deodar.server.run_place import RunPlace
 
 MOST_RECORDED = 128 * 2**20
 """Largest size in bytes of the record of a repeated trial (a guess)."""
@@ -32,27 +35,62 @@ MOST_RECORDED = 128 * 2**20
 REPEATS = "repeats"
 """Folder of the records of repeated trials, in the folder of the results."""
 
-State = Literal["running", "complete", "stopped", "failed"]
+STANDING_SECONDS = 1.0
+"""Least wall time between two standings of a run, in seconds: all of its rows are read for one."""
+
+QUIET_SECONDS = 60.0
+"""Wall time without a new row after which followed rows count as stopped where the lock of their writer is
+not seen, in seconds.
+"""
+
+NOBODY = Staffing(0, 0)
+
+State = Literal["running", "followed", "complete", "stopped", "failed"]
+
+
+@dc.dataclass(frozen=True)
+class RowsSeen:
+    """What was seen of a folder that another process may write.
+
+    Attributes:
+        written: whether a process holds its lock; None where this is unknown.
+        new: the rows since the last look.
+    """
+
+    written: bool | None
+    new: Sequence[Row]
 
 
 class ExperimentRun:
-    """The trials of an experiment: their rows, which worker processes add.
+    """The trials of an experiment: their rows, which worker processes add, or another process.
 
     Attributes:
         setup: the opened experiment.
         folder: the folder of the results.
         rows: the rows, in the order in which they were stored; rows are only added.
-        progress: how far the run is; None before the first worker has started.
-        state: whether it runs, is complete, was stopped, or ended with `problems`.
+        left: estimated remaining time in s; None before it can be estimated.
+        state: whether it runs, is followed while another process runs it, is complete, was stopped, or ended
+            with `problems`.
         problems: the reason of a failure.
+        place: where its trials are computed.
+        staffing: its present workers and their pieces.
+        standing: how far it is, renewed from time to time while rows arrive; None before.
     """
 
     def __init__(self, setup: Setup, folder: Path, changed: Callable[[], None]) -> None:
         self.setup, self.folder, self._changed = setup, folder, changed
         self.rows: list[Row] = []
-        self.progress: Progress | None = None
+        self.left: float | None = None
         self.state: State = "stopped"
         self.problems: Sequence[Problem] = ()
+        self.place = RunPlace()
+        self.staffing = NOBODY
+        self.standing: Standing | None = None
+        self._stood = -math.inf
+        self._tail: RowsTail | None = None
+        self._looking, self._seen = threading.Lock(), queue.SimpleQueue[RowsSeen]()
+        self._locked = self._opened = False
+        self._begun, self._grown = (0.0, 0), -math.inf
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._repeating = threading.Lock()
@@ -61,19 +99,27 @@ class ExperimentRun:
 
     @property
     def workers(self) -> int:
-        """Number of worker processes: one core is left to the studio."""
-        return max(1, min(MOST_WORKERS, (os.cpu_count() or 2) - 1, len(self.setup.pieces())))
+        """Number of worker processes on this machine: at most one for each piece."""
+        return max(1, min(self.place.workers, len(self.setup.pieces())))
 
-    def start(self) -> None:
+    @property
+    def stopping(self) -> bool:
+        """Whether the run was stopped and has not ended yet."""
+        return self.state == "running" and self._stop.is_set()
+
+    def start(self, place: RunPlace) -> None:
         """Run the trials without a row, in a thread."""
-        self.state, self.problems, self.progress = "running", (), None
+        self.place, self.staffing, self._tail = place, NOBODY, None
+        self.state, self.problems, self.left = "running", (), None
         self._stop.clear()
         self._thread = threading.Thread(target=self._run, name="deodar-experiment", daemon=True)
         self._thread.start()
 
     def _run(self) -> None:
         try:
-            run_trials(self.setup, self.folder, self.workers, self._take, lambda now: self._stop.is_set())
+            cluster = self.place.cluster
+            workers = None if cluster is not None else self.workers
+            run_trials(self.setup, self.folder, workers, self._take, self._watched, cluster)
         except KeyboardInterrupt:
             self.state = "stopped"
         except DeodarError as error:
@@ -82,14 +128,30 @@ class ExperimentRun:
             self.state, self.problems = "failed", [Problem("", f"{type(error).__name__}: {error}")]
         else:
             self.state = "complete"
+        self.staffing = NOBODY
         self._changed()
         self._prepare()
 
     def _take(self, progress: Progress) -> None:
         known = {row["trial"] for row in self.rows}
         self.rows.extend(row for row in progress.new if row["trial"] not in known)
-        self.progress = progress
+        self.left = progress.left
+        self._stand(None)
         self._changed()
+
+    def _watched(self, now: Staffing) -> bool:
+        """Note the present workers; return whether the run was stopped."""
+        if now != self.staffing:
+            self.staffing = now
+            self._changed()
+        return self._stop.is_set()
+
+    def _stand(self, begun: tuple[float, int] | None) -> None:
+        """Renew the standing, unless that was done a moment ago."""
+        now = time.monotonic()
+        if now - self._stood >= STANDING_SECONDS:
+            self.standing = standing(self.rows, self.setup.trials, begun, now)
+            self._stood = now
 
     def stop(self) -> None:
         """End the workers; the rows that they have returned are stored."""
@@ -105,6 +167,64 @@ class ExperimentRun:
             self._end_pool()
             self._closing.clear()
 
+    # ---------------------------------------------------------------------------------------------- following
+
+    def open(self) -> None:
+        """Read the rows of a folder of results, which `take` adds; those of another process follow.
+
+        Raises:
+            RecordError: the rows cannot be read.
+        """
+        self._tail = RowsTail(self.folder / ROWS)
+        written = writer_lock.is_written(self.folder)  # before the rows: it may end after them
+        rows = self._tail.new()
+        self._begun = time.monotonic(), len(rows)
+        self._seen.put(RowsSeen(written, rows))
+
+    def look(self) -> None:
+        """Read what another process has added, for `take`. It is called in a thread, since a folder may be
+        far away, and a late answer is not lost.
+        """
+        tail = self._tail
+        if tail is None or not self._looking.acquire(blocking=False):
+            return
+        with contextlib.ExitStack() as stack:
+            stack.callback(self._looking.release)
+            written, rows = writer_lock.is_written(self.folder), list[Row]()
+            with contextlib.suppress(RecordError):  # the folder may be gone
+                rows = tail.new()
+            self._seen.put(RowsSeen(written, rows))
+
+    @property
+    def follows(self) -> bool:
+        """Whether another process may add rows to its folder."""
+        return self._tail is not None and self.state in ("stopped", "followed")
+
+    def take(self) -> bool:
+        """Add the rows that were read since the last call; return whether anything changed.
+
+        A process that was seen to hold the lock of the folder runs the experiment as long as it holds it. On
+        a file system without locks, it does as long as rows arrive.
+        """
+        if not self.follows or self._seen.empty():
+            return False
+        now, before, found, count = time.monotonic(), self.state, RowsSeen(None, ()), len(self.rows)
+        while not self._seen.empty():
+            found = self._seen.get_nowait()
+            self.rows.extend(found.new)
+        self._locked = self._locked or found.written is True
+        self._grown = now if self._opened and len(self.rows) > count else self._grown
+        self._opened = True
+        if len(self.rows) >= self.setup.trials:
+            self.state = "complete"
+        elif found.written or (not self._locked and now - self._grown < QUIET_SECONDS):
+            self.state = "followed"
+            self._stand(self._begun)
+            self.left = None if self.standing is None else self.standing.left
+        else:
+            self.state = "stopped"
+        return len(self.rows) > count or self.state != before
+
     # ---------------------------------------------------------------------------------------------- repeating
 
     def repeat(self, trial: int) -> Path:
@@ -114,9 +234,11 @@ class ExperimentRun:
         refused too.
 
         Raises:
-            RecordError: there is no row of this trial, the repeated trial gives another row, or `close` was
-                called.
+            RecordError: there is no row of this trial, the repeated trial gives another row, another process
+                writes the folder, or `close` was called.
         """
+        if self.state == "followed":
+            raise RecordError("another process runs it", where=str(self.folder), fix="Wait until it ends")
         stored = next((row for row in self.rows if row["trial"] == trial), None)
         if stored is None:
             raise RecordError(f"there is no row of trial {trial}")
@@ -129,7 +251,7 @@ class ExperimentRun:
                 line = codec.line(self._again(trial, path))
                 output.write(beside, line.encode(), durable=False)
                 row = codec.parse(line)
-            if row != {key: value for key, value in stored.items() if key != RECORD}:
+            if row != computed(stored):
                 path.unlink(missing_ok=True)
                 beside.unlink(missing_ok=True)
                 raise RecordError(

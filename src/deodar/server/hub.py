@@ -24,6 +24,7 @@ from deodar.server.page import Page
 from deodar.server.project import OpenProject
 from deodar.server.record_frames import RecordFrames
 from deodar.server.regime_measurement import RegimeMeasurement
+from deodar.server.run_place import MOST_WORKERS, USUAL_WORKERS
 from deodar.server.source import FrameSource, RunFrames
 from deodar.server.state_store import StateStore, state_folder
 from deodar.server.to_page import (
@@ -55,9 +56,15 @@ class Hub:
     """The project, the engine and the connected pages.
 
     Everything but the engine runs in the thread of the event loop.
+
+    Args:
+        root: the folder below which files are read and written.
+        trust: whether functions that documents name may be run.
+        world: the world that sensors read; None: examples of worlds are used.
+        private: whether only the user who started the studio can use it (see `Service.private`).
     """
 
-    def __init__(self, root: Path, trust: bool, world: World | None) -> None:
+    def __init__(self, root: Path, trust: bool, world: World | None, private: bool = False) -> None:
         self._loop = asyncio.get_running_loop()
         self._wake_scheduled = False
         self._gallery = Gallery(recent=[], recoveries=[])
@@ -72,13 +79,16 @@ class Hub:
         self.project = OpenProject(
             self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
         )
-        self.experiment = OpenExperiment(self.project, self.workspace, self.from_thread)
+        self.experiment = OpenExperiment(self.project, self.workspace, self.from_thread, private)
         self.measurement = RegimeMeasurement(self.from_thread)
         self.field_tuning = FieldTuning(self.from_thread)
         self._analyses: tuple[tuple[Any, ...], list[Regime | Tuning]] | None = None
         self.welcome = Welcome(
             version=__version__,
             root=str(self.workspace.root),
+            usual_workers=USUAL_WORKERS,
+            most_workers=MOST_WORKERS,
+            clusters=private,
             kinds=view.kinds(),
             experiment=view.experiment_forms(),
             examples=gallery.examples(),
@@ -298,10 +308,11 @@ class Hub:
         await self.project.queue.run(store)  # `forget` cannot run while edits are written
 
     async def _follow(self) -> None:
-        """Show what is added to a record that grows, and check the open experiment."""
+        """Show what is added to a record or to followed rows, and check the open experiment."""
         if await self.project.refresh():
             self.notify()
         await self.experiment.check()
+        await self.experiment.follow()
 
     async def close(self) -> None:
         """Store unsaved edits and stop the engine."""

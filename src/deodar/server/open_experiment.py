@@ -8,16 +8,18 @@ import hashlib
 import math
 import os
 import tempfile
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from deodar import codec
+from deodar.batch.cluster import Cluster
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, DocumentError, Problem
 from deodar.experiments.design import EXAMPLE, VERSION
 from deodar.experiments.experiment import Experiment
-from deodar.experiments.results import EXPERIMENT, ROWS, stored_rows
+from deodar.experiments.results import EXPERIMENT, ROWS
 from deodar.experiments.setup import Setup
 from deodar.model.document import Document
 from deodar.model.files import MOST_BYTES
@@ -28,8 +30,10 @@ from deodar.server.data_history import DataHistory
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
 from deodar.server.project import ConfirmationRequired, OpenProject
+from deodar.server.run_place import SLURM, RunPlace
 from deodar.server.state_store import StoredExperiment
 from deodar.server.to_page import ExperimentView, RunView, TrialRows
+from deodar.server.to_server import RunExperiment
 from deodar.server.workspace import Workspace
 
 LIMIT, TRIALS = 1000.0, 20
@@ -37,6 +41,9 @@ LIMIT, TRIALS = 1000.0, 20
 
 MOST_TRIALS = 100_000
 """Most trials of one run: pages receive every row (a guess)."""
+
+FOLLOW_SECONDS = 1.0
+"""Least wall time between two reads of rows that another process writes, in seconds."""
 
 MOST_ROWS = 1000
 """Most rows in one message."""
@@ -53,6 +60,12 @@ class OpenExperiment:
 
     While the record of one of its trials is open, its model is the document that the project set aside.
 
+    Args:
+        project: the open document and its queue.
+        workspace: the files below the root.
+        changed: called when pages may have something new to show.
+        private: whether pages may name any cluster (see `RunPlace`).
+
     Attributes:
         data: the plain data without its version and model; None: no experiment is open.
         version: number of changes that pages must receive.
@@ -65,8 +78,11 @@ class OpenExperiment:
         edits: the name under which its unsaved edits are stored; empty: they are not.
     """
 
-    def __init__(self, project: OpenProject, workspace: Workspace, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, project: OpenProject, workspace: Workspace, changed: Callable[[], None], private: bool
+    ) -> None:
         self._project, self._workspace, self._changed = project, workspace, changed
+        self._private, self._looked = private, 0.0
         self.data: JsonObject | None = None
         self.version = 0
         self.file: Path | None = None
@@ -97,15 +113,21 @@ class OpenExperiment:
         run = self.run
         shown = None
         if run is not None:
-            progress = run.progress
+            now = run.standing if run.state in ("running", "followed") else None
             shown = RunView(
                 number=self.number,
                 folder=self._workspace.shown(run.folder),
                 state=run.state,
                 rows=len(run.rows),
                 trials=run.setup.trials,
-                left=None if progress is None else progress.left,
+                left=run.left,
                 problems=view.problems(run.problems),
+                stopping=run.stopping,
+                cluster="" if run.place.cluster is None else self._named_cluster(run.place.cluster),
+                workers=run.staffing.workers,
+                pieces=run.staffing.running,
+                slowest="" if now is None else now.slowest,
+                diverged=[] if now is None else list(now.diverged),
             )
         return ExperimentView(
             data=self.data,
@@ -119,6 +141,11 @@ class OpenExperiment:
             repeated=self.repeated,
             run=shown,
         )
+
+    def _named_cluster(self, cluster: Cluster) -> str:
+        """Return the address of a cluster, with a file as pages name it."""
+        file = cluster.file
+        return cluster.address if file is None else f"{SLURM}{self._workspace.shown(file)}"
 
     def rows_after(self, number: int, count: int) -> TrialRows | None:
         """Return rows that a page lacks, which has the first `count` rows of a run; None: it has all."""
@@ -242,13 +269,25 @@ class OpenExperiment:
         await self._take({key: value for key, value in data.items() if key not in APART}, place, None)
         self._saved, self._digests = self.data, {place: digest}
         if place.name == EXPERIMENT and (place.parent / ROWS).is_file():
-            rows = await in_file_thread(lambda: stored_rows(place.parent), str(place))
             run = ExperimentRun(await asyncio.to_thread(self._setup), place.parent, self._changed)
-            run.rows.extend(rows)
-            run.state = "complete" if len(rows) == run.setup.trials else "stopped"
+            await in_file_thread(run.open, str(place))
+            run.take()
             self.run = run
             self.number += 1
-            run.prepare()
+            if run.state != "followed":
+                run.prepare()
+
+    async def follow(self) -> None:
+        """Show the rows that another process has added to the folder of opened results."""
+        run, now = self.run, time.monotonic()
+        if run is None or not run.follows or now - self._looked < FOLLOW_SECONDS:
+            return
+        self._looked = now
+        await try_in_file_thread(run.look)
+        if run is self.run and run.take():
+            self._changed()
+            if run.state == "complete":
+                run.prepare()
 
     def _named(self, place: Path, name: str) -> tuple[Callable[[], Document], Path | None]:
         """Return a function that reads the model of an experiment, and the file of this model."""
@@ -384,6 +423,8 @@ class OpenExperiment:
         present, own = self._present()
         if place == self.file:
             self._require_own(place)
+            if self.run is not None and self.run.state == "followed":
+                raise DocumentError("another process runs it", where=path, fix="Save it under another name")
         if place == own:
             raise DocumentError("is the file of the model", where=path, fix="Save it under another name")
         model = Model(document=self._document()) if own is None else os.path.relpath(own, place.parent)
@@ -428,25 +469,36 @@ class OpenExperiment:
 
     # --------------------------------------------------------------------------------------------- the trials
 
-    async def start(self) -> None:
-        """Run the experiment; a run of the same experiment that was stopped continues."""
+    async def start(self, asked: RunExperiment) -> None:
+        """Run the experiment where a page asks for it; a run of the same experiment that was stopped
+        continues.
+
+        Raises:
+            DocumentError: it runs already, also in another process, or may not run there.
+            ParameterError: the address of the cluster is wrong.
+            WorkerError: it leads beyond this machine, without encryption.
+        """
         if self.run is not None and self.run.state == "running":
             raise DocumentError("the experiment runs already")
+        place = RunPlace.of(asked, self._workspace, self._private)
         setup = await asyncio.to_thread(self._setup)
         before = self.run
+        if before is not None and before.state == "followed" and _same(before.setup, setup):
+            raise DocumentError("another process runs the experiment", fix="Wait until it ends, or stop it")
         if before is None or before.state == "complete" or not _same(before.setup, setup):
             await self._end_run()
             folder = places.free(self._workspace.root, setup.experiment.name)
             self.run = ExperimentRun(setup, folder, self._changed)
             self.number += 1
         assert self.run is not None
-        self.run.start()
+        self.run.start(place)
         self._changed()
 
     def stop(self) -> None:
         """Stop the run; rows that exist are kept."""
-        if self.run is not None:
+        if self.run is not None and self.run.state == "running":
             self.run.stop()
+            self._changed()
 
     async def repeat(self, trial: int) -> None:
         """Run a trial again and open its record; documents can be edited until it is ready.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 from pathlib import Path
 
+from deodar.server.guard import is_local
 from deodar.worlds._base import World
 
 
@@ -29,3 +30,10 @@ class Service:
     host: str = "127.0.0.1"
     port: int | None = None
     token: bool = True
+
+    @property
+    def private(self) -> bool:
+        """Whether only the user who started the studio can use it: it listens on this machine alone, and
+        pages need the token, which others cannot read.
+        """
+        return self.token and is_local(self.host)

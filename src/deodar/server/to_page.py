@@ -270,10 +270,17 @@ class Recovery(Data, frozen=True):
 
 @MESSAGES.register
 class Welcome(Message, frozen=True, tag="welcome"):
-    """First message on a connection: the data that do not depend on the open document."""
+    """First message on a connection: the data that do not depend on the open document.
+
+    An experiment runs in `usual_workers` processes unless a page states a number, `most_workers` at most;
+    `clusters`: whether pages may name any cluster, or only the processes of `local:N`.
+    """
 
     version: str
     root: str
+    usual_workers: int
+    most_workers: int
+    clusters: bool
     kinds: list[Kind]
     experiment: ExperimentForms
     examples: list[ExampleView]
@@ -787,16 +794,26 @@ class WorldSolids(Message, frozen=True, tag="solids"):
 class RunView(Data, frozen=True):
     """The run of an experiment: how many rows of how many trials there are, and the remaining time in s.
 
-    `number` changes with each run; `folder` is below the root.
+    `number` changes with each run; `folder` is below the root. A run is `followed` while another process
+    writes its rows. Of a run of this studio, `stopping` is true after a stop until it ends, `cluster` is the
+    address of its workers (empty: processes of this machine), `workers` their present number, and `pieces`
+    the number of pieces that they have. While rows arrive, `slowest` describes the combination of levels with
+    the longest trials, and `diverged` those whose trials diverge.
     """
 
     number: int
     folder: str
-    state: Literal["running", "complete", "stopped", "failed"]
+    state: Literal["running", "followed", "complete", "stopped", "failed"]
     rows: int
     trials: int
     left: float | None
     problems: list[ListedProblem]
+    stopping: bool
+    cluster: str
+    workers: int
+    pieces: int
+    slowest: str
+    diverged: list[str]
 
 
 @MESSAGES.register

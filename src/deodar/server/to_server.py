@@ -924,7 +924,19 @@ class CloseExperiment(DocumentRequest, frozen=True, kw_only=True, tag="close_exp
 
 @MESSAGES.register
 class RunExperiment(DocumentRequest, frozen=True, kw_only=True, tag="run_experiment"):
-    """Run the experiment in worker processes; a run that was stopped continues."""
+    """Run the experiment in worker processes, or on a cluster; a run that was stopped continues.
+
+    `workers` is the number of processes on this machine; 0: the usual one. `cluster` is an address as on the
+    command line, such as `local:4` or `tcp://HOST:8786`; empty: none. `patience` is the time in s without any
+    worker after which the run ends, `trust_network` allows a scheduler beyond this machine without
+    encryption, and `mixed` workers whose processors differ.
+    """
+
+    workers: Count = 0
+    cluster: Text = ""
+    patience: Annotated[float, msgspec.Meta(gt=0, le=1e7)] = 60.0
+    trust_network: bool = False
+    mixed: bool = False
 
 
 @MESSAGES.register
