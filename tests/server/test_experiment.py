@@ -24,6 +24,7 @@ from deodar.server.connection import PageConnection
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.open_experiment import OpenExperiment
 from deodar.server.project import ConfirmationRequired
+from deodar.server.run_place import RunPlace
 from deodar.server.to_page import Answer, ExperimentView
 from tests.server.page import WAIT, Page, play, studio
 
@@ -390,7 +391,7 @@ def test_one_run_starts_if_two_pages_ask_for_it_at_once(
     few().save(folder / "two-targets.json")
     started: list[ExperimentRun] = []
 
-    def start(run: ExperimentRun) -> None:
+    def start(run: ExperimentRun, place: RunPlace) -> None:
         run.state = "running"
         started.append(run)
 

@@ -69,7 +69,8 @@ class Cluster:
             raise WorkerError(
                 f"{what} beyond this machine, without encryption",
                 fix="Use a scheduler at tls://HOST:PORT; in a network of your own state that you trust it:"
-                " trust_network=True, on the command line --trust-network",
+                " trust_network=True, on the command line --trust-network, in the studio the box Trust the"
+                " network",
             )
 
     @classmethod

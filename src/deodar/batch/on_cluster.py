@@ -447,8 +447,8 @@ class ClusterPool:
             raise WorkerError(
                 f"{self.cluster.address} has had no worker for {self.cluster.patience:g} s",
                 fix="Start workers (dask worker ADDRESS --nthreads 1), or wait longer for them:"
-                " Cluster(..., patience=3600), on the command line --patience 3600. Then repeat the call: it"
-                " resumes",
+                " Cluster(..., patience=3600), on the command line --patience 3600, in the studio the field"
+                " Patience. Then repeat the call: it resumes",
             )
         wide = [f"{address} ({n})" for address, n in seen.workers.items() if n != 1]
         if wide:
@@ -497,7 +497,8 @@ class ClusterPool:
             raise WorkerError(
                 f"workers differ in their {name}: {self._class[name]!r} and {own[name]!r}, so that the last"
                 " digits of their rows may differ",
-                fix="Use workers of one kind, or allow it: mixed=True, on the command line --mixed",
+                fix="Use workers of one kind, or allow it: mixed=True, on the command line --mixed, in the"
+                " studio the box Mixed machines",
             )
         known = {name: text for name, text in about.items() if name != INSTRUCTIONS}
         self._known = dict(about)

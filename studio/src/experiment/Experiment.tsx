@@ -15,11 +15,13 @@ import { useEffect, useState } from "react";
 import { HistoryButtons } from "../header/UndoButtons";
 import { DotsMenu } from "../widgets/DotsMenu";
 import { ProblemText } from "../problems/ProblemText";
-import type { ExperimentView, RunView } from "../protocol";
+import type { ExperimentView, ListedProblem, RunView } from "../protocol";
 import { useStudio } from "../store";
 import { backToModel, close, create, open, redo, run, save, saveAs, stop, undo } from "./actions";
 import { Design } from "./Design";
+import { isStated, secondsText, standingLines, useRunPlace } from "./runPlace";
 import { Results } from "./Results";
+import { Where } from "./Where";
 
 export function Experiment() {
   const experiment = useStudio((state) => state.experiment);
@@ -87,6 +89,11 @@ function Opened({ experiment }: { experiment: ExperimentView }) {
 function Head({ experiment }: { experiment: ExperimentView }) {
   const { run: present, file, unsaved, trials, repeated, problems } = experiment;
   const running = present?.state === "running";
+  const followed = present?.state === "followed";
+  const place = useRunPlace();
+  // What is wrong with the place of a run that did not begin.
+  const [refused, setRefused] = useState<ListedProblem[]>([]);
+  useEffect(() => setRefused([]), [place, present?.state]);
   return (
     <>
       <div className="experiment-head">
@@ -96,6 +103,7 @@ function Head({ experiment }: { experiment: ExperimentView }) {
             variant="default"
             leftSection={<IconPlayerStopFilled size={14} />}
             aria-label="Stop the experiment"
+            disabled={present.stopping}
             onClick={() => void stop()}
           >
             Stop
@@ -105,8 +113,8 @@ function Head({ experiment }: { experiment: ExperimentView }) {
             size="compact-sm"
             leftSection={<IconPlayerPlayFilled size={14} />}
             aria-label={`${present?.state === "stopped" ? "Continue" : "Run"} the experiment`}
-            disabled={problems.length > 0 || repeated !== null}
-            onClick={() => void run()}
+            disabled={problems.length > 0 || repeated !== null || (followed && !unsaved) || !isStated(place)}
+            onClick={() => void run().then(setRefused)}
           >
             {present?.state === "stopped" ? "Continue" : "Run"}
           </Button>
@@ -137,7 +145,7 @@ function Head({ experiment }: { experiment: ExperimentView }) {
           <Menu.Item onClick={() => void close()}>Close</Menu.Item>
         </DotsMenu>
       </div>
-      {running && (
+      {(running || followed) && (
         <Progress
           size="xs"
           radius={0}
@@ -146,7 +154,9 @@ function Head({ experiment }: { experiment: ExperimentView }) {
           aria-label="Trials that have ended"
         />
       )}
-      {present?.problems.map((problem, i) => (
+      {present !== null && <Standing run={present} />}
+      {!running && !(followed && !unsaved) && <Where />}
+      {[...(present?.problems ?? []), ...refused].map((problem, i) => (
         <ProblemText key={i} problem={problem} />
       ))}
       {repeated !== null && (
@@ -166,16 +176,28 @@ function Head({ experiment }: { experiment: ExperimentView }) {
   );
 }
 
+function Standing({ run: present }: { run: RunView }) {
+  const lines = standingLines(present);
+  return (
+    lines.length > 0 && (
+      <ul className="experiment-standing dim numbers" aria-label="Standing of the experiment">
+        {lines.map((line) => (
+          <li key={line}>{line}</li>
+        ))}
+      </ul>
+    )
+  );
+}
+
 function statusText(present: RunView | null, trials: number, problems: number): string {
   if (present !== null) {
     const { rows, state, left } = present;
-    const time = state === "running" && left !== null ? `, ${secondsText(left)} left` : "";
-    const ended = state === "running" ? "" : state === "complete" ? ", complete" : `, ${state}`;
-    return `${rows} of ${present.trials} trials${time}${ended}`;
+    if (state !== "running" && state !== "followed") {
+      return `${rows} of ${present.trials} trials, ${state}`;
+    }
+    const share = `${Math.floor((100 * rows) / Math.max(1, present.trials))} %`;
+    const time = left === null ? "" : `, ${secondsText(left)} left`;
+    return `${rows} of ${present.trials} trials (${share})${time}`;
   }
   return problems > 0 ? "cannot run yet" : `${trials} trials`;
-}
-
-function secondsText(seconds: number): string {
-  return seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.ceil(seconds / 60)} min`;
 }

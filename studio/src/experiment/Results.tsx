@@ -47,9 +47,10 @@ function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
   const [most, setMost] = useState(MORE);
   const [busy, setBusy] = useState<number | null>(null);
   const repeated = useStudio((state) => state.experiment?.repeated);
+  const followed = useStudio((state) => state.experiment?.run?.state) === "followed";
   const sorted = useMemo(() => [...rows].sort((a, b) => a.trial - b.trial), [rows]);
   const replay = async (trial: number) => {
-    if (busy === null) {
+    if (busy === null && !followed) {
       setBusy(trial);
       await repeat(trial);
       setBusy(null);
@@ -58,7 +59,11 @@ function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
   return (
     <div className="experiment-scroll">
       <table className="experiment-table numbers">
-        <caption>A click on a row runs its trial again, bit for bit, and opens its record.</caption>
+        <caption>
+          {followed
+            ? "The trials can be run again when the experiment is complete."
+            : "A click on a row runs its trial again, bit for bit, and opens its record."}
+        </caption>
         <thead>
           <tr>
             <th scope="col">trial</th>
@@ -82,7 +87,7 @@ function Table({ rows, columns }: { rows: TrialRow[]; columns: Column[] }) {
                   mih={24}
                   miw={24}
                   aria-label={`Replay trial ${row.trial}`}
-                  disabled={busy !== null}
+                  disabled={busy !== null || followed}
                 >
                   {row.trial}
                 </UnstyledButton>

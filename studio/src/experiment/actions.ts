@@ -3,10 +3,11 @@
 import { ask } from "../dialogs/dialogs";
 import { done, leave, openExperiment, write, writeAs } from "../files/flows";
 import { same } from "../inspector/parameters/part";
-import type { Answer } from "../protocol";
+import type { Answer, ListedProblem } from "../protocol";
 import { request, socket } from "../socket";
 import { useStudio } from "../store";
 import type { Data } from "./draft";
+import { requestOf, useRunPlace } from "./runPlace";
 
 // The last change that was sent: the next one is made of the data after it.
 let before: Promise<unknown> = Promise.resolve();
@@ -47,7 +48,11 @@ export const redo = () => before.then(() => request({ type: "redo_experiment" })
 // Whether keys are meant for the experiment.
 export const hasFocus = (): boolean => document.activeElement?.closest(".experiment") != null;
 
-export const run = () => request({ type: "run_experiment" });
+// Run where the user chose; problems of the place are returned, for the panel.
+export async function run(): Promise<ListedProblem[]> {
+  const { answer } = await socket.ask({ type: "run_experiment", ...requestOf(useRunPlace.getState()) });
+  return answer.problems ?? [];
+}
 export const stop = () => request({ type: "stop_experiment" });
 export const repeat = (trial: number) => request({ type: "repeat_trial", trial });
 export const backToModel = () => request({ type: "leave_trial" });

@@ -31,6 +31,13 @@ test("columns are levels, outcome, duration, events and measures, one for each n
   expect(columnsOf([])).toEqual([]);
 });
 
+test("rows of mixed machines have a column of their machine", () => {
+  const mixed = [row(0, "near", { machine: "Linux x86_64 A" }), row(1, "near")];
+  const last = columnsOf(mixed).at(-1);
+  expect(last?.name).toBe("machine");
+  expect(mixed.map((one) => last?.of(one))).toEqual(["Linux x86_64 A", null]);
+});
+
 test("each combination of levels has its rows", () => {
   expect(conditionsOf(ROWS).map(({ label, short, rows }) => [label, short, rows.length])).toEqual([
     ["distance near, preshape 0", "near, 0", 1],

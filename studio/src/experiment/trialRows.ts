@@ -10,6 +10,8 @@ export type TrialRow = {
   duration: number | null;
   events: Record<string, number | null>;
   measures: Record<string, number | number[] | null>;
+  // Of a run on mixed machines.
+  machine?: string;
 };
 
 export type Cell = string | number | null;
@@ -47,6 +49,9 @@ export function columnsOf(rows: readonly TrialRow[]): Column[] {
         of: ({ measures }) => (measures[name] as number[] | null)?.[i] ?? null,
       }));
     }),
+    ...(rows.some(({ machine }) => machine !== undefined)
+      ? [{ name: "machine", sort: "level", of: ({ machine }) => machine ?? null } satisfies Column]
+      : []),
   ];
 }
 

@@ -1,0 +1,102 @@
+// Where the next run computes its trials: processes of this machine, or the workers of a cluster.
+
+import { Checkbox, NumberInput, SegmentedControl, TextInput } from "@mantine/core";
+
+import { useStudio } from "../store";
+import { PATIENCE, placeText, useRunPlace } from "./runPlace";
+
+export function Where() {
+  const place = useRunPlace();
+  const usual = useStudio((state) => state.welcome?.usual_workers) ?? 1;
+  return (
+    <details className="experiment-more experiment-where">
+      <summary>
+        Where: <span className="numbers">{placeText(place, usual)}</span>
+      </summary>
+      <SegmentedControl
+        size="xs"
+        fullWidth
+        aria-label="Where the trials run"
+        data={[
+          { value: "machine", label: "This machine" },
+          { value: "cluster", label: "A cluster" },
+        ]}
+        value={place.on}
+        onChange={(on) => useRunPlace.setState({ on: on === "cluster" ? "cluster" : "machine" })}
+      />
+      {place.on === "machine" ? <Processes /> : <ClusterForm />}
+    </details>
+  );
+}
+
+function Processes() {
+  const workers = useRunPlace((place) => place.workers);
+  const usual = useStudio((state) => state.welcome?.usual_workers) ?? 1;
+  const most = useStudio((state) => state.welcome?.most_workers) ?? usual;
+  return (
+    <NumberInput
+      label="Processes"
+      description="Each uses one core; at most one for each batch of trials."
+      size="xs"
+      min={1}
+      max={most}
+      allowDecimal={false}
+      clampBehavior="blur"
+      placeholder={String(usual)}
+      value={workers ?? ""}
+      onChange={(value) =>
+        useRunPlace.setState({ workers: typeof value === "number" && value >= 1 ? value : null })
+      }
+    />
+  );
+}
+
+function ClusterForm() {
+  const { address, patience, trust, mixed } = useRunPlace();
+  const free = useStudio((state) => state.welcome?.clusters) ?? false;
+  return (
+    <>
+      <TextInput
+        label="Address"
+        description={
+          free
+            ? "local:N processes, the scheduler at tcp://HOST:PORT or tls://HOST:PORT, or jobs as slurm:FILE states them."
+            : "Only local:N processes: this studio can be reached from other machines, or without a token."
+        }
+        size="xs"
+        placeholder="local:4"
+        autoComplete="off"
+        spellCheck={false}
+        value={address}
+        onChange={(event) => useRunPlace.setState({ address: event.currentTarget.value })}
+      />
+      <NumberInput
+        label="Patience"
+        description="Time without any worker after which the run ends; a day in a queue is 86400 s."
+        size="xs"
+        min={1}
+        max={1e7}
+        suffix=" s"
+        placeholder={`${PATIENCE} s`}
+        value={patience}
+        onChange={(value) =>
+          useRunPlace.setState({ patience: typeof value === "number" && value > 0 ? value : PATIENCE })
+        }
+      />
+      <Checkbox
+        label="Trust the network"
+        description="Without encryption, anyone in it who can connect to a scheduler or a worker can run programs there."
+        size="xs"
+        checked={trust}
+        onChange={(event) => useRunPlace.setState({ trust: event.currentTarget.checked })}
+      />
+      <Checkbox
+        label="Mixed machines"
+        description="Processors may differ, and so may the last digits: each row names its machine."
+        size="xs"
+        checked={mixed}
+        onChange={(event) => useRunPlace.setState({ mixed: event.currentTarget.checked })}
+      />
+    </>
+  );
+}
