@@ -79,6 +79,7 @@ SCRIPT = [
     "draw",
     "quote",
     "use_cores",
+    "join_hosts",
     "use_separate_rounding",
 ]
 """What a script calls, under `dd`."""

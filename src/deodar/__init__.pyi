@@ -53,6 +53,7 @@ from deodar.batch.on_cluster import ClusterPool as ClusterPool
 from deodar.batch.resume import resume as resume
 from deodar.batch.rounding import use_separate_rounding as use_separate_rounding
 from deodar.batch.simulate import simulate as simulate
+from deodar.compiler.hosts import join_hosts as join_hosts
 from deodar.couplings.adaptive_weights import AdaptiveWeights as AdaptiveWeights
 from deodar.couplings.attractor_velocity import AttractorVelocity as AttractorVelocity
 from deodar.couplings.axis_weights import AxisWeights as AxisWeights

@@ -142,6 +142,10 @@ class DeviceError(DeodarError):
     """Raised when a requested device does not exist, or JAX has started it in another way."""
 
 
+class HostsError(DeodarError):
+    """Raised when hosts that compute one model together differ, or one of them has ended."""
+
+
 class WorkerError(DeodarError):
     """Raised when worker processes cannot execute a run: an object cannot be pickled, or a worker has
     died.

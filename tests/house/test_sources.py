@@ -26,6 +26,7 @@ IMPORTERS = {
 # Names that are written once, when their module is imported, and hold something that could change; a `Family`
 # (family.py) is another, filled by the decorators of its own module.
 STATE = {
+    ("compiler.hosts", "_joined"): "JAX joins hosts once for the process",
     ("registry", "_kinds"): "the registry itself",
     ("server.handlers", "HANDLERS"): "the handlers of messages, filled by `handles` in the same file",
     (

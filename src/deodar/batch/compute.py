@@ -16,7 +16,7 @@ from deodar.batch.points import Points
 from deodar.batch.progress import Shown, bar
 from deodar.batch.request import SimulationRequest
 from deodar.compiler import device as devices
-from deodar.compiler import division
+from deodar.compiler import division, hosts
 from deodar.compiler.batch import Batch
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.program import Port
@@ -29,7 +29,7 @@ from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import show
 from deodar.recording.probe import Probe, probes
-from deodar.recording.provenance import provenance
+from deodar.recording.provenance import provenance, stored
 from deodar.session import memory
 from deodar.session.exchange import embodied
 from deodar.session.interrupt import stoppable
@@ -69,6 +69,8 @@ def compute(
     """
     sweep, precision, device = request.sweep, request.precision, request.device
     places = devices.several(request.devices, device)
+    across = hosts.span(places)
+    hosts.require_one("a world", across and world is not None)
     doc = require_model(model).document
     model.require()
     step = doc.step if request.dt is None else request.dt
@@ -108,16 +110,19 @@ def compute(
     asked = {"trials": labels, "sweep": listed, "workers": request.workers, "device": device}
     asked |= {"devices": len(places)} if request.devices is not None else {}
     asked |= {"own_noise": True} if own_noise else {}
+    if across:
+        _require_same(doc, float(step), request, {**asked, "out": out is not None})
     if isinstance(out, RunOutput):
         out.plan(points, cut, asked)
     if cut.count > 1:
+        hosts.require_one("workers or a cluster", across and spread is not None)
         jobs = cut.requests(dc.replace(request, dt=float(step)), labels, listed)
         assert not isinstance(out, OutputPart)
         run_there = None if spread is None else functools.partial(spread, model, world, jobs, out)
-        parts = _in_pieces(model, jobs, world, steps, progress, run_there, out)
+        parts = _in_pieces(model, jobs, world, steps, progress, run_there, out, across)
         return _whole(cut, parts, asked)
     stopped, nothing = False, None
-    with stoppable() as check:
+    with stoppable(across) as check:
         more_points, more_trials = _missing(request.width, points, len(numbers))
         wide = Batch(
             points.size + more_points if swept else None,
@@ -204,6 +209,15 @@ def compute(
     return pieces.PieceResult(data, True, nothing)
 
 
+def _require_same(doc: Document, step: float, request: SimulationRequest, asked: Mapping[str, Any]) -> None:
+    """Raise HostsError unless all hosts compute the same."""
+    hosts.require_equal("the model", stored(doc))
+    same = ("duration", "seed", "every", "record", "precision", "accuracy", "batch")
+    hosts.require_equal(
+        "the arguments of simulate", {**asked, "dt": step, **{name: getattr(request, name) for name in same}}
+    )
+
+
 def _whole(
     cut: pieces.Pieces, parts: Sequence[pieces.PieceResult | None], settings: Mapping[str, Any]
 ) -> pieces.PieceResult:
@@ -235,10 +249,11 @@ def _in_pieces(
     progress: Shown,
     run_there: Callable[[Callable[[int], None]], list[pieces.PieceResult | None]] | None,
     out: RunOutput | None,
+    across: bool,
 ) -> list[pieces.PieceResult | None]:
     """Compute the pieces one after another, or all by `run_there`, in worker processes."""
     parts: list[pieces.PieceResult | None] = [None] * len(jobs)
-    with stoppable() as check, bar(steps * len(jobs), progress) as shown:
+    with stoppable(across) as check, bar(steps * len(jobs), progress) as shown:
 
         def between(done: int) -> None:
             check()

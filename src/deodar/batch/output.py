@@ -14,6 +14,7 @@ import numpy as np
 from deodar import codec
 from deodar.batch.pieces import Pieces
 from deodar.batch.points import Points
+from deodar.compiler import hosts
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, RecordError
@@ -297,6 +298,49 @@ class RunOutput:
         return None
 
 
+class _NoSamples:
+    """A writer that drops all samples: another host writes them."""
+
+    def put(
+        self,
+        dimension: str,
+        times: np.ndarray,
+        arrays: Mapping[str, np.ndarray],
+        first: int | None = None,
+        region: Region = (),
+    ) -> None:
+        """Drop samples."""
+
+
+class OutputElsewhere(RunOutput):
+    """The record of a run that the first of several hosts writes, on the other hosts.
+
+    Args:
+        path: its path, for the Dataset that `close` returns.
+        snapshots: as in `RunOutput`.
+    """
+
+    def __init__(self, path: Path, snapshots: float | None) -> None:
+        self.path, self.snapshots, self.force = path, snapshots, False
+        self.state, self.state_file, self.resumes = None, "", False
+        self.writer, self.reasons, self.done = None, {}, []
+
+    def begin(self, empty: Callable[[], xarray.Dataset]) -> Any:
+        """Return a writer that drops all samples."""
+        return _NoSamples()
+
+    def store(self, run: Run, about: Mapping[str, Any]) -> None:
+        """Read the state of a run together with the first host, which stores it."""
+        checkpoint.taken(run, about)
+
+    def close(self) -> xarray.Dataset:
+        """Return a Dataset without samples, which names the record."""
+        # start-up time: this imports xarray
+        import xarray
+
+        return xarray.Dataset(attrs={"written_by": "host 0", "out": str(self.path)})
+
+
 class OutputPart:
     """The part of a record that one piece of a run writes."""
 
@@ -388,9 +432,9 @@ class OutputPart:
     def _save_if_due(self, run: Run, done: int) -> None:
         due = self.out.snapshots
         passed = (done - self._saved_at) * self.sampling.dt
-        if (due is not None and passed >= due) or (
-            due is None and time.monotonic() - self._saved >= CHECKPOINT_SECONDS
-        ):
+        now = passed >= due if due is not None else time.monotonic() - self._saved >= CHECKPOINT_SECONDS
+        # all hosts read a state together, so the clock of the first one decides
+        if hosts.of_first("a stored state", now, run.program.across):
             self._save(run, done)
 
     def _save(self, run: Run, done: int) -> None:

@@ -19,6 +19,7 @@ from deodar.batch.progress import Shown
 from deodar.batch.request import SimulationRequest
 from deodar.batch.simulate import warned
 from deodar.compiler import device as devices
+from deodar.compiler import hosts
 from deodar.errors import RecordError, WorkerError
 from deodar.recording import provenance
 from deodar.worlds._base import World
@@ -90,6 +91,7 @@ def resume(
         raise RecordError(
             "is complete", where=str(path), fix="Give a longer duration, for example --duration 1000"
         )
+    hosts.require_one("resuming a run", hosts.count() > 1)
     there = None if cluster is None else Cluster.of(cluster)
     if _pieces(settings) == 1:
         there = None

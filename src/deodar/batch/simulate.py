@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any
 from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_pieces import run as on_cluster
 from deodar.batch.compute import Spread, compute
-from deodar.batch.output import RunOutput
+from deodar.batch.output import OutputElsewhere, RunOutput
 from deodar.batch.points import Sweep
 from deodar.batch.progress import Shown
 from deodar.batch.request import SimulationRequest
 from deodar.batch.workers import run as in_workers
+from deodar.compiler import device as places
+from deodar.compiler import hosts
 from deodar.errors import DeodarError, Interrupted, NotFinite, ParameterError, RunWarning
 from deodar.model.model import Handle, Model
 from deodar.parameters import real
@@ -103,15 +105,17 @@ def simulate(
             that is slower. Double precision is always exact, and so are elements of which a width is swept.
         out: write the record to this place during the run: a name that ends in .zarr, or a folder,
             which gets the record and the model. Memory does not grow with what is recorded, and if the
-            process is killed the record ends less than a second before (`dd.resume` continues it).
+            process is killed the record ends less than a second before (`dd.resume` continues it). Of several
+            hosts the first one writes; the others return a Dataset without samples.
         snapshots: with `out`: document time between two stored states, from which `dd.resume` continues;
             none: about every 30 s of wall time.
         force: with `out`: whether to replace an existing record.
         own_noise: whether each point of a list has noise of its own instead; point 0 has that of a run
             without a sweep.
         devices: number of devices of the kind of `device` that share the copies in equal parts, or "all" of
-            them. A copy has the bits that it has in a batch of the size of one part. The fields of a single
-            run are divided along an axis. None: one device.
+            them; after `join_hosts` of all hosts, each of which returns the record. A copy has the bits that
+            it has in a batch of the size of one part. The fields of a single run are divided along an axis.
+            None: one device.
         cluster: workers on this or many machines that share the pieces, in place of `workers`: a
             `dd.Cluster`, or its address such as `local:4` or `tcp://HOST:8786`. Pieces are those without
             workers; `batch` makes them smaller. A run in one piece is computed in this process.
@@ -128,6 +132,7 @@ def simulate(
             pieces, if any.
         DeviceError: the device does not exist, or fewer devices than `devices`; or the fields cannot be
             divided.
+        HostsError: a host has ended, differs from the others, or cannot do on several what it is asked.
         WorkerError: a part of the model cannot be sent to another process, or a process has died.
         OutputExists: `out` exists.
         OutputError: samples cannot be written; those before are in the file.
@@ -152,8 +157,14 @@ def simulate(
         if given is not None and cluster is not None:
             raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
     spread = None if cluster is None else functools.partial(on_cluster, Cluster.of(cluster))
-    file = None if out is None else RunOutput(Path(out), force, snapshots)
-    return warned(model, request, world, progress, file, spread)
+    with hosts.together(devices is not None):
+        if out is None:
+            file = None
+        elif not hosts.first() and hosts.span(places.several(devices, device)):
+            file = OutputElsewhere(Path(out), snapshots)
+        else:
+            file = RunOutput(Path(out), force, snapshots)
+        return warned(model, request, world, progress, file, spread)
 
 
 def warned(

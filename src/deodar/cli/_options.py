@@ -181,6 +181,31 @@ def add_devices(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_hosts(parser: argparse.ArgumentParser) -> None:
+    """Add `--hosts`."""
+    parser.add_argument(
+        "--hosts",
+        type=hosts,
+        metavar="ADDRESS",
+        help=(
+            "with --devices: join the other hosts that run the same command: HOST:PORT,COUNT,INDEX with the"
+            " address of the first one, or auto under srun and mpirun"
+        ),
+    )
+
+
+def join_hosts(args: argparse.Namespace) -> None:
+    """Join the hosts of `--hosts`."""
+    if args.hosts is None:
+        return
+    if args.devices is None:
+        args.wrong("--hosts needs --devices all, or their number on all hosts together")
+    # start-up time: this brings JAX
+    from deodar.compiler.hosts import join_hosts as join
+
+    join(*args.hosts)
+
+
 def add_rounding(parser: argparse.ArgumentParser) -> None:
     """Add `--separate-rounding`."""
     parser.add_argument(
@@ -275,6 +300,18 @@ def several(text: str) -> int | str:
 
 
 several.__name__ = "whole number or all"
+
+
+def hosts(text: str) -> tuple[str] | tuple[str, int, int]:
+    """Parse `HOST:PORT,COUNT,INDEX`, or `auto`."""
+    if text == "auto":
+        return (text,)
+    address, *numbers = text.split(",")
+    if len(numbers) != 2 or not all(n.isdecimal() for n in numbers):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is neither auto nor of the form HOST:PORT,COUNT,INDEX such as node1:7007,2,0"
+        )
+    return address, int(numbers[0]), int(numbers[1])
 
 
 def positive(text: str) -> float:

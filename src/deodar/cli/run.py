@@ -45,6 +45,7 @@ OF_A_RECORD = (
     "precision",
     "workers",
     "devices",
+    "hosts",
     "cluster",
     "accuracy",
     "snapshots",
@@ -89,6 +90,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="share trials and sweep points among N processes of one core each",
     )
     _options.add_devices(parser)
+    _options.add_hosts(parser)
     _options.add_cluster(parser, "pieces of a large batch")
     parser.add_argument(
         "--sweep",
@@ -157,12 +159,21 @@ def run(args: argparse.Namespace) -> int:
     if not _is_record(args.file):
         _options.use_rounding(args.separate_rounding)
         _options.use_cores(args.cores)
+    if args.hosts is not None and (args.live or args.cost):
+        args.wrong("--live and --cost run on one host")
     if args.live or args.cost:
         return _live.run(args)
     _live.refuse_alone(args)
     if args.resume:
         return _resume(args)
-    return _repeat(args) if _is_record(args.file) else _simulate(args)
+    if _is_record(args.file):
+        return _repeat(args)
+    _options.join_hosts(args)
+    # start-up time: this brings JAX
+    from deodar.compiler import hosts
+
+    with hosts.together(args.hosts is not None):
+        return _simulate(args)
 
 
 def _is_record(path: Path) -> bool:
@@ -183,6 +194,7 @@ def _simulate(args: argparse.Namespace) -> int:
     # start-up time: these bring JAX
     from deodar.batch import points_file
     from deodar.batch.simulate import simulate
+    from deodar.compiler import hosts
     from deodar.importers.opening import load
 
     if args.duration is None and args.file.is_file():
@@ -194,14 +206,15 @@ def _simulate(args: argparse.Namespace) -> int:
     world = _options.world(args.world)
     if world is not None and world.wall_clock:
         args.wrong(f"the world {args.world} follows the wall clock, so the run needs --live")
-    _show_warnings(model, args.file, world)
+    if hosts.first():
+        _show_warnings(model, args.file, world)
     sweep: Sweep | None = dict(args.sweep) if args.sweep else None
     if args.points is not None:
         if sweep is not None:
             args.wrong("--points is a list and --sweep a grid; give one of them")
         sweep = points_file.read(args.points)
     cluster = _options.cluster(args)
-    place = _Place(args, model.name)
+    place = _Place(args, model.name) if hosts.first() else None
     step = model.document.step if args.dt is None else args.dt
 
     def simulated(duration: float, progress: bool | None = False, **into: Any) -> xarray.Dataset:
@@ -226,16 +239,19 @@ def _simulate(args: argparse.Namespace) -> int:
             **into,
         )
 
-    data, stopped, out = None, "", place.folder()
-    progress = False if args.no_progress or args.json else None
+    data, stopped, out = None, "", Path() if place is None else place.folder()
+    progress = False if args.no_progress or args.json or place is None else None
     try:
         with _said_here():
-            _confirm(args, args.duration, step, simulated)
+            if hosts.count() == 1:  # several have no terminal
+                _confirm(args, args.duration, step, simulated)
             data = simulated(
                 args.duration or 0.0, progress, out=out, snapshots=args.snapshots, force=args.force
             )
     except Interrupted as error:
         data, stopped = error.data, str(error)
+    if place is None:  # the first host writes, and says so
+        return 1 if stopped else 0
     return _finish(args, _Written(out, place), data, model.document, stopped, None)
 
 

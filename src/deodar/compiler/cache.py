@@ -22,6 +22,7 @@ import platformdirs
 from jax.experimental import serialize_executable
 from jax.stages import Compiled, Lowered
 
+from deodar.compiler import hosts
 from deodar.compiler.device import Device
 from deodar.model import output
 
@@ -59,10 +60,13 @@ def compile(
     place = folder()
     given = cast("dict[str, str | bool] | None", options)  # JAX accepts whole numbers, too
     if place is None:
+        hosts.any_of("the cache of programs", True, hosts.span((device, *others)))
         return lowered.compile(compiler_options=given), True
     path = place / key(lowered, options, device, kernels, others)
     found = _read(path, lowered, (device, *others))
-    if found is not None:
+    # hosts compile together, or not at all: some compilers exchange what they measure
+    missing = hosts.any_of("the cache of programs", found is None, hosts.span((device, *others)))
+    if found is not None and not missing:
         return found, False
     compiled = lowered.compile(compiler_options=given)
     _write(path, compiled)
@@ -94,6 +98,8 @@ def key(
         str(lowered.in_tree),
         kernels,
     ]
+    if topology := hosts.topology((device, *others)):
+        about.append(repr(topology))
     # an argument that is not used is missing in the text of the program, and is checked all the same when it
     # is called
     about.append(repr(lowered.args_info))

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import jax
 import numpy as np
 
+from deodar.compiler import hosts
 from deodar.errors import DeviceError
 from deodar.parameters import show
 
@@ -38,6 +39,7 @@ class Device(Protocol):
 
     platform: str
     id: int
+    process_index: int
     device_kind: str
     client: Any
 
@@ -66,10 +68,10 @@ def find(name: str | None = None) -> Device:
 
 def several(count: int | str | None, kind: str | None = None) -> tuple[Device, ...]:
     """The first `count` devices of a kind (`cpu`, `gpu`, `cuda`, `rocm`, `tpu`), `all` of them, or with None
-    the one that `find` returns.
+    the one that `find` returns. Hosts that have joined each give the same number of devices.
 
     Raises:
-        DeviceError: the number is not valid, or the computer has fewer devices of that kind.
+        DeviceError: the number is not valid, or the computer, or a host, has fewer devices of that kind.
     """
     first = find(kind)
     if count is None:
@@ -82,6 +84,8 @@ def several(count: int | str | None, kind: str | None = None) -> tuple[Device, .
         )
     if ":" in wanted:
         return (first,)
+    if hosts.count() > 1:
+        return _everywhere(count, wanted)
     found = _of(wanted)
     if isinstance(count, str) and count == ALL:
         return tuple(found)
@@ -94,6 +98,29 @@ def several(count: int | str | None, kind: str | None = None) -> tuple[Device, .
             fix=f"Type devices={len(found)} or devices={ALL!r}{more if wanted == 'cpu' else ''}",
         )
     return tuple(found[:count])
+
+
+def _everywhere(count: int | str, kind: str) -> tuple[Device, ...]:
+    """Return devices of all hosts, of each the same number."""
+    found = [[d for d in jax.devices(kind) if d.process_index == k] for k in range(hosts.count())]
+    numbers = [len(own) for own in found]
+    if isinstance(count, str) and count == ALL:
+        if len(set(numbers)) > 1:
+            listed = ", ".join(f"host {k}: {n}" for k, n in enumerate(numbers))
+            raise DeviceError(
+                f"the hosts have different numbers of devices of the kind {kind} ({listed})",
+                fix=f"Type devices={min(numbers) * len(numbers)}",
+            )
+        each = numbers[0]
+    else:
+        each, rest = divmod(require_count(count), len(numbers))
+        if rest or each > min(numbers):
+            raise DeviceError(
+                f"{count} devices of the kind {kind} are asked for on {len(numbers)} hosts, of which each has"
+                f" at least {min(numbers)}",
+                fix=f"Type a multiple of {len(numbers)} up to {min(numbers) * len(numbers)}, or {ALL!r}",
+            )
+    return tuple(d for own in found for d in own[:each])
 
 
 def require_count(count: object) -> int:

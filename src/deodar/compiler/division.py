@@ -10,6 +10,7 @@ import jax
 import numpy as np
 from jax.sharding import Mesh, NamedSharding, PartitionSpec
 
+from deodar.compiler import hosts
 from deodar.compiler.arguments import ProgramArguments
 from deodar.compiler.batch import Batch, Divided
 from deodar.compiler.device import Device, name
@@ -35,6 +36,16 @@ class Distribution:
     def key(self) -> Hashable:
         """A key whose change requires a new program."""
         return (self.along, tuple(map(name, self.devices)))
+
+    @property
+    def across(self) -> bool:
+        """Whether the devices belong to several hosts."""
+        return hosts.span(self.devices)
+
+    @property
+    def own(self) -> Device:
+        """The first device that belongs to this host."""
+        return hosts.own(self.devices)
 
     def part(self, batch: Batch) -> Batch:
         """Return the copies that one device computes."""
@@ -117,7 +128,8 @@ def distributed(batch: Batch, devices: tuple[Device, ...]) -> tuple[Distribution
     """Return the distribution of a batch among devices, and the batch with the copies that fill it up.
 
     The larger number of points or trials is divided. All parts have the size of the largest, and devices that
-    would get none are left out. A single copy has its fields divided.
+    would get none are left out, except where they belong to several hosts. A single copy has its fields
+    divided.
 
     Raises:
         DeviceError: the batch has one trial or point, which is computed as a batch.
@@ -134,7 +146,8 @@ def distributed(batch: Batch, devices: tuple[Device, ...]) -> tuple[Distribution
     points, trials = batch.points or 1, batch.trials or 1
     copies = max(points, trials)
     part = -(-copies // len(devices))
-    used = -(-copies // part)
+    # every host runs the program, even if its copies only fill up the batch
+    used = len(devices) if hosts.span(devices) else -(-copies // part)
     if points >= trials:
         return Distribution(devices[:used], "points"), dc.replace(batch, points=used * part)
     return Distribution(devices[:used], "trials"), dc.replace(batch, trials=used * part)

@@ -20,7 +20,7 @@ from jax import Array, lax
 from jax.sharding import Sharding
 from jax.stages import Compiled, Traced
 
-from deodar.compiler import cache, host
+from deodar.compiler import cache, host, hosts
 from deodar.compiler import device as devices
 from deodar.compiler.arguments import (
     EitherArray,
@@ -100,8 +100,9 @@ class Executable:
 
     Attributes:
         plan: the plan they compute.
-        device: where they run; of several devices the first.
+        device: where they run; of several devices the first that belongs to this host.
         distribution: the devices among which a program is divided; None: it runs on one.
+        across: whether these devices belong to several hosts.
         division: how it is divided among them.
         fields: the same, if the fields of one copy are divided.
         part: the copies that one device computes.
@@ -124,6 +125,7 @@ class Executable:
     ) -> None:
         began = time.process_time()
         self.distribution = distribution
+        self.across = distribution is not None and distribution.across
         self.device: Device = device or devices.find()
         self.precision, self.exact = precision, exact
         self.batch = batch
@@ -234,7 +236,7 @@ class Executable:
         forms: PyTree = getattr(self._example, part)
         own = {key: forms[key] for key in tree} if isinstance(tree, dict) else forms
         with precision_context(self.precision):
-            return jax.tree.map(lambda a, form: jax.device_put(a, form.sharding), tree, own)
+            return jax.tree.map(lambda a, form: hosts.placed(a, form.sharding), tree, own)
 
     def chunk(self, ports: Sequence[Port], most: int | None = None) -> tuple[Compiled, int]:
         """Return the executable that steps and records, and the capacity of its buffer in records.
@@ -284,10 +286,13 @@ class Executable:
         readings = {ident: sensed[ident] for ident in self.program.pictures}
         return self.call(self._known["look"], values, constants, readings)
 
-    def call(self, executable: Callable[..., Any], *args: Any) -> Any:
+    def call(self, executable: Callable[..., Any] | Compiled, *args: Any) -> Any:
         """Run an executable in the precision it was compiled for."""
         with precision_context(self.precision):
-            return executable(*args)
+            if not self.across or not isinstance(executable, Compiled):
+                return executable(*args)
+            with hosts.calling(True):
+                return executable(*jax.tree.map(_argument, args, executable.input_shardings[0]))
 
     def port(self, ident: str, name: str) -> Port:
         """Return the port of an element in the program."""
@@ -480,7 +485,8 @@ class Executable:
     ) -> tuple[Compiled, PyTree]:
         """The executable of a function for arguments of these shapes, and the shapes of what it returns."""
         with self._settings():
-            return self._compiled(self._traced(function, *args), options)
+            places = (self.device,) if self.distribution is None else self.distribution.devices
+            return self._compiled(self._traced(function, *args), options, places)
 
     def once(self, function: Callable[..., Any], *args: Any) -> tuple[Callable[..., Any], PyTree]:
         """The same for a function that runs once, or when a width changes: evaluated with NumPy where that is
@@ -490,7 +496,7 @@ class Executable:
             traced = self._traced(function, *args)
             if host.supports(traced.jaxpr.jaxpr):
                 return self._evaluated(traced), traced.out_info
-            return self._compiled(traced, RARELY)
+            return self._compiled(traced, RARELY, (self.device,))
 
     @contextlib.contextmanager
     def _settings(self) -> Generator[None]:
@@ -511,13 +517,15 @@ class Executable:
         # the cache
         return jax.jit(function, keep_unused=True).trace(*args)
 
-    def _compiled(self, traced: Traced, options: cache.CompilerOptions | None) -> tuple[Compiled, PyTree]:
+    def _compiled(
+        self, traced: Traced, options: cache.CompilerOptions | None, places: Sequence[Device]
+    ) -> tuple[Compiled, PyTree]:
         executable, fresh = cache.compile(
             traced.lower(),
             {**cache.options(self.device), **(options or {})},
-            self.device,
+            places[0],
             native.version(self.kernels),
-            () if self.distribution is None else self.distribution.devices[1:],
+            places[1:],
         )
         self.compiled += fresh
         return executable, traced.out_info
@@ -538,6 +546,11 @@ class Executable:
             g, _ = self.plan.row[ident]
             out[ident] = np.zeros(shape(self.plan.groups[g].like.outs["output"]), self.program.dtype)
         return out
+
+
+def _argument(a: Any, sharding: Sharding) -> Any:
+    """Return an argument where a program of several hosts expects it; JAX places what all devices have."""
+    return a if sharding.is_fully_replicated else hosts.placed(a, sharding)
 
 
 def _unswept(values: ProgramValues) -> ProgramValues:
@@ -580,7 +593,7 @@ def executable(
     """
     batch, doc = batch or Batch(), doc or model.document
     distribution = device if isinstance(device, Distribution) else None
-    place = devices.find(device) if not isinstance(device, Distribution) else device.devices[0]
+    place = devices.find(device) if not isinstance(device, Distribution) else device.own
     if precision not in PRECISIONS:
         raise ParameterError(f"precision is {precision!r}; expected float32 or float64")
     if accuracy not in ACCURACIES:

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from deodar.codec import Json, JsonObject
+from deodar.compiler import hosts
 from deodar.compiler.device import cores
 from deodar.compiler.rounding import SEPARATELY, separate_rounding
 from deodar.model import files
@@ -41,6 +42,7 @@ def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
             run.program.device,
             run.program.precision,
             1 if run.program.distribution is None else len(run.program.distribution.devices),
+            hosts.count() if run.program.fields is not None and run.program.across else 1,
         ),
     }
 
@@ -52,9 +54,10 @@ def stored(doc: Document) -> JsonObject:
     return {"document": data, "arrays": packed}
 
 
-def made_by(device: Any, precision: str = "float32", devices: int = 1) -> dict[str, str]:
-    """Return versions, device and machine, the cores and the number of devices of a divided program, because
-    they change the order of sums, and the rounding if it is not the default one.
+def made_by(device: Any, precision: str = "float32", devices: int = 1, joined: int = 1) -> dict[str, str]:
+    """Return versions, device and machine, the cores and the numbers of devices and of hosts that have joined
+    for a divided program, because they change the order of sums, and the rounding if it is not the default
+    one.
 
     The compiled kernels are named where programs of this precision call them.
     """
@@ -65,6 +68,7 @@ def made_by(device: Any, precision: str = "float32", devices: int = 1) -> dict[s
         {"cores": str(cores())} if device.platform == "cpu" else {}
     )
     where |= {"devices": str(devices)} if devices > 1 else {}
+    where |= {"hosts": str(joined)} if joined > 1 else {}
     rounding = {"rounding": SEPARATELY} if separate_rounding() else {}
     return versions | {"python": platform.python_version(), **where, **rounding, "machine": machine()}
 

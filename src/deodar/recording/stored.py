@@ -17,6 +17,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.codec import JsonObject
+from deodar.compiler import hosts
 from deodar.errors import RecordError
 from deodar.model import output
 from deodar.numerics.pytree import PyTree
@@ -31,7 +32,7 @@ def leaves(tree: PyTree, of: str) -> list[np.ndarray]:
     Raises:
         RecordError: a leaf is not a number, array, truth value or text; `of` names its owner.
     """
-    found = [np.array(leaf) for leaf in jax.tree.leaves(tree)]
+    found = [np.array(hosts.gathered(leaf)) for leaf in jax.tree.leaves(tree)]
     for leaf in found:
         if leaf.dtype.kind not in "biufcU":
             raise RecordError(
@@ -48,7 +49,7 @@ def filled(template: PyTree, stored: Sequence[np.ndarray], of: str) -> PyTree:
         RecordError: the number, shapes or types of the leaves differ; `of` names their owner.
     """
     here, structure = jax.tree.flatten(template)
-    own = [np.asarray(leaf) for leaf in here]
+    own = [hosts.gathered(leaf) for leaf in here]
     if [(a.shape, a.dtype.kind) for a in own] != [(a.shape, a.dtype.kind) for a in stored]:
         raise RecordError(f"the stored state of {of} does not fit: it is of another model or world")
     return jax.tree.unflatten(structure, list(stored))

@@ -18,15 +18,22 @@ class SecondInterrupt(KeyboardInterrupt):
 
 
 @contextlib.contextmanager
-def stoppable() -> Generator[Callable[[], None]]:
+def stoppable(across: bool = False) -> Generator[Callable[[], None]]:
     """Yield a function to call between chunks: it raises KeyboardInterrupt if Ctrl-C was pressed since.
 
-    Outside the main thread, the only one that receives signals, the function does nothing.
+    Outside the main thread, the only one that receives signals, the function does nothing. In a run `across`
+    hosts it raises on all of them, whichever was interrupted.
     """
     asked: list[int] = []
 
     def check() -> None:
-        if asked:
+        stop = bool(asked)
+        if across:
+            # start-up time: this brings JAX
+            from deodar.compiler import hosts
+
+            stop = hosts.any_of("Ctrl-C", stop, across)
+        if stop:
             raise KeyboardInterrupt
 
     def ask(number: int, frame: FrameType | None) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from jax import Array
 from jax.stages import Compiled
 
+from deodar.compiler import hosts
 from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
 from deodar.compiler.executable import ChunkResult, Executable, TrialNumbers
@@ -190,7 +191,7 @@ class Run:
                 used = gap + (records - 1) * every
                 seen = self._chunk(chunk, {"head": gap, "every": every, "records": records}, used)
                 kept = tuple(
-                    np.asarray(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)]
+                    hosts.gathered(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)]
                     for a in seen
                 )
                 self._require_finite(ports, kept, every)
@@ -226,7 +227,7 @@ class Run:
         began = time.perf_counter()
         before = self.state
         state, seen, finite = self._call(chunk, before, counts)
-        good = np.asarray(finite[0])
+        good = hosts.gathered(finite[0])
         if not good.all():
             if self._keeps_others():
                 self._lose(self._diverged(before, used, self._new(~good)))
@@ -256,7 +257,7 @@ class Run:
         seen = self.program.call(
             reader, self._values(), self.constants, self.state, self.keys, self.readings(), *self._now()
         )
-        return [np.asarray(a) for a in seen]
+        return [hosts.gathered(a) for a in seen]
 
     def read_arrays(self, reader: Compiled) -> Sequence[np.ndarray]:
         """Return the values of a compiled reader in the present state."""
@@ -267,7 +268,7 @@ class Run:
 
     def row(self, group: int, row: int) -> dict[str, np.ndarray]:
         """Return the state of one element of a single run."""
-        return {name: np.asarray(values[row]) for name, values in self.state["groups"][group].items()}
+        return {name: hosts.gathered(values)[row] for name, values in self.state["groups"][group].items()}
 
     def put_row(self, group: int, row: int, state: Mapping[str, np.ndarray]) -> None:
         """Replace the state of one element of a single run."""
@@ -298,8 +299,12 @@ class Run:
         return self.values if self.shared is None else {**self.values, "world": self.shared}
 
     def _chunk_steps(self) -> int:
-        """Return the number of steps that take about CHUNK_SECONDS; the first chunk measures the pace."""
-        return max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else self.probe
+        """Return the number of steps that take about CHUNK_SECONDS; the first chunk measures the pace.
+
+        On several hosts the first one decides, and all hear before a chunk whether one has ended the run.
+        """
+        n = max(1, min(100_000_000, int(self.pace * CHUNK_SECONDS))) if self.pace else self.probe
+        return hosts.of_first("the steps of a chunk", n, self.program.across)
 
     # ------------------------------------------------------------------------------------------------- worlds
 
@@ -388,7 +393,7 @@ class Run:
 
         def bad(n: int) -> list[np.ndarray]:
             _, _, finite = self._call(chunk, before, {"head": n, "every": 0, "records": 0})
-            return [~np.asarray(f) for f in finite[1]]
+            return [~hosts.gathered(f) for f in finite[1]]
 
         groups = self.program.plan.groups
         found = first_steps(bad, 0, max(used, 1), copies)
@@ -545,4 +550,4 @@ def whole(duration: float, dt: float, what: str) -> int:
 
 def host(tree: PyTree) -> PyTree:
     """Copy a PyTree of arrays to the host."""
-    return jax.tree.map(lambda a: np.array(a), tree)
+    return jax.tree.map(lambda a: np.array(hosts.gathered(a)), tree)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar import renamed
+from deodar.compiler import hosts
 from deodar.compiler.arguments import ProgramValues
 from deodar.compiler.batch import Batch
 from deodar.compiler.device import several
@@ -29,7 +30,7 @@ from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
 from deodar.recording.probe import Probe, probes
-from deodar.recording.provenance import described
+from deodar.recording.provenance import described, stored
 from deodar.session import agreement, memory, rearrange
 from deodar.session.changes import LeafChange, changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
@@ -70,7 +71,7 @@ class Session:
         accuracy: default, or exact: every kernel is applied as a matrix, however slow (float64 always does
             so).
         devices: number of devices of the kind of `device` that divide the fields, or "all" of them; None: one
-            device.
+            device. After `join_hosts` they are those of all hosts, and every host calls the same methods.
 
     Attributes:
         device: the device, as given.
@@ -104,6 +105,12 @@ class Session:
         self._recorder: Recorder | None = None
         self._ports: dict[str, tuple[Executable, Port]] = {}
         doc = require_model(model).document
+        across = self._distribution is not None and self._distribution.across
+        hosts.require_one("a world", across and world is not None)
+        if across:
+            about = {"dt": dt, "seed": seed, "trial": trial, "precision": precision, "accuracy": accuracy}
+            hosts.require_equal("the model", stored(doc))
+            hosts.require_equal("the arguments of the session", about)
         model.require()
         memory.require(resolve(doc)[0], precision, 1, 0)
         step = doc.step if dt is None else dt
@@ -144,6 +151,7 @@ class Session:
         """Advance by a duration in document time, paced to the wall clock; see
         `deodar.session.run_live.run_live`.
         """
+        hosts.require_one("a run that follows the wall clock", self.program.across)
         return run_live(self, duration, speed, longest_step, between)
 
     def costs(self, seconds: float = SECONDS) -> StepCost:
@@ -404,6 +412,7 @@ class Session:
             OutputError: it cannot be written.
             ParameterError: the session is recorded already, or a port is named twice.
         """
+        hosts.require_one("the record of a session", self.program.across)
         if self._recorder is not None and self._recorder.open:
             raise ParameterError(
                 f"the session is recorded already, into {self._recorder.path}",
@@ -505,6 +514,7 @@ class Session:
 
     @world.setter
     def world(self, world: World | None) -> None:
+        hosts.require_one("a world", self.program.across and world is not None)
         self._run.see(world)
         self.journal.append(Change(self.tick, "world", described(world)))
 

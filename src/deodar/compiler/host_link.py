@@ -1,0 +1,323 @@
+"""The lines of text between hosts that compute one model together: each is linked with the first one.
+
+A message is a line of JSON. Links also carry signs of life, so that a host whose process, computer or network
+has ended is known after `SILENT` seconds, and one whose process has ended at once.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib.metadata
+import os
+import queue
+import socket
+import sys
+import threading
+import time
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from deodar import codec
+from deodar.errors import HostsError, show
+
+BEAT = 1.0
+"""Seconds between two signs of life of a host."""
+
+SILENT = 15.0
+"""Seconds without a sign of life after which a host counts as ended."""
+
+STUCK = 5.0
+"""Seconds in a program without one of its hosts after which the process ends, because nothing else ends the
+program.
+"""
+
+PARTING = 5.0
+"""Most seconds that the first host waits for the others before it ends, after an error."""
+
+RETRY = 0.2
+"""Seconds between two attempts to reach the first host."""
+
+Message = dict[str, Any]
+
+
+class HostLinks:
+    """The links of this host: with all others on the first host, with the first one on the others.
+
+    Args:
+        links: the sockets by the number of the other host.
+        index: number of this host.
+        count: number of hosts.
+        timeout: seconds after which a host that does not answer is given up.
+
+    Attributes:
+        lost: the hosts that have ended.
+        inside: since when this process waits in a program of several hosts; 0: it does not.
+        failed: whether the run has ended with an error.
+    """
+
+    def __init__(self, links: Mapping[int, socket.socket], index: int, count: int, timeout: float) -> None:
+        self.index, self.count, self.timeout = index, count, timeout
+        self.lost: set[int] = set()
+        self.inside = 0.0
+        self.failed = False
+        self._links = dict(links)
+        self._number = 0
+        self._inbox: dict[int, queue.SimpleQueue[Message | None]] = {k: queue.SimpleQueue() for k in links}
+        self._heard = dict.fromkeys(links, time.monotonic())
+        self._sending = threading.Lock()
+        self._closed = threading.Event()
+
+    def begin(self) -> None:
+        """Read what the others send from now on, and give signs of life."""
+        for k in self._links:
+            threading.Thread(target=self._read, args=(k,), daemon=True, name=f"deodar-host-{k}").start()
+        threading.Thread(target=self._live, daemon=True, name="deodar-hosts").start()
+
+    def end(self) -> None:
+        """Let the first host end last: JAX would end the others with an error."""
+        until = time.monotonic() + (PARTING if self.failed else self.timeout)
+        while self.index == 0 and len(self.lost) < self.count - 1 and time.monotonic() < until:
+            time.sleep(0.01)
+
+    def close(self) -> None:
+        """Close the links; the others find that this host has ended."""
+        self._closed.set()
+        for link in self._links.values():
+            with contextlib.suppress(OSError):
+                link.shutdown(socket.SHUT_RDWR)
+            link.close()
+
+    # ---------------------------------------------------------------------------------------------- exchanges
+
+    def exchange(self, what: str, said: Any) -> list[Any]:
+        """Return what every host says about `what` (plain data), in order of the hosts.
+
+        Raises:
+            HostsError: one does not answer, is somewhere else in its script, or has ended its run.
+        """
+        self._number += 1
+        own: Message = {"n": self._number, "what": what, "said": said}
+        try:
+            if self.index:
+                self._send(0, own)
+                found: list[Message] = self._hear(0, what)["all"]
+            else:
+                found = [own, *(self._hear(k, what) for k in range(1, self.count))]
+                self._send_all({"n": self._number, "all": found})
+        except HostsError:
+            self.failed = True
+            raise
+        for k, one in enumerate(found):
+            if "left" in one:
+                self.failed = True
+                raise HostsError(
+                    f"host {k} has ended the run: {one['left']}", fix="The output of that host has the cause"
+                )
+            if one["what"] != what:
+                self.failed = True
+                raise HostsError(
+                    f"host {k} is at {one['what']!r} of its script, host {self.index} at {what!r}",
+                    fix="Run the same script with the same arguments on all hosts",
+                )
+        return [one["said"] for one in found]
+
+    def leave(self, reason: str) -> None:
+        """Tell the others, at their next exchange, that the run has ended here."""
+        self._number += 1
+        left: Message = {"n": self._number, "left": reason}
+        if self.index:
+            self._send(0, left)
+        else:
+            self._send_all({"n": self._number, "all": [left]})
+
+    def lost_soon(self) -> None:
+        """Wait a moment for the message that a host has ended, after an error of a program."""
+        until = time.monotonic() + 2 * BEAT
+        while not self.lost and time.monotonic() < until:
+            time.sleep(0.01)
+
+    def _hear(self, k: int, what: str) -> Message:
+        until = time.monotonic() + self.timeout
+        while True:
+            try:
+                found = self._inbox[k].get(timeout=max(0.0, until - time.monotonic()))
+            except queue.Empty:
+                raise HostsError(
+                    f"host {k} has not answered for {self.timeout:g} s",
+                    where=what,
+                    fix="Its script may do something else; or give join_hosts a longer timeout",
+                ) from None
+            if found is None:
+                self._inbox[k].put(None)  # also for the next one who asks
+                raise HostsError(
+                    lost_hosts(self.lost) or f"host {k} has ended",
+                    fix="Its output has the cause. Start the run again on all hosts",
+                )
+            if found["n"] >= self._number:  # else it belongs to a run that has ended here
+                return found
+
+    def _send(self, k: int, message: Message) -> None:
+        with contextlib.suppress(OSError), self._sending:  # its reader finds that it has ended
+            self._links[k].sendall(f"{codec.line(message)}\n".encode())
+
+    def _send_all(self, message: Message) -> None:
+        for k in self._links:
+            self._send(k, message)
+
+    # ------------------------------------------------------------------------------------------ signs of life
+
+    def _read(self, k: int) -> None:
+        with contextlib.suppress(OSError, ValueError), self._links[k].makefile("r", encoding="utf-8") as file:
+            for line in file:
+                found = codec.parse(line)
+                assert isinstance(found, dict)
+                self._heard[k] = time.monotonic()
+                if "lost" in found:
+                    self._lose(int(str(found["lost"])))
+                elif "n" in found:
+                    self._inbox[k].put(found)
+        self._lose(k)
+
+    def _live(self) -> None:
+        while not self._closed.wait(BEAT):
+            self._send_all({"beat": self.index})
+            now = time.monotonic()
+            for k in [k for k, heard in self._heard.items() if now - heard > SILENT]:
+                self._lose(k)
+            since = self.inside
+            if self.lost and since and now - since > STUCK:
+                sys.stderr.write(f"deodar: {lost_hosts(self.lost)}, so this process ends\n")
+                sys.stderr.flush()
+                os._exit(1)
+
+    def _lose(self, k: int) -> None:
+        if k in self.lost:
+            return
+        self.lost.add(k)
+        if self.index == 0:
+            self._send_all({"lost": k})
+        for inbox in self._inbox.values() if self.index else [self._inbox[k]]:
+            inbox.put(None)
+
+
+def lost_hosts(lost: Collection[int]) -> str:
+    """Return the sentence that these hosts have ended; "" for none."""
+    if not lost:
+        return ""
+    named = ", ".join(map(str, sorted(lost)))
+    return f"host {named} has ended" if len(lost) == 1 else f"the hosts {named} have ended"
+
+
+def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLinks, int]:
+    """Return the links with the other hosts, and a port of the first host that is free for JAX.
+
+    Raises:
+        HostsError: one does not come in time, or differs in the number of hosts or in versions.
+    """
+    host, _, port = address.rpartition(":")
+    hello: Message = {"host": index, "about": {"hosts": count, **_versions()}}
+    until = time.monotonic() + timeout
+    if index:
+        link, answer = _call((host.strip("[]"), int(port)), hello, until, timeout)
+        links = {0: link}
+        if "error" in answer:
+            link.close()
+            raise HostsError(answer["error"], fix="Install the same versions and start all hosts alike")
+        found = int(answer["port"])
+    else:
+        links = _welcome(int(port), count, hello, until, timeout)
+        with socket.create_server(("", 0)) as free:
+            found = int(free.getsockname()[1])
+        for link in links.values():
+            link.sendall(f"{codec.line({'port': found})}\n".encode())
+    for link in links.values():
+        link.settimeout(None)
+        link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return HostLinks(links, index, count, timeout), found
+
+
+def _versions() -> dict[str, str]:
+    return {name: importlib.metadata.version(name) for name in ("deodar", "jax", "jaxlib", "numpy")}
+
+
+def _call(
+    place: tuple[str, int], hello: Message, until: float, timeout: float
+) -> tuple[socket.socket, Message]:
+    """Reach the first host, and wait for its answer, which it gives when all have come."""
+    reason = "no answer"
+    while time.monotonic() < until:
+        link = None
+        try:
+            link = socket.create_connection(place, max(0.1, until - time.monotonic()))
+            link.sendall(f"{codec.line(hello)}\n".encode())
+            # a little longer than the first host waits, so that it is the one that says who is missing
+            link.settimeout(max(0.1, until - time.monotonic()) + 2 * RETRY)
+            if answer := _line(link):
+                return link, answer
+        except OSError as error:
+            reason = error.strerror or str(error)
+        if link is not None:
+            link.close()
+        time.sleep(RETRY)
+    raise HostsError(
+        f"the first host cannot be reached at {place[0]}:{place[1]} within {timeout:g} s, or not all hosts"
+        f" have come ({reason})",
+        fix="Start the same script on every host; the address is that of host 0",
+    )
+
+
+def _welcome(port: int, count: int, hello: Message, until: float, timeout: float) -> dict[int, socket.socket]:
+    """Wait on the first host for all others."""
+    links: dict[int, socket.socket] = {}
+    both = socket.has_dualstack_ipv6()
+    try:
+        family = socket.AF_INET6 if both else socket.AF_INET
+        server = socket.create_server(("", port), family=family, backlog=count, dualstack_ipv6=both)
+    except OSError as error:
+        raise HostsError(
+            f"port {port} cannot be opened on this host ({error.strerror})", fix="Choose another port"
+        ) from None
+    with server:
+        while len(links) < count - 1 and time.monotonic() < until:
+            server.settimeout(max(0.01, until - time.monotonic()))
+            with contextlib.suppress(TimeoutError):
+                link, _ = server.accept()
+                link.settimeout(2.0)
+                found = _line(link)
+                k = found.get("host")
+                if not isinstance(k, int) or not 0 < k < count or k in links:
+                    _refuse([link], f"host {show(k)} is not one of {count}, or has come already")
+                    continue
+                links[k] = link
+                if found.get("about") != hello["about"]:
+                    text = f"host {k} differs from host 0: {found.get('about')} and {hello['about']}"
+                    _refuse(links.values(), text)
+                    raise HostsError(text, fix="Install the same versions and start all hosts alike")
+    if len(links) < count - 1:
+        missing = ", ".join(str(k) for k in range(1, count) if k not in links)
+        text = f"host {missing} has not come within {timeout:g} s"
+        _refuse(links.values(), text)
+        raise HostsError(text, fix="Start the same script on every host, with its own number")
+    return links
+
+
+def _refuse(links: Collection[socket.socket], reason: str) -> None:
+    for link in links:
+        with contextlib.suppress(OSError), link:
+            link.sendall(f"{codec.line({'error': reason})}\n".encode())
+
+
+def _line(link: socket.socket) -> Message:
+    """Return the first message of a link; empty if it is none."""
+    text = b""
+    while not text.endswith(b"\n") and len(text) < 2**16:
+        # byte by byte: what follows belongs to the reader
+        one = link.recv(1)
+        if not one:
+            return {}
+        text += one
+    try:
+        found = codec.parse(text.decode())
+    except ValueError:
+        return {}
+    return found if isinstance(found, dict) else {}

@@ -1,0 +1,287 @@
+"""Several hosts that compute one model together: how they join, agree and share what they read.
+
+Each host runs the same script in a process of its own. Arrays of a divided program lie on devices of all
+hosts; a host reads them by a gather, which all hosts call. What depends on one host alone (its clock,
+Ctrl-C, an error) the hosts exchange before each chunk (`host_link.py`), so that one of them ends the run of
+all, instead of leaving the others in a program that waits for it.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import hashlib
+import os
+import sys
+import time
+from collections.abc import Generator, Hashable, Sequence
+from typing import Any, TypeVar
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.experimental import multihost_utils
+from jax.sharding import Mesh, NamedSharding, PartitionSpec, Sharding
+
+from deodar import codec
+from deodar.compiler.host_link import HostLinks, lost_hosts, meet
+from deodar.errors import HostsError, ParameterError, first_line, show
+
+T = TypeVar("T")
+
+TIMEOUT = 60.0
+"""Seconds after which a host that does not answer is given up, unless `join_hosts` states another time."""
+
+AUTO = "auto"
+"""Address that stands for what SLURM or Open MPI state in the environment."""
+
+SHOWN = 300
+"""Longest text of a value that an error shows; longer ones are compared by a hash."""
+
+_joined: list[HostLinks] = []
+"""The links to the other hosts; empty on one host."""
+
+
+def join_hosts(
+    address: str = AUTO, count: int | None = None, index: int | None = None, timeout: float = TIMEOUT
+) -> None:
+    """Join the other hosts that run the same script, so that they compute one model together.
+
+    Call it before the first run, on every host, and after `use_cores`. From then on `devices="all"` means the
+    devices of all hosts, in `simulate` and in `Session`: every host makes the same calls and gets the same
+    values. Without `devices` each host computes alone. Messages between hosts are not encrypted: use a
+    network of your own. On the CPU hosts exchange numbers through TCP (Gloo).
+
+    Args:
+        address: `HOST:PORT` of the first host, a port that is free there; `auto`: what SLURM or Open MPI
+            state in the environment, also for count and index.
+        count: number of hosts.
+        index: number of this host, from 0.
+        timeout: seconds to wait for the others, at the start and whenever they exchange something.
+
+    Raises:
+        HostsError: JAX has started, a host does not come, or versions differ between the hosts.
+        ParameterError: an argument is not valid.
+    """
+    _require(address, count, index, timeout)
+    if _joined:
+        raise HostsError("the hosts have joined already", fix="Call join_hosts once, at the start")
+    bridge: Any = sys.modules.get("jax._src.xla_bridge")  # JAX has no public function for this
+    if bridge is not None and bridge.backends_are_initialized():
+        raise HostsError(
+            "JAX has started, and cannot use the devices of other hosts any more",
+            fix="Call dd.join_hosts(...) before the first run",
+        )
+    given = _found(timeout) if address == AUTO else (address, count or 1, index or 0, None)
+    place, number, own, local = given
+    if number < 2:
+        return
+    links, port = meet(place, number, own, timeout)
+    jax.config.update("jax_cpu_collectives_implementation", "gloo")
+    # without it JAX ends this process when another one has ended, before an error can be raised
+    jax.config.update("jax_enable_recoverability", True)
+    jax.distributed.initialize(
+        f"{place.rpartition(':')[0]}:{port}",
+        number,
+        own,
+        local_device_ids=local,
+        cluster_detection_method="deactivate",
+        initialization_timeout=max(1, round(timeout)),
+    )
+    _joined.append(links)
+    links.begin()
+    # registered after that of JAX, so called before it
+    atexit.register(links.end)
+    with calling(True), _no_words_of_gloo():
+        _meet_on_devices()
+
+
+def _meet_on_devices() -> None:
+    """Run a program on the devices of all hosts, which connects them, and ends here if it cannot."""
+    places = jax.devices()
+    shared = NamedSharding(Mesh(np.array(places), ("devices",)), PartitionSpec("devices"))
+    ones = placed(np.ones(len(places), np.float32), shared)
+    whole = NamedSharding(shared.mesh, PartitionSpec())
+    jax.block_until_ready(jax.jit(jnp.sum, out_shardings=whole)(ones))
+
+
+@contextlib.contextmanager
+def _no_words_of_gloo() -> Generator[None]:
+    """Let the standard output be the standard error: Gloo prints there when it connects, beside an answer in
+    JSON.
+    """
+    sys.stdout.flush()
+    before = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        yield
+    finally:
+        os.dup2(before, 1)
+        os.close(before)
+
+
+def _found(timeout: float) -> tuple[str, int, int, Any]:
+    """Return address, count, index and own devices as the environment states them."""
+    clusters: Any = sys.modules["jax._src.clusters"]  # JAX has no public function for this
+    found = clusters.ClusterEnv.auto_detect_unset_distributed_params(
+        None, None, None, None, None, max(1, round(timeout))
+    )
+    if None in found[:3]:
+        raise HostsError(
+            "neither SLURM nor Open MPI states the hosts in the environment",
+            fix="Start with srun or mpirun, or give address, count and index",
+        )
+    return found
+
+
+def _require(address: str, count: int | None, index: int | None, timeout: float) -> None:
+    host, _, port = str(address).rpartition(":")
+    if address != AUTO and not (host and port.isdecimal() and 0 < int(port) < 2**16):
+        raise ParameterError(
+            f"address is {show(address)}; expected HOST:PORT of the first host, or {AUTO!r}",
+            fix="For example dd.join_hosts('node1:7007', 2, 0)",
+        )
+    if address == AUTO:
+        if count is not None or index is not None:
+            raise ParameterError("count and index need the address of the first host")
+    elif not _whole(count, 1) or not _whole(index, 0) or not (index or 0) < (count or 0):
+        raise ParameterError(
+            f"count and index are {show(count)} and {show(index)}; expected the number of hosts, and that of"
+            " this host from 0"
+        )
+    if isinstance(timeout, bool) or not isinstance(timeout, (int, float)) or not 1 <= timeout < 1e6:
+        raise ParameterError(f"timeout is {show(timeout)}; expected seconds, at least 1")
+
+
+def _whole(n: object, least: int) -> bool:
+    return isinstance(n, int) and not isinstance(n, bool) and n >= least
+
+
+# -------------------------------------------------------------------------------------------- what is joined
+
+
+def count() -> int:
+    """Return the number of hosts that have joined; 1 without others."""
+    return _joined[0].count if _joined else 1
+
+
+def first() -> bool:
+    """Return whether this is the first host, or the only one."""
+    return not _joined or _joined[0].index == 0
+
+
+def span(devices: Sequence[Any]) -> bool:
+    """Return whether some of these devices belong to another host."""
+    return bool(_joined) and any(d.process_index != _joined[0].index for d in devices)
+
+
+def own(devices: Sequence[T]) -> T:
+    """Return the first of these devices that belongs to this host."""
+    here = _joined[0].index if _joined else 0
+    mine = [d for d in devices if getattr(d, "process_index", 0) == here]
+    return (mine or devices)[0]
+
+
+def topology(devices: Sequence[Any]) -> Hashable:
+    """Return how a compiled program depends on the hosts of its devices."""
+    return (_joined[0].index, *(d.process_index for d in devices)) if span(devices) else ()
+
+
+# ------------------------------------------------------------------------------------------------- agreement
+
+
+def require_equal(what: str, value: Any) -> None:
+    """Raise an error unless all hosts have an equal value (plain data).
+
+    Raises:
+        HostsError: they differ.
+    """
+    if not _joined:
+        return
+    text = codec.line(value, sort=True)
+    said = text if len(text) <= SHOWN else hashlib.sha256(text.encode()).hexdigest()
+    found = _joined[0].exchange(what, said)
+    for k, one in enumerate(found):
+        if one != found[0]:
+            shown = f" ({found[0]} on host 0, {one} on host {k})" if len(text) <= SHOWN else ""
+            raise HostsError(
+                f"the hosts 0 and {k} differ in {what}{shown}",
+                fix="Run the same script with the same files and versions on all hosts",
+            )
+
+
+def of_first(what: str, value: T, across: bool) -> T:
+    """Return the value (plain data) of the first host; its own one where a run is not `across` hosts."""
+    return _joined[0].exchange(what, value)[0] if across and _joined else value
+
+
+def any_of(what: str, value: bool, across: bool) -> bool:
+    """Return whether a value is true on any host."""
+    return any(_joined[0].exchange(what, value)) if across and _joined else value
+
+
+@contextlib.contextmanager
+def together(across: bool) -> Generator[None]:
+    """End the run of all hosts if it ends with an error on this one."""
+    try:
+        yield
+    except BaseException as error:
+        if across and _joined:
+            _joined[0].failed = True
+        if across and _joined and not isinstance(error, HostsError):
+            _joined[0].leave(f"{type(error).__name__}: {first_line(error)}")
+        raise
+
+
+def require_one(what: str, across: bool) -> None:
+    """Raise an error if something that one host alone can do is asked of several.
+
+    Raises:
+        HostsError: the run is across hosts.
+    """
+    if across:
+        raise HostsError(f"{what} on {count()} hosts is not supported", fix="Leave it out, or use one host")
+
+
+# ---------------------------------------------------------------------------------------------------- arrays
+
+
+def gathered(array: Any) -> np.ndarray:
+    """Return an array on this host; all hosts call it for one that lies on devices of several."""
+    if not _joined or not isinstance(array, jax.Array) or array.is_fully_addressable:
+        return np.asarray(array)
+    with calling(True):
+        if array.is_fully_replicated:
+            return np.asarray(array.addressable_data(0))
+        return np.asarray(multihost_utils.process_allgather(array, tiled=True))
+
+
+def placed(array: Any, sharding: Sharding) -> Any:
+    """Return an array that every host has, on the devices where it is expected."""
+    if not _joined or sharding.is_fully_addressable:
+        return jax.device_put(array, sharding)
+    if isinstance(array, jax.Array) and not array.is_fully_addressable:
+        return array
+    here = np.asarray(array)
+    return jax.make_array_from_callback(here.shape, sharding, lambda index: here[index])
+
+
+@contextlib.contextmanager
+def calling(across: bool) -> Generator[None]:
+    """Name the host that has ended if a program of several hosts fails."""
+    if not across or not _joined:
+        yield
+        return
+    links = _joined[0]
+    links.inside = time.monotonic()
+    try:
+        yield
+    except jax.errors.JaxRuntimeError as error:
+        links.failed = True
+        links.lost_soon()
+        raise HostsError(
+            f"{lost_hosts(links.lost) or 'another host has ended'} ({first_line(error)})",
+            fix="The output of that host has the cause. Start the run again on all hosts",
+        ) from None
+    finally:
+        links.inside = 0.0

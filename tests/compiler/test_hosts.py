@@ -1,0 +1,327 @@
+"""One model over the devices of two hosts: two processes of this computer with two devices each."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import socket
+import subprocess
+import sys
+import threading
+from collections.abc import Generator, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler.host_link import HostLinks, meet
+from deodar.errors import HostsError, ParameterError
+
+LIMIT = 120.0
+"""Seconds after which a process of a test is ended."""
+
+FLAG = "--xla_force_host_platform_device_count="
+
+VALUES = """
+import sys, numpy as np, deodar as dd
+from deodar.errors import DeviceError, HostsError, NotFinite, OutputExists, UnknownName, WorkerError
+from deodar.recording.record import about
+from tests.compiler.test_shard import plane, volume
+
+host, port, folder = int(sys.argv[1]), sys.argv[2], sys.argv[3]
+if host >= 0:
+    dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=30)
+
+def line(tau=20.0, **given):
+    made = dd.Model("line")
+    x = dd.Axis("x", 0, 40, samples=41)
+    kernel = [dd.Gaussian(12, 3, normalized=True)]
+    u = made.add(dd.Field("u", [x], kernel=kernel, global_inhibition=0.02, noise=1.0, tau=tau, **given))
+    made.add(dd.GaussianStimulus("place", [x], center=20, sigma=3, amplitude=6)) >> u
+    return made
+
+def values(made, **given):
+    given = {"record": ["u"], "every": 20, "devices": "all", "progress": False, **given}
+    data = dd.simulate(made, 60, **given)
+    return data["u.activation"].values if "u.activation" in data else data.attrs
+
+found = {
+    "trials": values(line(), trials=6, precision="float64"),
+    "few": values(line(), trials=3),
+    "points": values(line(), sweep={"u.tau": [10.0, 15.0, 20.0, 25.0]}, trials=2),
+    "pieces": values(line(), trials=8, batch=4),
+    "waves": values(volume()),
+    "halo": values(plane(1.0, "zero")),
+    "noise": values(volume(kernel=[], noise=1.0, global_inhibition=0.0)),
+}
+found["alone"] = values(line(), trials=6, precision="float64", devices=None)
+session = dd.Session(volume(), devices="all", seed=3)
+session.run(10)
+kept = session.snapshot()
+session.inject("u", 2.0, 2)
+session.set("u.resting_level", -4.0)
+session.run(5)
+found["session"] = session.read("u")
+session.restore(kept)
+found["restored"] = session.read("u")
+np.savez(f"{folder}/found{host}.npz", **found)
+
+if host >= 0:
+    def fails(kind, text, call):
+        try:
+            call()
+        except kind as error:
+            assert text in str(error), error
+        else:
+            raise AssertionError(text)
+
+    out = values(volume(), out=f"{folder}/night.zarr", snapshots=20.0)
+    if host == 0:
+        assert np.array_equal(out, found["waves"])
+        made_by = about(dd.open_record(f"{folder}/night.zarr"))["made_by"]
+        assert (made_by["devices"], made_by["hosts"]) == ("4", "2"), made_by
+    else:
+        assert out == {"written_by": "host 0", "out": f"{folder}/night.zarr"}, out
+    # the script continues after errors of all hosts, and after an error of one
+    fails(NotFinite, "step", lambda: values(volume(kernel=[dd.Gaussian(1e38, 3.0)])))
+    fails(HostsError, "hosts 0 and 1 differ in the model", lambda: values(line(tau=15.0 + host), trials=4))
+    fails(HostsError, "differ in the arguments of simulate", lambda: values(line(), trials=4, seed=host))
+    kind, text = (UnknownName, "missing") if host else (HostsError, "host 1 has ended the run: UnknownName")
+    fails(kind, text, lambda: values(line(), trials=4, record=["missing"] if host else ["u"]))
+    kind, text = (HostsError, "host 0 has ended the run: OutputExists") if host else (OutputExists, "night")
+    fails(kind, text, lambda: values(volume(), out=f"{folder}/night.zarr"))
+    fails(DeviceError, "Type a multiple of 2 up to 4", lambda: values(line(), trials=4, devices=3))
+    fails(HostsError, "a world on 2 hosts", lambda: values(line(), trials=4, world=dd.Arena("blocks")))
+    fails(WorkerError, "worker processes", lambda: values(line(), trials=4, workers=2))
+    fails(HostsError, "resuming a run on 2 hosts", lambda: dd.resume(f"{folder}/night.zarr", 80))
+    fails(HostsError, "the record of a session", lambda: session.record(f"{folder}/no.zarr", ["u"]))
+    fails(HostsError, "follows the wall clock", lambda: session.run_live(5))
+    fails(HostsError, "joined already", lambda: dd.join_hosts("127.0.0.1:" + port, 2, host))
+    alone = dd.simulate(line(), 20 + host, progress=False)
+    assert alone.sizes["time"] == 1
+    assert np.array_equal(values(line(), trials=3), found["few"])
+print("good")
+"""
+
+ENDING = """
+import os, signal, sys, threading, deodar as dd
+from deodar.errors import HostsError, Interrupted
+from tests.compiler.test_shard import plane
+
+host, port, how = int(sys.argv[1]), sys.argv[2], sys.argv[3]
+dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=30)
+made = plane(1.0, "zero", (24, 8))
+
+def shown(done):
+    if host and done > 1000:
+        os.kill(os.getpid(), getattr(signal, how))
+
+try:
+    dd.simulate(made, 1e9, trials=4, devices="all", progress=shown)
+except (HostsError, Interrupted) as error:
+    print(type(error).__name__, error)
+"""
+
+
+def started(
+    script: str, host: int, devices: int, *arguments: str, **environment: str
+) -> subprocess.Popen[str]:
+    """Start a script as one host."""
+    environment = {**os.environ, "XLA_FLAGS": f"{FLAG}{devices}", "NPROC": "1", **environment}
+    command = [sys.executable, "-c", script, str(host), *arguments]
+    return subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    )
+
+
+def ended(processes: Sequence[subprocess.Popen[str]]) -> list[tuple[int, str, str]]:
+    """Return status and output of processes, none of which outlives the limit."""
+    try:
+        texts = [process.communicate(timeout=LIMIT) for process in processes]
+    finally:
+        for process in processes:
+            process.kill()
+    return [(process.returncode, *text) for process, text in zip(processes, texts, strict=True)]
+
+
+def free_port() -> str:
+    """Return the number of a port that is free."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return str(server.getsockname()[1])
+
+
+def test_two_hosts_compute_what_one_computes(tmp_path: Path) -> None:
+    port = free_port()
+    both = [started(VALUES, host, 2, port, str(tmp_path)) for host in (1, 0)]
+    for status, out, err in (*ended(both), *ended([started(VALUES, -1, 4, port, str(tmp_path))])):
+        assert (status, out) == (0, "good\n"), err
+    first, second, one = (np.load(tmp_path / f"found{k}.npz") for k in (0, 1, -1))
+    assert first["trials"].tobytes() == one["alone"].tobytes() == first["alone"].tobytes()
+    for name in one:
+        assert first[name].tobytes() == second[name].tobytes(), name
+        assert np.abs(one[name]).max() > 0.1, name
+        if name in ("waves", "halo", "session", "restored"):
+            assert np.abs(first[name] - one[name]).max() < 1e-4, name
+        else:
+            assert first[name].tobytes() == one[name].tobytes(), name
+
+
+@pytest.mark.parametrize(
+    ("how", "status", "text"),
+    [
+        ("SIGKILL", -9, "HostsError host 1 has ended"),
+        ("SIGINT", 0, "Interrupted stopped at"),
+    ],
+)
+def test_the_end_of_one_host_is_an_error_on_the_other(how: str, status: int, text: str) -> None:
+    port = free_port()
+    there, here = ended([started(ENDING, host, 2, port, how) for host in (1, 0)])
+    assert here[0] == 0 and here[1].startswith(text), here[2]
+    assert there[0] == status, there[2]
+
+
+def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_path: Path) -> None:
+    port = free_port()
+    command = ["run", "example:selection", "--duration", "20", "--trials", "4", "--devices", "all"]
+    command += ["--precision", "float64", "--hosts", "auto", "--out", str(tmp_path / "night"), "--json"]
+    environment = {
+        "SLURM_JOB_ID": "7",
+        "SLURM_STEP_NODELIST": "127.0.0.1",
+        "SLURM_NTASKS": "2",
+        "JAX_COORDINATOR_PORT": port,
+        "PYTHONWARNINGS": "ignore",
+    }
+    both = [
+        started(
+            "import sys; from deodar.cli import main; sys.exit(main(sys.argv[2:]))",
+            host,
+            2,
+            *command,
+            **environment,
+            SLURM_PROCID=str(host),
+            SLURM_LOCALID=str(host),
+        )
+        for host in (1, 0)
+    ]
+    there, here = ended(both)
+    assert here[0] == there[0] == 0, here[2] + there[2]
+    assert json.loads(here[1])["complete"] is True and there[1] == ""
+    data = dd.open_record(tmp_path / "night")
+    assert data.sizes["trial"] == 4
+    alone = dd.simulate(dd.load("example:selection"), 20, trials=4, precision="float64", progress=False)
+    for name in alone.data_vars:
+        assert np.abs(data[name].values - alone[name].values).max() < 1e-10, name
+
+
+@contextlib.contextmanager
+def linked(timeout: float = 5.0) -> Generator[list[HostLinks]]:
+    """Link two hosts in this process."""
+    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+
+    def host(k: int) -> None:
+        found[k] = meet(address, 2, k, timeout)[0]
+        found[k].begin()
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in (1, 0)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    try:
+        yield [found[0], found[1]]
+    finally:
+        found[0].close()
+        found[1].close()
+
+
+def at_once(links: Sequence[HostLinks], *said: tuple[str, object]) -> list[object]:
+    """Return what an exchange gives each host, or the text of its error."""
+    answers: list[object] = [None] * len(links)
+
+    def host(k: int) -> None:
+        try:
+            answers[k] = links[k].exchange(*said[k])
+        except HostsError as error:
+            answers[k] = str(error)
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in range(len(said))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return answers
+
+
+def test_hosts_exchange_what_they_say() -> None:
+    with linked() as links:
+        assert at_once(links, ("a", 1), ("a", [2.5, "x"])) == [[1, [2.5, "x"]]] * 2
+        here, there = at_once(links, ("a", 1), ("b", 1))
+        assert str(here).startswith("host 1 is at 'b' of its script, host 0 at 'a'")
+        assert str(there).startswith("host 0 is at 'a' of its script, host 1 at 'b'")
+        assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
+
+
+@pytest.mark.parametrize("leaving", [0, 1])
+def test_a_host_that_leaves_a_run_ends_it_on_the_others_which_may_begin_another(leaving: int) -> None:
+    with linked() as links:
+        links[leaving].leave("OutputError: full")
+        [answer] = at_once([links[1 - leaving]], ("a", 1))
+        assert str(answer).startswith(f"host {leaving} has ended the run: OutputError: full")
+        assert at_once(links, ("c", 1), ("c", 2)) == [[1, 2]] * 2
+
+
+def test_a_host_that_does_not_answer_is_named() -> None:
+    with linked(1.0) as links:
+        [answer] = at_once(links[:1], ("a", 1))
+        assert str(answer).startswith("a: host 1 has not answered for 1 s")
+
+
+@pytest.mark.parametrize("ending", [0, 1])
+def test_a_host_whose_links_end_is_named_at_once(ending: int) -> None:
+    with linked() as links:
+        links[ending].close()
+        [answer] = at_once([links[1 - ending]], ("a", 1))
+        assert str(answer).startswith(f"host {ending} has ended")
+
+
+def test_a_host_that_does_not_come_is_named() -> None:
+    address = f"127.0.0.1:{free_port()}"
+    with pytest.raises(HostsError, match="host 1, 2 has not come"):
+        meet(address, 3, 0, 0.3)
+    with pytest.raises(HostsError, match=f"the first host cannot be reached at {address} within 0.3 s"):
+        meet(address, 3, 2, 0.3)
+
+
+def test_hosts_that_differ_are_refused() -> None:
+    address, texts = f"127.0.0.1:{free_port()}", list[str]()
+
+    def host(k: int, count: int) -> None:
+        with pytest.raises(HostsError) as error:
+            meet(address, count, k, 3.0)
+        texts.append(str(error.value))
+
+    threads = [threading.Thread(target=host, args=(k, count)) for k, count in ((1, 3), (0, 2))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(texts) == 2 and all("host 1 differs from host 0: {'hosts': 3" in text for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        (("node1", 2, 0), "expected HOST:PORT of the first host"),
+        (("node1:7007", 2, 2), "count and index are 2 and 2"),
+        (("node1:7007",), "count and index are None and None"),
+        (("auto", 2, 0), "count and index need the address"),
+    ],
+)
+def test_arguments_that_are_not_valid_are_named(given: tuple[object, ...], text: str) -> None:
+    with pytest.raises(ParameterError, match=text):
+        dd.join_hosts(*given)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
+        dd.simulate(dd.load("example:selection"), 1, progress=False)
+        dd.join_hosts("node1:7007", 2, 0)
