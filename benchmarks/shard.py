@@ -3,9 +3,10 @@
 A field over three axes of N samples each, on one device and divided among several. Fails (status 1)
 unless activations agree to 1e-4 after 400 steps without noise, noise has the same bits, the compiled program
 exchanges at most 1.2 times the planned bytes a step, and a device needs at most its part of the memory of one
-device and 25 %. A CPU counts as several devices, whose times say nothing about speed. With several graphics
-processors (`--device gpu`) it also times a field of 512 x 512 x 512 samples on one and on all of them, or on
-four; the efficiency is printed, and has no target.
+device and 25 %. Memory is that of a chunk: the state before and after it, and what is between them. A CPU
+counts as several devices, whose times say nothing about speed. With several graphics processors
+(`--device gpu`) it also times a field of 512 x 512 x 512 samples on one and on all of them, or on four; the
+efficiency is printed, and has no target.
 """
 
 from __future__ import annotations
@@ -58,16 +59,23 @@ def programs(model: dd.Model, kind: str, devices: int) -> list[Executable]:
     return [dd.Session(model, device=kind, devices=n).program for n in (None, devices)]
 
 
-def mebibytes(program: Executable) -> float:
-    """Memory of a step on one device: arguments, results and what is between."""
+def memory_parts(program: Executable) -> dict[str, float]:
+    """Memory of a chunk on one device, in MiB, by what it holds."""
     found = program.chunk(())[0].memory_analysis()
     assert found is not None
-    size = found.argument_size_in_bytes + found.output_size_in_bytes + found.temp_size_in_bytes
-    return (size - found.alias_size_in_bytes) / 2**20
+    parts = {
+        "before": found.argument_size_in_bytes,
+        "after": found.output_size_in_bytes - found.alias_size_in_bytes,
+        "between": found.temp_size_in_bytes,
+    }
+    return {name: size / 2**20 for name, size in parts.items()}
 
 
-def compare(samples: int, kind: str, devices: int) -> bool:
-    """Print the figures of one size; return whether all targets are met."""
+def compare(samples: int, kind: str, devices: int, memories: list[str]) -> bool:
+    """Print the figures of one size; return whether all targets are met.
+
+    Two lines about the memory of a device are added to `memories`.
+    """
     model = volume(samples)
     seconds: list[float] = []
     found: list[np.ndarray] = []
@@ -83,7 +91,8 @@ def compare(samples: int, kind: str, devices: int) -> bool:
     assert many.fields is not None
     planned = sum(t.bytes for t in many.fields.traffic)
     counted = sum(c.bytes for c in collectives(many.chunk(())[0].as_text() or ""))
-    memory = [mebibytes(program) for program in (one, many)]
+    parts = [memory_parts(program) for program in (one, many)]
+    memory = [sum(part.values()) for part in parts]
     field = 4 * samples**3
     print(
         f"| {samples}^3 | {field / 2**20:.1f} MiB | {difference:.1e} | {bits[0] == bits[1]} | {counted:,} |"
@@ -92,6 +101,10 @@ def compare(samples: int, kind: str, devices: int) -> bool:
         f" {1e3 * seconds[1] / STEPS:.1f} ms |",
         flush=True,
     )
+    for part, n in zip(parts, (1, devices), strict=True):
+        share = field / 2**20 / n
+        each = ", ".join(f"{name} {size:.2f} MiB ({size / share:.2f})" for name, size in part.items())
+        memories.append(f"memory of {samples}^3 on {n} (of a device's part of the field): {each}")
     met = {
         "difference": difference <= NEAR and peaks[0] == peaks[1] > 0,
         "bits of the noise": bits[0] == bits[1],
@@ -142,7 +155,9 @@ def main() -> int:
         " | each of several | of its part | step, one | step, several |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
-    good = [compare(samples, given.device, devices) for samples in given.samples]
+    memories: list[str] = []
+    good = [compare(samples, given.device, devices, memories) for samples in given.samples]
+    print("\n".join(memories))
     if found[0].platform != "cpu":
         efficiency(given.device, min(4, devices))
     return 0 if all(good) else 1

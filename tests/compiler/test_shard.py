@@ -113,6 +113,8 @@ for devices in (None, 8):
     found = session.program.chunk(())[0].memory_analysis()
     memory.append(found.argument_size_in_bytes + found.output_size_in_bytes + found.temp_size_in_bytes)
 assert memory[1] <= 1.25 * memory[0] / 8, memory
+# the state before, the state, the stimuli and the interaction; a step copies no state
+assert memory[1] <= 4.8 * 4 * 64**3 / 8, memory
 print("good")
 """
 

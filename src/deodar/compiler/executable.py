@@ -402,7 +402,9 @@ class Executable:
         # between steps arrays have one axis: loops over a short last axis cost up to three times as much
         def flat(state: ProgramState) -> ProgramState:
             if self.fields is not None:
-                return self.fields.constrained(state)
+                # without the axis of a single row a step replaces the state in place; with it, it is copied
+                rows = jax.tree.map(lambda a: a[0] if a.shape[0] == 1 else a, state)
+                return self.fields.constrained(rows)
             return jax.tree.map(lambda a: a.reshape(a.shape[0], -1) if a.shape[0] > 1 else a.ravel(), state)
 
         def steps(n: Array, given: Stepped) -> Stepped:
