@@ -80,6 +80,8 @@ def join_hosts(
     jax.config.update("jax_cpu_collectives_implementation", "gloo")
     # without it JAX ends this process when another one has ended, before an error can be raised
     jax.config.update("jax_enable_recoverability", True)
+    # else SIGTERM, as from scancel, would no longer end this process
+    jax.config.update("jax_enable_preemption_service", False)
     jax.distributed.initialize(
         f"{place.rpartition(':')[0]}:{port}",
         number,
