@@ -65,8 +65,9 @@ def run_jobs(
     rows: Rows,
     progress: Callable[[Progress], None] | None = None,
     workers: int | None = None,
-    watch: Watch | None = None,
+    stopped: Callable[[], bool] | None = None,
     cluster: ClusterPool | None = None,
+    watch: Watch | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
 
@@ -78,13 +79,15 @@ def run_jobs(
         progress: function that is called with a `Progress` after each job.
         workers: number of processes of one core each; none: this process, one job after another. A script
             that calls this with workers must do so below `if __name__ == "__main__":`.
-        watch: function that is called several times a second while workers run; once it returns true, the
+        stopped: function that is called several times a second while workers run; once it returns true, the
             running jobs are ended, and their rows are not stored.
         cluster: the workers that run the jobs, in place of `workers`; an entered `dd.ClusterPool`.
+        watch: function that is called as often as `stopped`, with the numbers of present workers and of the
+            jobs that they have (`workers` and `running`); it may end the jobs as well.
 
     Raises:
-        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `watch`
-            returned true.
+        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `stopped`
+            or `watch` returned true.
         WorkerError: a worker process has died, or a cluster cannot run the jobs.
     """
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
@@ -110,8 +113,11 @@ def run_jobs(
                 )
             )
 
+    def ends(now: Staffing) -> bool:
+        return (watch is not None and watch(now)) or (stopped is not None and stopped())
+
     tell([rows.found[key] for job in jobs for key in job.keys if key in rows.found])
-    for job, found in _anywhere(missing, workers, watch, cluster):
+    for job, found in _anywhere(missing, workers, ends, cluster):
         new = [row for row in found if row[KEY] not in rows.found]
         rows.append(found)
         done += job.cost
@@ -122,16 +128,16 @@ def run_jobs(
 def _anywhere(
     jobs: Sequence[Job],
     workers: int | None,
-    watch: Watch | None,
+    ends: Watch,
     cluster: ClusterPool | None,
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     if not jobs or not (workers or cluster):
         yield from _here(jobs)
     elif cluster is not None:
-        yield from _in_workers(jobs, cluster, watch)
+        yield from _in_workers(jobs, cluster, ends)
     else:
         with Pool(min(workers or 1, len(jobs)), main=True) as pool:
-            yield from _in_workers(jobs, pool, watch)
+            yield from _in_workers(jobs, pool, ends)
 
 
 def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
@@ -143,7 +149,7 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 
 
 def _in_workers(
-    jobs: Sequence[Job], pool: Pool | ClusterPool, watch: Watch | None
+    jobs: Sequence[Job], pool: Pool | ClusterPool, ends: Watch
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     running, interrupted = dict[tuple[str, ...], Job](), False
     run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
@@ -154,7 +160,7 @@ def _in_workers(
                 job = waiting.pop()
                 pool.give(job.keys, run, job)
                 running[job.keys] = job
-            if watch is not None and watch(Staffing(pool.workers, pool.busy)):
+            if ends(Staffing(pool.workers, pool.busy)):
                 raise KeyboardInterrupt
             for keys, rows in pool.wait(0.2):
                 yield running.pop(keys), rows

@@ -129,7 +129,7 @@ def _run_trials(
             if pool is not None and records is not None:
                 _require_shared(pool, out)
         jobs = list(_jobs(setup, handed, records, part))
-        run_jobs(jobs, rows, progress, workers, watch, pool)
+        run_jobs(jobs, rows, progress, workers, cluster=pool, watch=watch)
         if pool is not None and pool.cluster.mixed:
             compare(jobs, rows, pool, out)
     data = dataset(rows.found.values(), about)

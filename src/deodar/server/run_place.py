@@ -38,7 +38,7 @@ class RunPlace:
         """Return the place that a page asks for.
 
         A scheduler can run programs in the process that connects to it, and a file of SLURM has commands. So
-        a page may name both only if `free`: whoever uses it can start programs here anyway.
+        a page may name both only if `free`: its user can start programs here anyway.
 
         Args:
             asked: the request.

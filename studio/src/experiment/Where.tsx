@@ -58,11 +58,7 @@ function ClusterForm() {
     <>
       <TextInput
         label="Address"
-        description={
-          free
-            ? "local:N processes, the scheduler at tcp://HOST:PORT or tls://HOST:PORT, or jobs as slurm:FILE states them."
-            : "Only local:N processes: this studio can be reached from other machines, or without a token."
-        }
+        description={free ? ADDRESSES : ONLY_LOCAL}
         size="xs"
         placeholder="local:4"
         autoComplete="off"
@@ -85,7 +81,7 @@ function ClusterForm() {
       />
       <Checkbox
         label="Trust the network"
-        description="Without encryption, anyone in it who can connect to a scheduler or a worker can run programs there."
+        description={TRUST}
         size="xs"
         checked={trust}
         onChange={(event) => useRunPlace.setState({ trust: event.currentTarget.checked })}
@@ -100,3 +96,10 @@ function ClusterForm() {
     </>
   );
 }
+
+const ADDRESSES =
+  "local:N, the scheduler at tcp://HOST:PORT or tls://HOST:PORT, or the jobs that slurm:FILE states.";
+const ONLY_LOCAL =
+  "Only local:N processes: this studio can be reached from other machines, or without a token.";
+const TRUST =
+  "Without encryption, anyone in it who can connect to a scheduler or a worker can run programs there.";
