@@ -516,12 +516,12 @@ def test_a_run_on_a_cluster_is_watched_and_stopped(tmp_path, rows, pieces):
         seen.append(now)
         return now.running > 0
 
-    setup = clustered.experiment().setup()
+    setup, before = clustered.experiment().setup(), clustered.processes()
     with pytest.raises(KeyboardInterrupt):
         clustered.within(lambda: results.run_trials(setup, tmp_path / "out", watch=watch, cluster="local:2"))
     assert seen[0].running == 0, "who watches is called before the first piece"
     assert (seen[-1].workers, seen[-1].running) == (2, 4)
-    assert not clustered.processes()
+    assert clustered.processes() == before, "its workers have ended"
     _run(tmp_path / "out", "local:2")
     assert clustered.lines(tmp_path / "out") == rows
 
