@@ -13,7 +13,7 @@ import time
 import pytest
 
 from deodar import cli
-from deodar.batch import on_cluster, simulate
+from deodar.batch import scheduler, simulate
 from deodar.cli import _long
 from deodar.cli import experiment as experiment_command
 from deodar.experiments import setup
@@ -206,7 +206,7 @@ def test_options_of_a_cluster_need_one_and_exclude_workers(file, capsys):
 
 
 def test_an_error_of_a_cluster_says_how_to_resume(file, capsys, monkeypatch):
-    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.3)
+    monkeypatch.setattr(scheduler, "CONNECT_SECONDS", 0.3)
     assert call("--out", "out") == 0
     assert call("--out", "out", "--cluster", "tcp://127.0.0.1:9", "--patience", "5") == 1
     told = capsys.readouterr().err

@@ -19,6 +19,7 @@ import yaml
 from distributed import LocalCluster
 
 from deodar.batch import cluster_task, on_cluster
+from deodar.batch import scheduler as schedulers
 from deodar.batch.cluster import Cluster, slurm_settings
 from deodar.batch.on_cluster import ClusterPool
 from deodar.errors import MissingExtra, ParameterError, RecordError, WorkerError
@@ -212,19 +213,19 @@ def test_no_worker_is_an_error_after_a_while(tmp_path, pieces):
 
 
 def test_no_scheduler_is_an_error(tmp_path, pieces, monkeypatch):
-    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.5)
+    monkeypatch.setattr(schedulers, "CONNECT_SECONDS", 0.5)
     with pytest.raises(WorkerError, match=r"no scheduler of Dask answers at tcp://127.0.0.1:9"):
         _run(tmp_path / "out", "tcp://127.0.0.1:9")
 
 
 def test_a_scheduler_of_another_version_is_refused(tmp_path, pieces, scheduler, monkeypatch):
-    monkeypatch.setattr(on_cluster.library(), "__version__", "1.0")
+    monkeypatch.setattr(schedulers, "version", lambda: "1.0")
     with pytest.raises(WorkerError, match=r"has distributed [\d.]+, and this process distributed 1.0"):
         _run(tmp_path / "out", scheduler.scheduler_address)
 
 
 def test_a_task_that_ends_every_worker_is_an_error(monkeypatch):
-    monkeypatch.setattr(on_cluster, "ALLOWED_FAILURES", 1)
+    monkeypatch.setattr(schedulers, "ALLOWED_FAILURES", 1)
 
     def call():
         with ClusterPool(Cluster("local:1")) as pool:
@@ -436,7 +437,7 @@ job_script_prologue:
 
 def test_a_job_of_slurm_has_a_process_for_each_core(tmp_path):
     (tmp_path / "jobs.yaml").write_text(SLURM)
-    script = on_cluster.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
+    script = schedulers.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
     for line in (
         "#SBATCH -p normal",
         "#SBATCH -A fields",
@@ -462,10 +463,10 @@ def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
     (tmp_path / "jobs.yaml").write_text(SLURM)
     code = (
         "import signal, threading\n"
-        "from deodar.batch import on_cluster\n"
+        "from deodar.batch import scheduler\n"
         "from deodar.batch.cluster import Cluster\n"
         f"there = Cluster({f'slurm:{tmp_path}/jobs.yaml'!r}, trust_network=True)\n"
-        "one = threading.Thread(target=lambda: print(on_cluster.slurm_script(there)))\n"
+        "one = threading.Thread(target=lambda: print(scheduler.slurm_script(there)))\n"
         "one.start()\n"
         "one.join()\n"
         "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler\n"
@@ -494,7 +495,7 @@ def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
 def test_a_wrong_file_of_slurm_is_refused(tmp_path, text, says):
     (tmp_path / "jobs.yaml").write_text(text)
     with pytest.raises(ParameterError, match=says):
-        on_cluster.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
+        schedulers.slurm_script(Cluster(f"slurm:{tmp_path / 'jobs.yaml'}", trust_network=True))
 
 
 def test_without_the_extra_an_error_says_what_to_install(monkeypatch):
@@ -502,7 +503,7 @@ def test_without_the_extra_an_error_says_what_to_install(monkeypatch):
         with monkeypatch.context() as patch:
             patch.setitem(sys.modules, name, None)
             with pytest.raises(MissingExtra, match=rf"{package}.*pip install 'deodar\[cluster\]'"):
-                on_cluster.slurm_script(Cluster("slurm:none.yaml", trust_network=True))
+                schedulers.slurm_script(Cluster("slurm:none.yaml", trust_network=True))
 
 
 # ---------------------------------------------------------------------------------------------------- watched
@@ -542,7 +543,7 @@ def test_the_search_for_a_scheduler_can_be_stopped():
 
 
 def test_a_search_without_a_scheduler_ends_with_an_error(monkeypatch):
-    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.3)
+    monkeypatch.setattr(schedulers, "CONNECT_SECONDS", 0.3)
     with (
         pytest.raises(WorkerError, match=r"no scheduler of Dask answers at tcp://127\.0\.0\.1:9 \("),
         ClusterPool(Cluster("tcp://127.0.0.1:9"), watch=lambda now: False),

@@ -17,9 +17,9 @@ FORBIDDEN = {
 
 # Packages of extras that one module alone imports: only there an import may fail.
 IMPORTERS = {
-    "dask": "batch.on_cluster",
-    "dask_jobqueue": "batch.on_cluster",
-    "distributed": "batch.on_cluster",
+    "dask": "batch.scheduler",
+    "dask_jobqueue": "batch.scheduler",
+    "distributed": "batch.scheduler",
     "fsspec": "recording.remote_store",
 }
 

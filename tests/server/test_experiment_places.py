@@ -16,7 +16,7 @@ import pytest
 from distributed import LocalCluster
 
 import deodar as dd
-from deodar.batch import on_cluster
+from deodar.batch import scheduler
 from deodar.experiments import setup
 from deodar.experiments.results import stored_rows
 from deodar.recording import writer_lock
@@ -157,7 +157,7 @@ def test_the_search_for_a_scheduler_blocks_nothing_and_is_stopped(folder: Path) 
             await p.do("stop_experiment")
             await ended(p)
             assert experiment(p)["run"]["state"] == "stopped"
-            assert time.monotonic() - begun < on_cluster.CONNECT_SECONDS
+            assert time.monotonic() - begun < scheduler.CONNECT_SECONDS
 
         at_its_experiment(folder, scene)
 
@@ -165,7 +165,7 @@ def test_the_search_for_a_scheduler_blocks_nothing_and_is_stopped(folder: Path) 
 def test_a_cluster_without_scheduler_workers_or_library_is_an_error_with_its_fix(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(on_cluster, "CONNECT_SECONDS", 0.3)
+    monkeypatch.setattr(scheduler, "CONNECT_SECONDS", 0.3)
 
     async def fails(p: Page, what: str, fix: str, **where: Any) -> None:
         def said() -> str:

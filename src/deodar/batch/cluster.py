@@ -1,6 +1,6 @@
 """Where a cluster of workers is: on this machine, at the address of a scheduler, or in the queue of SLURM.
 
-This file states a cluster; `on_cluster.py` connects to it.
+This file states a cluster; `scheduler.py` connects to it.
 """
 
 from __future__ import annotations

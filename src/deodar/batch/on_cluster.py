@@ -1,4 +1,4 @@
-"""A pool of workers that a scheduler of Dask manages; the only module that imports Dask.
+"""A pool of workers that a scheduler of Dask manages (`scheduler.py` connects to it).
 
 The pool is used like `Pool`, by one thread: give tasks, wait for results. Nothing waits for one future: a
 coroutine for each task puts its result into a queue, and `wait` reads the queue, for a limited time. What
@@ -13,39 +13,25 @@ import concurrent.futures
 import contextlib
 import dataclasses as dc
 import itertools
-import logging
-import os
 import pickle
 import queue
-import signal
-import socket
 import time
 import uuid
 import warnings
-from collections.abc import Callable, Coroutine, Generator, Hashable, Mapping
-from pathlib import Path
+from collections.abc import Callable, Coroutine, Hashable, Mapping
 from typing import Any, Self
-from urllib.parse import urlsplit
 
-from deodar import codec
-from deodar.batch import cluster_task
-from deodar.batch.cluster import Cluster, slurm_settings
+from deodar.batch import cluster_task, scheduler
+from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_task import INSTRUCTIONS
-from deodar.batch.pool import quiet
 from deodar.batch.staffing import Staffing, Watch
-from deodar.errors import MissingExtra, ParameterError, WorkerError, first_line
+from deodar.errors import WorkerError, first_line
 
 TASKS_A_WORKER = 2
 """Most tasks per worker that are submitted at a time: one runs, and the next one is there when it ends."""
 
 CHECK_EVERY = 0.5
 """Wall time between two questions to the scheduler, in seconds."""
-
-CONNECT_SECONDS = 20.0
-"""Wall time in which a scheduler must answer at the start, in seconds."""
-
-PORT_SECONDS = 1.0
-"""Wall time of one attempt to reach the port of a scheduler, in seconds."""
 
 SILENT_SECONDS = 20.0
 """Wall time without an answer after which a scheduler is given up, in seconds."""
@@ -62,12 +48,6 @@ LOST_SECONDS = 20.0
 
 PREPARE_SECONDS = 180.0
 """Wall time in which a worker must import deodar and open the model, in seconds."""
-
-CLOSE_SECONDS = 10.0
-"""Wall time in which connections and processes must end, in seconds."""
-
-ALLOWED_FAILURES = 5
-"""Number of processes that a task of `local:N` may end, before the run ends with an error."""
 
 MOST_ATTEMPTS = 20
 """Most times that a task is submitted."""
@@ -134,7 +114,7 @@ class ClusterPool:
     def __init__(self, cluster: Cluster, precision: str = "float32", watch: Watch | None = None) -> None:
         self.cluster, self._precision, self._watch_by = cluster, precision, watch
         self.made_by: dict[str, str] = {}
-        self._distributed = library()
+        self._version = scheduler.version()
         self._tasks: dict[Hashable, _Task] = {}
         self._inbox: queue.SimpleQueue[_TaskAnswer] = queue.SimpleQueue()
         self._token, self._numbers = uuid.uuid4().hex[:8], itertools.count()
@@ -149,8 +129,10 @@ class ClusterPool:
 
     def __enter__(self) -> Self:
         with contextlib.ExitStack() as stack:
-            stack.enter_context(_silent())
-            self._client: Any = stack.enter_context(self._connected(stack))
+            look = None if self._watch_by is None else self.look
+            self._client: Any = scheduler.connected(self.cluster, stack, look)
+            self._loop = self._client.loop.asyncio_loop
+            self._require_version()
             watch = asyncio.run_coroutine_threadsafe(self._watch(), self._loop)
             stack.callback(watch.cancel)
             self._await_workers()
@@ -247,86 +229,20 @@ class ClusterPool:
 
     # ------------------------------------------------------------------------------------------------ connect
 
-    def _connected(self, stack: contextlib.ExitStack) -> contextlib.AbstractContextManager[Any]:
-        where: Any = self.cluster.address
-        if self.cluster.processes:
-            where = self._local(stack)
-        elif self.cluster.file is not None:
-            where = self._closing(stack, _slurm(self.cluster.file))
-        elif self._watch_by is not None:
-            self._await_port()
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # of other versions, which are compared here
-                client = self._distributed.Client(where, timeout=CONNECT_SECONDS, set_as_default=False)
-        except (OSError, TimeoutError, ValueError, RuntimeError) as error:
-            raise self._no_scheduler(error) from None
-        self._loop = client.loop.asyncio_loop
-        stack.callback(_closed, client)
+    def _require_version(self) -> None:
+        """Raise an error if the scheduler has another version of Dask than this process."""
 
         async def ask() -> dict[str, Any]:
-            return await client.scheduler.versions()
+            return await self._client.scheduler.versions()
 
-        there = self._wait_for(ask(), CONNECT_SECONDS, "the scheduler does not answer")
-        here = {name: self._distributed.__version__ for name in ("distributed",)}
-        differ = [f"{k} {there['packages'].get(k)}" for k, v in here.items() if there["packages"].get(k) != v]
-        if differ:
+        answer = self._wait_for(ask(), scheduler.CONNECT_SECONDS, "the scheduler does not answer")
+        there = answer["packages"].get("distributed")
+        if there != self._version:
             raise WorkerError(
-                f"the scheduler at {self.cluster.address} has {', '.join(differ)}, and this process"
-                f" {', '.join(f'{k} {v}' for k, v in here.items())}",
+                f"the scheduler at {self.cluster.address} has distributed {there}, and this process"
+                f" distributed {self._version}",
                 fix="Install the same versions everywhere",
             )
-        return contextlib.nullcontext(client)
-
-    def _local(self, stack: contextlib.ExitStack) -> Any:
-        """Start a scheduler in this process, and the processes of `local:N`."""
-        # an extra
-        import dask.config
-
-        # the main script is hidden as long as processes may start: a new one takes the place of a dead one
-        with quiet(main=True):
-            settings = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES}
-            with dask.config.set(settings):
-                made = self._distributed.LocalCluster(
-                    n_workers=0,
-                    threads_per_worker=1,
-                    processes=True,
-                    host="127.0.0.1",
-                    dashboard_address="127.0.0.1:0",
-                    silence_logs=logging.CRITICAL,
-                    memory_limit=0,
-                    env={"NPROC": "1"},
-                    preload=["deodar.batch.cluster_task"],
-                )
-        self._closing(stack, made)
-        stack.callback(_end_processes, made)
-        stack.enter_context(quiet(main=False, signals=False))
-        made.scale(self.cluster.processes)
-        return made
-
-    def _await_port(self) -> None:
-        """Wait until something listens at the address of a scheduler; the client itself cannot be stopped."""
-        found = urlsplit(self.cluster.address)
-        end = time.monotonic() + CONNECT_SECONDS
-        while True:
-            try:
-                socket.create_connection((found.hostname, found.port), PORT_SECONDS).close()
-                return
-            except OSError as error:
-                if time.monotonic() > end:
-                    raise self._no_scheduler(error) from None
-            self.look()
-            time.sleep(0.1)
-
-    def _no_scheduler(self, error: Exception) -> WorkerError:
-        return WorkerError(
-            f"no scheduler of Dask answers at {self.cluster.address} ({first_line(error)})",
-            fix="Start one there with: dask scheduler; or state its address, which it prints",
-        )
-
-    def _closing(self, stack: contextlib.ExitStack, made: Any) -> Any:
-        stack.callback(_closed, made)
-        return made
 
     def _await_workers(self) -> None:
         """Wait for all processes of `local:N`, or for the first worker of another cluster."""
@@ -392,7 +308,7 @@ class ClusterPool:
                 raise result
             out.append((answer.key, result))
         elif type(error).__name__ == "KilledWorker":
-            count = getattr(error, "allowed_failures", ALLOWED_FAILURES) + 1
+            count = getattr(error, "allowed_failures", scheduler.ALLOWED_FAILURES) + 1
             raise WorkerError(
                 f"the same task has ended {count} worker processes, one after another; its key is"
                 f" {_shown(answer.key)}",
@@ -532,61 +448,6 @@ def _made_here(precision: str) -> dict[str, str]:
     return made_by(find(), precision)
 
 
-def library() -> Any:
-    """Import Dask (extra `cluster`), or raise an error that says how to install it."""
-    try:
-        # an extra
-        import distributed
-    except ImportError:
-        raise MissingExtra("distributed", "cluster", "a cluster of workers") from None
-    return distributed
-
-
-def slurm_script(cluster: Cluster) -> str:
-    """Return the script of a job that `slurm:FILE` submits."""
-    assert cluster.file is not None
-    made = _slurm(cluster.file, 0)
-    try:
-        return str(made.job_script())
-    finally:
-        _closed(made)
-
-
-def _slurm(file: Path, most: int | None = None) -> Any:
-    library()
-    try:
-        # an extra
-        import yaml
-
-        with _signals_kept():
-            from dask_jobqueue.slurm import SLURMCluster
-    except ImportError:
-        raise MissingExtra("dask-jobqueue", "cluster", "a cluster of SLURM") from None
-    try:
-        text = file.read_text(encoding="utf-8")
-        data = codec.parse(text) if file.suffix.lower() == ".json" else yaml.safe_load(text)
-    except (OSError, ValueError, yaml.YAMLError) as error:
-        raise ParameterError(f"cannot be read ({first_line(error)})", where=str(file)) from None
-    settings, jobs = slurm_settings(data, str(file))
-    try:
-        made = SLURMCluster(**settings)
-    except (TypeError, ValueError) as error:
-        raise ParameterError(f"dask_jobqueue refuses it: {first_line(error)}", where=str(file)) from None
-    made.scale(jobs=jobs if most is None else most)
-    return made
-
-
-@contextlib.contextmanager
-def _signals_kept() -> Generator[None]:
-    """Keep the handlers of signals: an import of dask_jobqueue sets that of Ctrl-C; in a thread it fails."""
-    own = signal.signal
-    signal.signal = lambda *_: None
-    try:
-        yield
-    finally:
-        signal.signal = own
-
-
 def pickled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> bytes:
     """Return a task as bytes.
 
@@ -617,29 +478,3 @@ def _unable(error: BaseException, who: str) -> WorkerError:
 
 def _shown(key: Hashable) -> str:
     return ", ".join(map(str, key[:2])) if isinstance(key, tuple) else str(key)
-
-
-def _end_processes(made: Any) -> None:
-    """End the processes of `local:N` at once: an orderly end of each takes seconds."""
-    for nanny in list(made.workers.values()):
-        nanny.auto_restart = False
-        with contextlib.suppress(OSError, AttributeError, TypeError):
-            os.kill(nanny.pid, signal.SIGTERM)
-
-
-def _closed(made: Any) -> None:
-    """Close a client or a cluster, whose processes may have died already."""
-    with contextlib.suppress(Exception):
-        made.close(timeout=CLOSE_SECONDS)
-
-
-@contextlib.contextmanager
-def _silent() -> Any:
-    """Keep Dask's log of workers that die off the terminal: errors of this module say what matters."""
-    log = logging.getLogger("distributed")
-    before = log.level
-    log.setLevel(logging.CRITICAL)
-    try:
-        yield
-    finally:
-        log.setLevel(before)
