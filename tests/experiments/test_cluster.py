@@ -448,7 +448,14 @@ def test_a_job_of_slurm_has_a_process_for_each_core(tmp_path):
         "export NPROC=1",
     ):
         assert line in script.splitlines()
-    assert "--nworkers 8" in script and "--nthreads 1 " in script
+    assert "--nworkers 8" in script and "--nthreads 1 " in script and "--no-dashboard" in script
+
+
+def test_pages_of_dask_are_for_this_machine_unless_the_file_says_otherwise(tmp_path):
+    settings, _ = slurm_settings({}, "jobs.yaml")
+    assert settings["scheduler_options"] == {"dashboard_address": "127.0.0.1:0"}
+    asked = {"scheduler_options": {"dashboard_address": ":8787", "port": 8786}}
+    assert slurm_settings(asked, "jobs.yaml")[0]["scheduler_options"] == asked["scheduler_options"]
 
 
 def test_the_file_of_slurm_on_the_page_is_read():
@@ -490,6 +497,8 @@ def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
         ("jobs: 0", "jobs is 0; expected a whole number, at least 1"),
         ("{cores: 8, processes: 2}", "each of the 8 cores is a process"),
         ("{queue: [", "cannot be read"),
+        ("job_script_prologue: source me", "job_script_prologue is 'source me'; expected a list"),
+        ("scheduler_options: 8787", "scheduler_options is 8787; expected a table"),
     ],
 )
 def test_a_wrong_file_of_slurm_is_refused(tmp_path, text, says):

@@ -93,7 +93,8 @@ def slurm_settings(data: Any, where: str) -> tuple[dict[str, Any], int]:
     """Return the arguments of `dask_jobqueue.SLURMCluster`, and the number of jobs.
 
     Without an entry of its own a job has one core and 2 GB; each core is a process. Every process gets
-    `NPROC=1`, so that its programs use one core.
+    `NPROC=1`, so that its programs use one core. The pages on which Dask shows what a cluster does are for
+    this machine alone, unless the file states `dashboard_address` in `scheduler_options`; workers have none.
 
     Args:
         data: content of the file.
@@ -114,5 +115,16 @@ def slurm_settings(data: Any, where: str) -> tuple[dict[str, Any], int]:
             where=where,
             fix="Leave processes out",
         )
-    lines = [*given.pop("job_script_prologue", []), "export NPROC=1"]
-    return {"memory": "2GB", **given, "cores": cores, "processes": cores, "job_script_prologue": lines}, jobs
+    shapes = {"job_script_prologue": list, "worker_extra_args": list, "scheduler_options": dict}
+    for name, shape in shapes.items():
+        if not isinstance(given.setdefault(name, shape()), shape):
+            what = "a list" if shape is list else "a table"
+            raise ParameterError(f"{name} is {show(given[name])}; expected {what}", where=where)
+    given |= {
+        "cores": cores,
+        "processes": cores,
+        "job_script_prologue": [*given["job_script_prologue"], "export NPROC=1"],
+        "worker_extra_args": [*given["worker_extra_args"], "--no-dashboard"],
+        "scheduler_options": {"dashboard_address": "127.0.0.1:0", **given["scheduler_options"]},
+    }
+    return {"memory": "2GB", **given}, jobs
