@@ -126,9 +126,21 @@ def test_addresses_that_cannot_be_used_are_refused(monkeypatch):
             StoreAddress.of(nothing)
     with pytest.raises(ParameterError, match=r"was written without its credentials. Name it again"):
         StoreAddress.of("ftp://***@host/store")
+    for nowhere in ("s3://", "memory:///"):
+        with pytest.raises(ParameterError, match=rf"{nowhere}: the address names no place below its scheme"):
+            StoreAddress.of(nowhere)
+    for short in ("file://", "file://data/records"):
+        with pytest.raises(ParameterError, match=r"has three slashes.*file:///data/records, or data/records"):
+            StoreAddress.of(short)
     monkeypatch.setitem(sys.modules, "fsspec.core", None)
     with pytest.raises(MissingExtra, match=r"needs the package fsspec.*pip install 'deodar\[store\]'"):
         StoreAddress.of("memory://a").open()
+
+
+def test_addresses_of_folders_are_their_paths(tmp_path):
+    for given in (tmp_path, str(tmp_path), tmp_path.as_uri(), f"file://localhost{tmp_path.as_posix()}"):
+        assert StoreAddress.of(given).shown == str(tmp_path)
+    assert isinstance(StoreAddress.of("C://data/records").open(), FolderStore)
 
 
 def test_credentials_are_hidden():

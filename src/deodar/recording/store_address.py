@@ -15,7 +15,9 @@ from deodar.recording.record_store import FolderStore, RecordStore
 from deodar.recording.remote_store import RemoteStore
 from deodar.worlds._address import HIDDEN, masked
 
-_URL = re.compile(r"[a-zA-Z][\w+.-]*://")
+_URL = re.compile(r"[a-zA-Z][\w+.-]+://")
+"""How an address begins; one letter before a colon is a drive of Windows."""
+
 LOCAL = ("file", "local")
 """Schemes of addresses that name a folder."""
 
@@ -37,7 +39,8 @@ class StoreAddress:
         """Read the path of a folder, or an address.
 
         Raises:
-            ParameterError: it is neither, or its credentials were replaced by `***`.
+            ParameterError: it is neither, it names no place below its scheme, or its credentials were
+                replaced by `***`.
         """
         text = str(given) if isinstance(given, str | os.PathLike) else ""
         fix = "Name a folder, or an address such as s3://BUCKET/NAME"
@@ -52,9 +55,17 @@ class StoreAddress:
         if HIDDEN in text:
             what = "the address of the store was written without its credentials"
             raise ParameterError(what, where=masked(text), fix="Name it again, with the whole address")
-        if urlsplit(text).scheme.lower() in LOCAL:
+        scheme, _, rest = text.partition("://")
+        if scheme.lower() in LOCAL:
+            if not re.match(r"(localhost)?/", rest, re.IGNORECASE):
+                what = "the address of a folder has three slashes, and its whole path after them"
+                raise ParameterError(
+                    what, where=text, fix="For example file:///data/records, or data/records"
+                )
             path = str(Path(url2pathname(urlsplit(text).path)).absolute())
             return cls(path, path)
+        if not rest.strip("/"):
+            raise ParameterError("the address names no place below its scheme", where=text, fix=fix)
         text = text.rstrip("/")
         return cls(masked(text), text)
 
