@@ -22,7 +22,10 @@ def row(trial: int, place: str, duration: float | None, outcome: str = "found") 
         "trial": trial,
         "levels": levels,
         "outcome": outcome,
+        "awaited": "",
         "duration": duration,
+        "events": {},
+        "measures": {},
         **lost,
     }
 
@@ -58,6 +61,13 @@ def test_the_tail_of_a_file_returns_each_row_once(tmp_path: Path) -> None:
     with rows.path.open("a") as file:
         file.write(f"{line[20:]}\n{codec.line(ROWS[0])}\n")
     assert tail.new() == [ROWS[2]], "a row that exists is left out"
+    with rows.path.open("a") as file:
+        file.write(f"{codec.line(ROWS[3])}\n{codec.line({**ROWS[3], 'outcome': None})}\n")
+    for _ in range(2):
+        with pytest.raises(
+            RecordError, match=r"line 7 is not a row of its experiment: outcome\. Remove that"
+        ):
+            tail.new()
 
 
 def test_a_file_that_holds_no_rows_is_an_error(tmp_path: Path) -> None:

@@ -241,6 +241,21 @@ def test_an_experiment_that_another_process_runs_is_followed_to_its_end(
     assert sorted(map(str, stored_rows(theirs))) == sorted(map(str, stored_rows(folder / "results")))
 
 
+def test_a_line_that_is_not_a_row_is_named_when_results_are_opened(
+    folder: Path, begun: tuple[Path, list[str]]
+) -> None:
+    theirs, lines = begun
+    add(theirs, [lines[0].replace('"outcome"', '"other"')])
+
+    async def scene(p: Page) -> None:
+        answer = await p.ask("open_experiment", path="theirs/experiment.json")
+        [found] = answer["problems"]
+        assert found["what"] == "line 4 is not a row of its experiment: outcome"
+        assert found["fix"].startswith("Remove that line")
+
+    at_its_experiment(folder, scene)
+
+
 def test_a_run_whose_process_has_ended_is_continued(folder: Path, begun: tuple[Path, list[str]]) -> None:
     theirs, lines = begun
     lock = contextlib.ExitStack()

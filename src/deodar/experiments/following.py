@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -12,7 +12,8 @@ from typing import Any
 from deodar import codec
 from deodar.errors import RecordError, first_line
 from deodar.experiments.observations import DIVERGED, TIME
-from deodar.experiments.rows import KEY, Row
+from deodar.experiments.rows import ABOUT, KEY, Row
+from deodar.experiments.table import lacks, read_row
 
 MOST_FAILING = 3
 """Most combinations of levels with diverged trials that are named in words."""
@@ -124,26 +125,35 @@ class RowsTail:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._read = 0
+        self._read = self._lines = 0
+        self._lacking: Callable[[Any], str] | None = None
         self._keys: set[str] = set()
 
     def new(self) -> list[Row]:
         """Return the rows since the last call; an incomplete last line is left for the next one.
 
         Raises:
-            RecordError: the file cannot be read, or a complete line is not a row.
+            RecordError: the file cannot be read, or a complete line is not a row; the line is named.
         """
         try:
             with self.path.open("rb") as file:
                 file.seek(self._read)
                 content = file.read()
             whole = content.rfind(b"\n") + 1
-            lines: list[Row] = [codec.parse(line.decode()) for line in content[:whole].splitlines()]
-            new = [line for line in lines if KEY in line and line[KEY] not in self._keys]
-        except (OSError, ValueError, TypeError) as error:
+            lines = content[:whole].splitlines()
+            lacking, first = self._lacking, 0
+            if lacking is None and lines:
+                lacking, first = lacks(codec.parse(lines[0])[ABOUT]), 1
+        except (OSError, ValueError, LookupError, TypeError) as error:
             raise RecordError(
                 f"its rows cannot be read ({first_line(error)})", where=str(self.path)
             ) from None
-        self._read += whole
-        self._keys |= {row[KEY] for row in new}
+        found: dict[str, Row] = {}
+        for number, line in enumerate(lines[first:], self._lines + first + 1):
+            assert lacking is not None
+            row = read_row(line, number, str(self.path), lacking)
+            found.setdefault(row[KEY], row)
+        self._read, self._lines, self._lacking = self._read + whole, self._lines + len(lines), lacking
+        new = [row for key, row in found.items() if key not in self._keys]
+        self._keys |= found.keys()
         return new

@@ -33,7 +33,7 @@ from deodar.experiments.record_target import (
 )
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.setup import Setup
-from deodar.experiments.table import dataset, lacks, table
+from deodar.experiments.table import dataset, lacks, read_row, table
 from deodar.experiments.writing import RECORDS
 from deodar.model import files as documents
 from deodar.model import output
@@ -308,24 +308,9 @@ def stored(folder: Path) -> tuple[JsonObject, list[Row]]:
             about = codec.parse(file.readline())[ABOUT]
             lacking = lacks(about)
             lines = (line for line in file if line.endswith(b"\n"))
-            return about, [_row(line, number, file.name, lacking) for number, line in enumerate(lines, 2)]
+            return about, [read_row(line, number, file.name, lacking) for number, line in enumerate(lines, 2)]
     except (OSError, ValueError, LookupError, TypeError):
         raise _no_results(folder) from None
-
-
-def _row(line: bytes, number: int, file: str, lacking: Callable[[Any], str]) -> Row:
-    try:
-        row = codec.parse(line)
-    except ValueError:
-        row = None
-    wrong = lacking(row)
-    if wrong:
-        raise RecordError(
-            f"line {number} is not a row of its experiment: {wrong}",
-            where=file,
-            fix="Remove that line; the trial is then run again",
-        )
-    return cast("Row", row)
 
 
 def _no_results(folder: Path) -> RecordError:

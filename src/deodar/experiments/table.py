@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from deodar import codec
+from deodar.errors import RecordError
 from deodar.experiments.jobs import MACHINE
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.rows import KEY, Row
@@ -54,6 +55,32 @@ def lacks(about: Mapping[str, Any]) -> Callable[[Any], str]:
         return ""
 
     return lacking
+
+
+def read_row(line: bytes, number: int, file: str, lacking: Callable[[Any], str]) -> Row:
+    """Return the row in a line of a file.
+
+    Args:
+        line: the line.
+        number: its number in the file, from 1.
+        file: the file, for the error.
+        lacking: what `lacks` returned for the experiment of the file.
+
+    Raises:
+        RecordError: it is not a row of this experiment.
+    """
+    try:
+        row = codec.parse(line)
+    except ValueError:
+        row = None
+    wrong = lacking(row)
+    if wrong:
+        raise RecordError(
+            f"line {number} is not a row of its experiment: {wrong}",
+            where=file,
+            fix="Remove that line; the trial is then run again",
+        )
+    return cast("Row", row)
 
 
 def dataset(rows: Iterable[Row], about: Mapping[str, Any]) -> xarray.Dataset:
