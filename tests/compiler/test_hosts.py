@@ -6,9 +6,11 @@ import contextlib
 import json
 import os
 import socket
+import struct
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Generator, Sequence
 from pathlib import Path
 
@@ -16,6 +18,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.compiler import host_link
 from deodar.compiler.host_link import HostLinks, meet
 from deodar.errors import HostsError, ParameterError
 from deodar.recording.record import about
@@ -299,6 +302,36 @@ def test_a_host_that_does_not_come_is_named() -> None:
         meet(address, 3, 0, 0.3)
     with pytest.raises(HostsError, match=f"the first host cannot be reached at {address} within 0.3 s"):
         meet(address, 3, 2, 0.3)
+
+
+@pytest.mark.parametrize("resets", [True, False])
+def test_a_stranger_at_the_port_does_not_end_the_first_host(
+    resets: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(host_link, "HELLO_SECONDS", 0.2)
+    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+    first = threading.Thread(target=lambda: found.update({0: meet(address, 2, 0, 10.0)[0]}))
+    first.start()
+    with reached(address) as stranger:
+        if resets:
+            stranger.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            stranger.close()
+        else:
+            assert stranger.recv(1) == b"", "who says nothing is sent away"
+    found[1] = meet(address, 2, 1, 10.0)[0]
+    first.join()
+    for link in found.values():
+        link.close()
+    assert len(found) == 2
+
+
+def reached(address: str) -> socket.socket:
+    """Return a connection to a port that is opened meanwhile."""
+    host, _, port = address.partition(":")
+    while True:
+        with contextlib.suppress(ConnectionRefusedError):
+            return socket.create_connection((host, int(port)), 5.0)
+        time.sleep(0.01)
 
 
 def test_hosts_that_differ_are_refused() -> None:

@@ -34,6 +34,9 @@ program.
 PARTING = 5.0
 """Most seconds that the first host waits for the others before it ends, after an error."""
 
+HELLO_SECONDS = 2.0
+"""Seconds in which who connects to the first host must say which host it is."""
+
 RETRY = 0.2
 """Seconds between two attempts to reach the first host."""
 
@@ -282,8 +285,10 @@ def _welcome(port: int, count: int, hello: Message, until: float, timeout: float
             server.settimeout(max(0.01, until - time.monotonic()))
             with contextlib.suppress(TimeoutError):
                 link, _ = server.accept()
-                link.settimeout(2.0)
-                found = _line(link)
+                found = _first_words(link)
+                if not found:  # no host, or one that calls again
+                    link.close()
+                    continue
                 k = found.get("host")
                 if not isinstance(k, int) or not 0 < k < count or k in links:
                     _refuse([link], f"host {show(k)} is not one of {count}, or has come already")
@@ -299,6 +304,15 @@ def _welcome(port: int, count: int, hello: Message, until: float, timeout: float
         _refuse(links.values(), text)
         raise HostsError(text, fix="Start the same script on every host, with its own number")
     return links
+
+
+def _first_words(link: socket.socket) -> Message:
+    """Return the first message of a link; empty if it does not come in time."""
+    link.settimeout(HELLO_SECONDS)
+    try:
+        return _line(link)
+    except OSError:
+        return {}
 
 
 def _refuse(links: Collection[socket.socket], reason: str) -> None:
