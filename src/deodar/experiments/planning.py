@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 import math
 import time
 from dataclasses import dataclass
@@ -13,7 +14,6 @@ from deodar.experiments.setup import Setup
 
 START_SECONDS = 5.0
 """Wall time in which a worker starts and opens the model, in seconds (measured on one machine)."""
-
 
 TASK_SECONDS = 0.005
 """Processor time that the caller and its scheduler need for a piece, in seconds (measured by
@@ -58,8 +58,7 @@ class WorkPlan:
         """
         free = [START_SECONDS] * max(1, min(workers, self.most))
         for trials in self.pieces:
-            first = free.index(min(free))
-            free[first] += trials * self.seconds
+            heapq.heapreplace(free, free[0] + trials * self.seconds)
         return max(*free, START_SECONDS + TASK_SECONDS * len(self.pieces))
 
     def counts(self) -> list[int]:
