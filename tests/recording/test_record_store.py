@@ -5,6 +5,7 @@ credentials.
 from __future__ import annotations
 
 import errno
+import os
 import sys
 
 import pytest
@@ -66,6 +67,24 @@ def test_a_folder_that_is_gone_is_not_made_again(tmp_path):
     with pytest.raises(OutputError, match="the store of the records is not there"):
         FolderStore(tmp_path / "gone").put(NAME, b"content")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_that_cannot_be_listed_is_not_taken_for_an_empty_one(tmp_path, monkeypatch):
+    store = FolderStore(tmp_path / "store")
+    assert store.sizes() == {}, "there is none yet"
+    store.create()
+    store.put(NAME, b"one")
+    listed = os.scandir
+
+    def refuses(path):
+        if str(path).endswith("0000"):
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return listed(path)
+
+    monkeypatch.setattr(os, "scandir", refuses)
+    for name in ("", "records"):
+        with pytest.raises(RecordError, match=r"records/0000: the store of the records cannot be read"):
+            store.sizes(name)
 
 
 @pytest.mark.parametrize("first", [b"", b"an earlier content"])

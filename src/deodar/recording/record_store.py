@@ -137,8 +137,13 @@ class FolderStore:
 
     def sizes(self, name: str = "") -> dict[str, int]:
         """Return the size of each file below a folder."""
+
+        def failed(error: OSError) -> None:
+            if not isinstance(error, FileNotFoundError):
+                raise unreadable(str(error.filename or self.path / name), error) from None
+
         found: dict[str, int] = {}
-        for folder, _, files in os.walk(self.path / name):
+        for folder, _, files in os.walk(self.path / name, onerror=failed):
             for file in files:
                 path = Path(folder, file)
                 try:
