@@ -16,7 +16,7 @@ from deodar import cli
 from deodar.batch import scheduler, simulate
 from deodar.cli import _long
 from deodar.cli import experiment as experiment_command
-from deodar.experiments import setup
+from deodar.experiments import following, setup
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
@@ -216,6 +216,7 @@ def test_an_error_of_a_cluster_says_how_to_resume(file, capsys, monkeypatch):
 
 def test_parts_are_followed_and_merged(file, capsys, monkeypatch):
     monkeypatch.setattr(setup, "MOST_COPIES", 8)
+    monkeypatch.setattr(following, "QUIET_SECONDS", 0.0)
     assert call("--trials", "0:8", "--out", "first") == 0
     assert call("--follow", "first") == 1
     told = capsys.readouterr()
@@ -248,6 +249,32 @@ def test_a_run_is_followed_until_it_ends(file, capsys, monkeypatch):
     assert call("--follow", "out") == 0
     thread.join()
     assert "16 of 16 trials (100 %)" in capsys.readouterr().out
+
+
+def test_rows_of_another_machine_are_followed_where_its_lock_is_not_seen(file, capsys, monkeypatch):
+    monkeypatch.setattr(experiment_command, "FOLLOW_SECONDS", 0.02)
+    monkeypatch.setattr(following, "QUIET_SECONDS", 0.5)
+    assert call("--out", "whole") == 0
+    rows = (file.parent / "whole" / "trials.jsonl").read_text(encoding="utf-8").splitlines(keepends=True)
+    (file.parent / "far").mkdir()
+    far = file.parent / "far" / "trials.jsonl"
+    far.write_text("".join(rows[:3]), encoding="utf-8")
+
+    def writes():
+        for row in rows[3:10]:
+            time.sleep(0.15)
+            with far.open("a", encoding="utf-8") as more:
+                more.write(row)
+
+    thread = threading.Thread(target=writes)
+    thread.start()
+    assert call("--follow", "far") == 1
+    thread.join()
+    told = capsys.readouterr()
+    assert "9 of 16 trials" in told.out
+    first, last = told.err.splitlines()
+    assert first.endswith("no process of this machine runs it; rows of another one are awaited for 0.5 s")
+    assert last.endswith("no process runs it; the call that began it resumes it")
 
 
 def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatch):

@@ -17,7 +17,7 @@ from distributed import LocalCluster
 
 import deodar as dd
 from deodar.batch import scheduler
-from deodar.experiments import setup
+from deodar.experiments import following, setup
 from deodar.experiments.results import stored_rows
 from deodar.recording import writer_lock
 from deodar.server import experiment_run, run_place
@@ -279,7 +279,7 @@ def test_rows_that_grow_without_a_lock_are_followed_until_they_are_quiet(
 ) -> None:
     """As in a folder that another machine writes, on a file system without locks."""
     theirs, lines = begun
-    monkeypatch.setattr(experiment_run, "QUIET_SECONDS", 1.5)
+    monkeypatch.setattr(following, "QUIET_SECONDS", 1.5)
 
     async def scene(p: Page) -> None:
         assert experiment(p)["run"]["state"] == "stopped"

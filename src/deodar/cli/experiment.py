@@ -189,35 +189,43 @@ def _merge(args: argparse.Namespace) -> int:
 
 
 def _follow(args: argparse.Namespace, of: int) -> int:
-    """Print the standing of a run whenever rows arrive; status 1 if it has stopped before its end."""
+    """Print the standing of a run whenever rows arrive; status 1 if it has stopped before its end.
+
+    Where locks do not work, it is followed until Ctrl-C.
+    """
     # start-up time: these bring JAX
-    from deodar.experiments.following import RowsTail, standing
+    from deodar.experiments.following import QUIET_SECONDS, RowsTail, RowsWriter, standing
     from deodar.experiments.results import ROWS, stored_rows
     from deodar.recording import writer_lock
 
     begun: tuple[float, int] | None = None
     said = -1
     stored_rows(args.follow)  # or the error that it is no such folder
-    tail, rows = RowsTail(args.follow / ROWS), list[dict[str, Any]]()
+    tail, rows, writer = RowsTail(args.follow / ROWS), list[dict[str, Any]](), RowsWriter(time.monotonic())
     with contextlib.suppress(KeyboardInterrupt):
         while True:
             running = writer_lock.is_written(args.follow)  # before the rows: it may end after them
             rows += tail.new()
             now = time.monotonic()
             begun = begun or (now, len(rows))
+            runs = writer.runs(running, len(rows) > said >= 0, now)
             if len(rows) != said:
-                said = len(rows)
                 _tell_standing(args, standing(rows, of, begun, now))
             if len(rows) >= of:
                 return 0
-            if running is False:
-                print(
-                    "deodar experiment: no process runs it; the call that began it resumes it",
-                    file=sys.stderr,
-                )
+            if running is False and not runs:
+                _say("no process runs it; the call that began it resumes it")
                 return 1
+            if running is False and said < 0:
+                wait = f"rows of another one are awaited for {QUIET_SECONDS:g} s"
+                _say(f"no process of this machine runs it; {wait}")
+            said = len(rows)
             time.sleep(FOLLOW_SECONDS)
     return 0
+
+
+def _say(what: str) -> None:
+    print(f"deodar experiment: {what}", file=sys.stderr, flush=True)
 
 
 def _tell_standing(args: argparse.Namespace, now: Standing) -> None:

@@ -15,6 +15,11 @@ from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.rows import ABOUT, KEY, Row
 from deodar.experiments.table import lacks, read_row
 
+QUIET_SECONDS = 60.0
+"""Wall time without a new row after which rows count as stopped where the lock of their writer is not seen,
+in seconds.
+"""
+
 MOST_FAILING = 3
 """Most combinations of levels with diverged trials that are named in words."""
 
@@ -157,3 +162,30 @@ class RowsTail:
         new = [row for key, row in found.items() if key not in self._keys]
         self._keys |= found.keys()
         return new
+
+
+class RowsWriter:
+    """Whether a process still adds rows, by its lock or by the rows.
+
+    A process that was seen to hold the lock of the folder runs the experiment as long as it holds it. The
+    lock of a process on another machine may not be seen: then it runs as long as rows arrive.
+
+    Args:
+        since: moment from which the quiet is counted, before rows have arrived; -inf: there is no quiet
+            before.
+    """
+
+    def __init__(self, since: float = -math.inf) -> None:
+        self._locked, self._grown = False, since
+
+    def runs(self, written: bool | None, grew: bool, now: float) -> bool:
+        """Return whether the process runs.
+
+        Args:
+            written: whether a process holds the lock; None where this is unknown.
+            grew: whether rows have arrived since the last call.
+            now: the present moment, in seconds of a clock that only advances.
+        """
+        self._locked = self._locked or written is True
+        self._grown = now if grew else self._grown
+        return written is True or (not self._locked and now - self._grown < QUIET_SECONDS)

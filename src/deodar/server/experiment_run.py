@@ -17,7 +17,7 @@ from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing
 from deodar.errors import DeodarError, Problem, RecordError
 from deodar.experiments import packed
-from deodar.experiments.following import RowsTail, Standing, standing
+from deodar.experiments.following import RowsTail, RowsWriter, Standing, standing
 from deodar.experiments.jobs import Progress
 from deodar.experiments.merging import computed
 from deodar.experiments.results import ROWS, run_trials
@@ -37,11 +37,6 @@ REPEATS = "repeats"
 
 STANDING_SECONDS = 1.0
 """Least wall time between two standings of a run, in seconds: all of its rows are read for one."""
-
-QUIET_SECONDS = 60.0
-"""Wall time without a new row after which followed rows count as stopped where the lock of their writer is
-not seen, in seconds.
-"""
 
 NOBODY = Staffing(0, 0)
 
@@ -89,8 +84,8 @@ class ExperimentRun:
         self._stood = -math.inf
         self._tail: RowsTail | None = None
         self._looking, self._seen = threading.Lock(), queue.SimpleQueue[RowsSeen]()
-        self._locked = self._opened = False
-        self._begun, self._grown = (0.0, 0), -math.inf
+        self._writer, self._opened = RowsWriter(), False
+        self._begun = 0.0, 0
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._repeating = threading.Lock()
@@ -201,23 +196,18 @@ class ExperimentRun:
         return self._tail is not None and self.state in ("stopped", "followed")
 
     def take(self) -> bool:
-        """Add the rows that were read since the last call; return whether anything changed.
-
-        A process that was seen to hold the lock of the folder runs the experiment as long as it holds it. On
-        a file system without locks, it does as long as rows arrive.
-        """
+        """Add the rows that were read since the last call; return whether anything changed."""
         if not self.follows or self._seen.empty():
             return False
         now, before, found, count = time.monotonic(), self.state, RowsSeen(None, ()), len(self.rows)
         while not self._seen.empty():
             found = self._seen.get_nowait()
             self.rows.extend(found.new)
-        self._locked = self._locked or found.written is True
-        self._grown = now if self._opened and len(self.rows) > count else self._grown
+        runs = self._writer.runs(found.written, self._opened and len(self.rows) > count, now)
         self._opened = True
         if len(self.rows) >= self.setup.trials:
             self.state = "complete"
-        elif found.written or (not self._locked and now - self._grown < QUIET_SECONDS):
+        elif runs:
             self.state = "followed"
             self._stand(self._begun)
             self.left = None if self.standing is None else self.standing.left
