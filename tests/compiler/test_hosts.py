@@ -130,6 +130,34 @@ except (HostsError, Interrupted) as error:
 """
 
 
+SESSION = """
+import sys, deodar as dd
+from deodar.errors import HostsError
+from deodar.session import run
+from tests.compiler.test_shard import volume
+
+class Broken:
+    left = 6
+
+    def perf_counter(self):
+        self.left -= 1
+        if not self.left:
+            raise OSError("the disk is gone")
+        return 0.001 * self.left
+
+host, port = int(sys.argv[1]), sys.argv[2]
+dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
+session = dd.Session(volume(), devices="all")
+session.run(10)
+if host:
+    run.time = Broken()
+try:
+    session.run(1e8)
+except (HostsError, OSError) as error:
+    print(type(error).__name__, error)
+"""
+
+
 def started(
     script: str, host: int, devices: int, *arguments: str, **environment: str
 ) -> subprocess.Popen[str]:
@@ -190,6 +218,13 @@ def test_the_end_of_one_host_is_an_error_on_the_other(
     if how == "SIGINT":
         data = dd.open_record(out)
         assert about(data)["complete"] is False and data.sizes["time"] > 10
+
+
+def test_an_error_of_one_host_ends_the_session_of_the_others_with_its_reason() -> None:
+    port = free_port()
+    there, here = ended([started(SESSION, host, 2, port) for host in (1, 0)])
+    assert there[:2] == (0, "OSError the disk is gone\n"), there[2]
+    assert here[1].startswith("HostsError host 1 has ended the run: OSError: the disk is gone"), here[2]
 
 
 def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_path: Path) -> None:

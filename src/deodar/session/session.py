@@ -576,7 +576,8 @@ class Session:
         """Advance the run, and record the samples that are due."""
         recorder = self._recorder
         if recorder is None or not recorder.open:
-            self._run.advance(steps)
+            with hosts.together(self.program.across):
+                self._run.advance(steps)
             return
         recorder.note()
         recorder.advance(self._run, steps)
