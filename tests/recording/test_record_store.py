@@ -111,6 +111,25 @@ def test_a_file_system_that_is_full_holds_no_part_of_a_file():
     assert store.get(NAME) == b"content" and FailingFileSystem.names() == [f"/bucket/store/{NAME}"]
 
 
+def test_an_object_is_put_again_where_a_rename_replaces_nothing(monkeypatch):
+    """As on a server of SMB, after a caller was killed between an object and its rows."""
+    rename = FailingFileSystem.mv
+
+    def refuses(self, old, new):
+        if self.exists(new):
+            raise FileExistsError(new)
+        rename(self, old, new)
+
+    monkeypatch.setattr(FailingFileSystem, "mv", refuses)
+    store = StoreAddress.of("failing://bucket/store").open()
+    for _ in range(2):
+        store.put(NAME, b"the same object")
+    assert store.sizes() == {NAME: 15}
+    with pytest.raises(OutputError, match=r"took no file .FileExistsError"):
+        store.put(NAME, b"another object")
+    assert store.get(NAME) == b"the same object" and store.sizes() == {NAME: 15}
+
+
 @pytest.mark.parametrize(
     ("error", "says"),
     [

@@ -87,9 +87,11 @@ class RemoteStore:
             try:
                 self._fs.pipe_file(beside, content)
                 self._fs.mv(beside, path)
-            except BaseException:
+            except BaseException as error:
                 self._remove(beside)
-                raise
+                # some file systems, such as SMB, rename a file to no name that exists
+                if not isinstance(error, Exception) or not self._holds(path, content):
+                    raise
         except Exception as error:  # packages of fsspec may raise any exception
             text = self._hidden(first_line(error))
             raise refused(f"{self.shown}/{name}", error, text) from None
@@ -128,6 +130,13 @@ class RemoteStore:
 
     def _path(self, name: str) -> str:
         return f"{self._root}/{name}"
+
+    def _holds(self, path: str, content: bytes) -> bool:
+        """Return whether a file has this content already."""
+        try:
+            return self._fs.cat_file(path) == content
+        except Exception:  # the store is gone, which the first error states
+            return False
 
     def _remove(self, path: str) -> None:
         try:
