@@ -457,6 +457,12 @@ def test_a_store_of_another_experiment_or_of_something_else_is_refused(tmp_path,
             open_records(copied)
     with pytest.raises(RecordError, match=r"is not a store of records: it has no experiment.json"):
         open_records(tmp_path)
+    for wrong in (
+        lambda: made().run(tmp_path / "out 5", records=tmp_path / "out 5"),
+        lambda: open_records(tmp_path / "out 4"),
+    ):
+        with pytest.raises(RecordError, match=r"is the folder of the rows.*are read by dd.load_record"):
+            wrong()
 
 
 def test_a_store_for_nothing_is_refused(tmp_path):

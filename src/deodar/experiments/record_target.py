@@ -181,10 +181,17 @@ def experiment_of(mark: bytes, where: str) -> JsonObject:
     """Return the identity of the experiment of a store.
 
     Raises:
-        RecordError: the file that states it is damaged, or of a newer version.
+        RecordError: the file that states it is damaged, of a newer version, or that of a folder of rows.
     """
     try:
         data = codec.parse(mark)
+        if isinstance(data, dict) and "records" not in data and "limit" in data:
+            raise RecordError(
+                "is the folder of the rows of an experiment, and no store of records",
+                where=where,
+                fix="Name another folder for the store; records in files beside rows are read by"
+                " dd.load_record",
+            )
         version, about = data["records"], data["experiment"]
         if not isinstance(version, int) or not isinstance(about, dict):
             raise TypeError
