@@ -30,13 +30,19 @@ FLAG = "--xla_force_host_platform_device_count="
 
 VALUES = """
 import sys, numpy as np, deodar as dd
-from deodar.errors import DeviceError, HostsError, NotFinite, OutputExists, UnknownName, WorkerError
+from deodar.batch.output import RunOutput
+from deodar.errors import (
+    DeviceError, HostsError, NotFinite, OutputError, OutputExists, UnknownName, WorkerError
+)
 from deodar.recording.record import about
 from tests.compiler.test_shard import plane, volume
 
 host, port, folder = int(sys.argv[1]), sys.argv[2], sys.argv[3]
 if host >= 0:
     dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
+
+def full(self):
+    raise OutputError("full")
 
 def line(tau=20.0, **given):
     made = dd.Model("line")
@@ -96,6 +102,12 @@ if host >= 0:
     fails(kind, text, lambda: values(line(), trials=4, record=["missing"] if host else ["u"]))
     kind, text = (HostsError, "host 0 has ended the run: OutputExists") if host else (OutputExists, "night")
     fails(kind, text, lambda: values(volume(), out=f"{folder}/night.zarr"))
+    if host == 0:
+        close, RunOutput.close = RunOutput.close, full
+    kind, text = (HostsError, "host 0 has ended the run: OutputError") if host else (OutputError, "full")
+    fails(kind, text, lambda: values(line(), trials=4, out=f"{folder}/full.zarr"))
+    if host == 0:
+        RunOutput.close = close
     fails(DeviceError, "Type a multiple of 2 up to 4", lambda: values(line(), trials=4, devices=3))
     fails(HostsError, "a world on 2 hosts", lambda: values(line(), trials=4, world=dd.Arena("blocks")))
     fails(WorkerError, "worker processes", lambda: values(line(), trials=4, workers=2))

@@ -158,13 +158,17 @@ def simulate(
             raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
     spread = None if cluster is None else functools.partial(on_cluster, Cluster.of(cluster))
     with hosts.together(devices is not None):
+        across = hosts.count() > 1 and hosts.span(places.several(devices, device))
         if out is None:
             file = None
-        elif not hosts.first() and hosts.span(places.several(devices, device)):
+        elif across and not hosts.first():
             file = OutputElsewhere(Path(out), snapshots)
         else:
             file = RunOutput(Path(out), force, snapshots)
-        return warned(model, request, world, progress, file, spread)
+        data = warned(model, request, world, progress, file, spread)
+        # an error after the last chunk, as of a disk, also reaches the others in this call
+        hosts.any_of("the end of the run", True, across)
+        return data
 
 
 def warned(
