@@ -60,6 +60,15 @@ def test_a_writer_waits_for_a_process_that_only_asks(tmp_path: Path, monkeypatch
     os.close(handle)
 
 
+def test_two_processes_that_ask_do_not_take_each_other_for_a_writer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asking = writer_lock.lock(tmp_path)
+    assert asking is not None
+    monkeypatch.setattr(writer_lock.time, "sleep", lambda _: os.close(asking))
+    assert writer_lock.is_written(tmp_path) is False
+
+
 def test_a_writer_has_ended_after_two_observations_without_a_lock_and_without_growth(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

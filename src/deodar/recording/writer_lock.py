@@ -20,6 +20,11 @@ TRIES = 20
 PAUSE = 0.01
 """Time between two attempts, in seconds."""
 
+MOMENT = 0.001
+"""Wall time after which a lock that is still held is that of a writer, in seconds; who asks holds it for some
+microseconds.
+"""
+
 CERTAIN_SECONDS = 1.0
 """Wall time after which a record without a writer and without growth is no longer written, in seconds.
 
@@ -69,6 +74,9 @@ def is_written(path: Path) -> bool | None:
     if os.name != "posix":
         return None
     handle, taken = _try(path)
+    if taken:
+        time.sleep(MOMENT)  # another process that only asks has ended
+        handle, taken = _try(path)
     if handle is not None:
         os.close(handle)
     return True if taken else None if handle is None else False
