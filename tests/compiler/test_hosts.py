@@ -113,6 +113,12 @@ if host >= 0:
     fails(WorkerError, "worker processes", lambda: values(line(), trials=4, workers=2))
     fails(HostsError, "resuming a run on 2 hosts", lambda: dd.resume(f"{folder}/night.zarr", 80))
     fails(HostsError, "the record of a session", lambda: session.record(f"{folder}/no.zarr", ["u"]))
+    calls = [lambda: session.run(5 + host), lambda: session.inject("u", 1.0 + host)]
+    session.run(5)
+    fails(HostsError, "differ in the calls of the session", calls[0])
+    fails(HostsError, "differ in what is injected", calls[1])
+    session.set("u.tau", 30.0 + host)
+    fails(HostsError, "differ in the calls of the session", session.step)
     fails(HostsError, "follows the wall clock", lambda: session.run_live(5))
     fails(HostsError, "joined already", lambda: dd.join_hosts("127.0.0.1:" + port, 2, host))
     alone = dd.simulate(line(), 20 + host, progress=False)

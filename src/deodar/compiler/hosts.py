@@ -201,7 +201,7 @@ def require_equal(what: str, value: Any) -> None:
     if not _joined:
         return
     text = codec.line(value, sort=True)
-    said = text if len(text) <= SHOWN else hashlib.sha256(text.encode()).hexdigest()
+    said = text if len(text) <= SHOWN else digest(value)
     found = _joined[0].exchange(what, said)
     for k, one in enumerate(found):
         if one != found[0]:
@@ -210,6 +210,11 @@ def require_equal(what: str, value: Any) -> None:
                 f"the hosts 0 and {k} differ in {what}{shown}",
                 fix="Run the same script with the same files and versions on all hosts",
             )
+
+
+def digest(value: Any) -> str:
+    """Return the hash of a value (plain data), which hosts compare in its place."""
+    return hashlib.sha256(codec.line(value, sort=True).encode()).hexdigest()
 
 
 def of_first(what: str, value: T, across: bool) -> T:

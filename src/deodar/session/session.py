@@ -103,6 +103,7 @@ class Session:
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
         self._recorder: Recorder | None = None
+        self._agreed: tuple[Document, str] | None = None
         self._ports: dict[str, tuple[Executable, Port]] = {}
         doc = require_model(model).document
         across = self._distribution is not None and self._distribution.across
@@ -193,6 +194,8 @@ class Session:
         frozen = FrozenArray(amount)
         # as the journal has it, so that a repetition has the same bits
         given = frozen.data if frozen.shape else float(frozen.data)
+        if self.program.across:
+            hosts.require_equal("what is injected", [entry.path, n, frozen.digest])
         self.journal.append(Change(self.tick, f"push {entry.path}", (frozen, n)))
         g, r = self._run.program.plan.row[entry.id]
         for _ in range(n):
@@ -576,11 +579,27 @@ class Session:
         """Advance the run, and record the samples that are due."""
         recorder = self._recorder
         if recorder is None or not recorder.open:
-            with hosts.together(self.program.across):
+            if self.program.across:
+                self._advance_together(steps)
+            else:
                 self._run.advance(steps)
             return
         recorder.note()
         recorder.advance(self._run, steps)
+
+    def _advance_together(self, steps: int) -> None:
+        """Advance on all hosts.
+
+        Raises:
+            HostsError: they advance by other steps, or other models; or one of them fails.
+        """
+        doc = self.document
+        with hosts.together(True):
+            if self._agreed is None or self._agreed[0] is not doc:
+                self._agreed = doc, hosts.digest(stored(doc))
+            said = {"steps": steps, "seed": self.seed, "model": self._agreed[1]}
+            hosts.require_equal("the calls of the session", said)
+            self._run.advance(steps)
 
     def _end_record(self, reason: str) -> None:
         if self._recorder is not None:
