@@ -15,7 +15,6 @@ import pytest
 from deodar import cli
 from deodar.batch import scheduler, simulate
 from deodar.cli import _long
-from deodar.cli import experiment as experiment_command
 from deodar.experiments import following, setup
 from deodar.experiments.events import Crosses
 from deodar.experiments.experiment import Experiment
@@ -238,7 +237,7 @@ def test_parts_are_followed_and_merged(file, capsys, monkeypatch):
 
 
 def test_a_run_is_followed_until_it_ends(file, capsys, monkeypatch):
-    monkeypatch.setattr(experiment_command, "FOLLOW_SECONDS", 0.02)
+    monkeypatch.setattr(following, "FOLLOW_SECONDS", 0.02)
     monkeypatch.setattr(setup, "MOST_COPIES", 2)
     (file.parent / "out").mkdir()
     (file.parent / "out" / "trials.jsonl").touch()
@@ -252,7 +251,7 @@ def test_a_run_is_followed_until_it_ends(file, capsys, monkeypatch):
 
 
 def test_rows_of_another_machine_are_followed_where_its_lock_is_not_seen(file, capsys, monkeypatch):
-    monkeypatch.setattr(experiment_command, "FOLLOW_SECONDS", 0.02)
+    monkeypatch.setattr(following, "FOLLOW_SECONDS", 0.02)
     monkeypatch.setattr(following, "QUIET_SECONDS", 0.5)
     assert call("--out", "whole") == 0
     rows = (file.parent / "whole" / "trials.jsonl").read_text(encoding="utf-8").splitlines(keepends=True)
@@ -277,13 +276,18 @@ def test_rows_of_another_machine_are_followed_where_its_lock_is_not_seen(file, c
     assert last.endswith("no process runs it; the call that began it resumes it")
 
 
+def test_a_part_within_a_batch_says_who_runs_its_trials(file, capsys):
+    assert call("--trials", "3:5", "--out", "part") == 0
+    assert "0 trials: their batch begins before this part" in capsys.readouterr().out
+
+
 def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatch):
     monkeypatch.setattr(setup, "MOST_COPIES", 4)
     assert call("--plan") == 0
     out = capsys.readouterr().out
     assert (
         "when: 16 trials in 4 pieces of at most 4; about" in out
-        and "More than 4 workers do not help: each has one piece." in out
+        and "More than 4 workers would not help: each has one piece." in out
     )
     assert re.search(r"stored: \d+ bytes for a row of each trial, [0-9.]+ kB in total", out)
     assert "  1 worker: at most" in out and "  4 workers: at most" in out
@@ -291,6 +295,9 @@ def test_a_plan_prints_pieces_memory_and_time(file, capsys, tmp_path, monkeypatc
     found = json.loads(capsys.readouterr().out)
     assert list(found["times"]) == ["1", "2", "4"] and found["pieces"] == [4] * 4
     assert found["stored"] == 16 * found["row"]
+    with pytest.raises(SystemExit):
+        cli.main(["plan", "when.json", "--cluster", "--devices", "8"])
+    assert "--devices is for a model, and --cluster plans an experiment" in capsys.readouterr().err
     assert cli.main(["plan", "when.json", "--cluster"]) == 0
     assert "when: 16 trials in 4 pieces of at most 4; about" in capsys.readouterr().out
     assert not list(tmp_path.glob("when-*"))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -153,7 +154,7 @@ def test_errors_say_what_is_wrong_and_that_the_call_resumes(error, says):
 
 def test_addresses_that_cannot_be_used_are_refused(monkeypatch):
     monkeypatch.setitem(sys.modules, "s3fs", None)
-    with pytest.raises(ParameterError, match=r"s3://b/n: the address of the store needs.*install s3fs"):
+    with pytest.raises(ParameterError, match=r"s3://b/n: the address of the store needs.*Install s3fs"):
         StoreAddress.of("s3://b/n").open()
     with pytest.raises(ParameterError, match=r"is not the address of a store.*such as s3://BUCKET/NAME"):
         StoreAddress.of("nonsense://a/b").open()
@@ -186,6 +187,15 @@ def test_credentials_are_hidden():
     assert address.shown == "ftp://***@host/store?token=***" and "secret" not in repr(address)
     for text in ("user:top secret", "login top%20secret", "ftp://user:top%20secret@host/x", "top secret"):
         assert "secret" not in address.hidden(text)
+    assert address.hidden("no token abcdef of user:top secret") == "no token *** of ***"
+    slash = StoreAddress.of("ftp://user:to/p@host/store")
+    assert slash.shown == "ftp://***@host/store" and slash.hidden("bad login user:to/p") == "bad login ***"
+    assert StoreAddress.of("ftp://us[er:secret@host/x").hidden("of us[er:secret") == "of ***"
+
+
+def test_an_address_is_no_path():
+    with pytest.raises(ParameterError, match=r'has no //.*as text: "s3://BUCKET/NAME"'):
+        StoreAddress.of(Path("s3://bucket/name"))
 
 
 @pytest.mark.parametrize("mode", ["silent", "forbidden"])

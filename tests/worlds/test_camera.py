@@ -17,10 +17,10 @@ import pytest
 
 import deodar as dd
 from deodar.cli._options import world as from_command_line
+from deodar.credentials import masked
 from deodar.errors import DeodarError, WorldError
 from deodar.recording.opened import again
 from deodar.worlds import _capture
-from deodar.worlds._address import masked
 from deodar.worlds.camera import Camera
 from deodar.worlds.robot.robot import Robot
 from tests.worlds.camera_peer import PeerServer, free_port, silent

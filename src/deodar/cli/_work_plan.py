@@ -23,16 +23,15 @@ def show(setup: Setup, json: bool) -> int:
         answer |= {"row": found.row, "record": found.record, "stored": found.stored, "most": found.most}
         print(codec.text({**answer, "times": {str(n): seconds for n, seconds in times.items()}}))
         return 0
-    print(
-        f"{setup.experiment.name}: {sum(found.pieces)} trials in {len(found.pieces)} pieces of at most"
-        f" {max(found.pieces)}; about {found.memory / 2**20:.0f} MB of memory for each worker"
-    )
+    pieces = f"{_number(len(found.pieces), 'piece')} of at most {max(found.pieces)}"
+    memory = f"about {found.memory / 2**20:.0f} MB of memory for each worker"
+    print(f"{setup.experiment.name}: {_number(sum(found.pieces), 'trial')} in {pieces}; {memory}")
     records = f" and at most {_size(found.record)} of records" if found.record else ""
     print(f"  stored: {_size(found.row)} for a row{records} of each trial, {_size(found.stored)} in total")
     for n, seconds in times.items():
-        print(f"  {n} worker{'s' if n > 1 else ''}: at most {_long.duration(seconds)}")
+        print(f"  {_number(n, 'worker')}: at most {_long.duration(seconds)}")
     why = "each has one piece" if found.most == len(found.pieces) else "the caller is busy with their pieces"
-    print(f"More than {found.most} workers do not help: {why}.")
+    print(f"More than {_number(found.most, 'worker')} would not help: {why}.")
     print("Measured on this machine; trials may end earlier.")
     return 0
 
@@ -42,3 +41,7 @@ def _size(count: int) -> str:
         if count >= factor:
             return f"{count / factor:.3g} {unit}"
     return f"{count} bytes"
+
+
+def _number(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 from deodar import codec
 from deodar.cli import _long, _options, _work_plan
 from deodar.cli._bar import Bar
+from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
 from deodar.recording import places
-from deodar.worlds._address import masked
 
 if TYPE_CHECKING:
     import xarray
@@ -28,9 +28,6 @@ HELP = "run the trials of an experiment, and write a table with a row for each"
 EPILOG = """\
 Rows are written as trials end: Ctrl-C or a power failure loses none. The same call with --out FOLDER
 resumes, with the same results as without the stop."""
-
-FOLLOW_SECONDS = 1.0
-"""Wall time between two reads of the rows of a run that is followed, in seconds."""
 
 MOST_CELLS = 24
 """Most combinations of levels that are listed; the table contains all of them."""
@@ -156,7 +153,7 @@ def run(args: argparse.Namespace) -> int:
         )
         return 1
     _tell(args, out, data)
-    return 1 if _diverged(data) == data.sizes["trial"] else 0
+    return 1 if 0 < _diverged(data) == data.sizes["trial"] else 0
 
 
 def trials(text: str) -> int | tuple[int, int]:
@@ -194,6 +191,7 @@ def _follow(args: argparse.Namespace, of: int) -> int:
     Where locks do not work, it is followed until Ctrl-C.
     """
     # start-up time: these bring JAX
+    from deodar.experiments import following
     from deodar.experiments.following import QUIET_SECONDS, RowsTail, RowsWriter, standing
     from deodar.experiments.results import ROWS, stored_rows
     from deodar.recording import writer_lock
@@ -220,7 +218,7 @@ def _follow(args: argparse.Namespace, of: int) -> int:
                 wait = f"rows of another one are awaited for {QUIET_SECONDS:g} s"
                 _say(f"no process of this machine runs it; {wait}")
             said = len(rows)
-            time.sleep(FOLLOW_SECONDS)
+            time.sleep(following.FOLLOW_SECONDS)
     return 0
 
 
@@ -292,7 +290,9 @@ def _tell(args: argparse.Namespace, out: Path, data: xarray.Dataset) -> None:
         return
     for line in _cells(data):
         print(line)
-    print(f"{data.sizes['trial']} trials: {', '.join(f'{name} {n}' for name, n in outcomes.items())}.")
+    shown = ", ".join(f"{name} {n}" for name, n in outcomes.items())
+    none = "their batch begins before this part, and runs with that one"
+    print(f"{data.sizes['trial']} trials: {shown or none}.")
     print(f"Written to {_options.shown(out)}: {', '.join(names)}.")
     if args.records is not None:
         print(f"Records written to {masked(args.records)}; dd.open_records reads them.")

@@ -24,6 +24,7 @@ needs; the devices need not be there."""
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
+    parser.set_defaults(wrong=parser.error)
     _options.add_document(parser)
     parser.add_argument(
         "--devices", type=_options.several, metavar="N", help="divide the fields among N devices, or all"
@@ -49,6 +50,9 @@ def run(args: argparse.Namespace) -> int:
     from deodar.session import memory
 
     if args.cluster:
+        for name in ("devices", "device", "precision", "accuracy"):
+            if getattr(args, name) is not None:
+                args.wrong(f"--{name} is for a model, and --cluster plans an experiment")
         _options.use_cores(None)  # one core, as workers use
         return _work_plan.show(Experiment.load(args.file, load).setup(), args.json)
     model = load(args.file)

@@ -20,6 +20,9 @@ QUIET_SECONDS = 60.0
 in seconds.
 """
 
+FOLLOW_SECONDS = 1.0
+"""Wall time between two reads of rows that another process writes, in seconds."""
+
 MOST_FAILING = 3
 """Most combinations of levels with diverged trials that are named in words."""
 

@@ -18,6 +18,7 @@ from deodar.batch.packed import require_portable
 from deodar.batch.staffing import Watch
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
+from deodar.credentials import masked_data
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
 from deodar.experiments import packed, record_index
 from deodar.experiments.comparing import compare
@@ -40,7 +41,6 @@ from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, provenance, writer_lock
 from deodar.recording.store_address import StoreAddress
-from deodar.worlds._address import masked_data
 
 if TYPE_CHECKING:
     import xarray

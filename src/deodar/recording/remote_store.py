@@ -49,7 +49,7 @@ class RemoteStore:
             raise ParameterError(
                 f"the address of the store needs another package ({hidden(first_line(error))})",
                 where=shown,
-                fix="Install it here, and where workers run, for example: pip install s3fs",
+                fix="Install it here, and where workers run",
             ) from None
         except Exception as error:  # packages of fsspec may raise any exception
             raise ParameterError(

@@ -6,14 +6,14 @@ import os
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
+from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
+from deodar.credentials import HIDDEN, masked, secrets
 from deodar.errors import ParameterError
 from deodar.model import output
 from deodar.recording.record_store import FolderStore, RecordStore
 from deodar.recording.remote_store import RemoteStore
-from deodar.worlds._address import HIDDEN, masked
 
 _URL = re.compile(r"[a-zA-Z][\w+.-]+://")
 """How an address begins; one letter before a colon is a drive of Windows."""
@@ -50,6 +50,9 @@ class StoreAddress:
             what = "a chain of addresses (::) is no store of records"
             raise ParameterError(what, where=masked(text), fix=fix)
         if not _URL.match(text):
+            if not isinstance(given, str) and re.match(r"[a-zA-Z][\w+.-]+:[/\\]\w", text):
+                what = "a path has no //, so that it cannot be the address of a store"
+                raise ParameterError(what, where=text, fix='Name the address as text: "s3://BUCKET/NAME"')
             path = str(output.location(text).absolute())
             return cls(path, path)
         if HIDDEN in text:
@@ -87,8 +90,6 @@ class StoreAddress:
 
     def hidden(self, text: str) -> str:
         """Return a text without the credentials of the address, wherever in it they are."""
-        login, at, _ = urlsplit(self.full).netloc.rpartition("@")
-        secrets = [login, *login.split(":", 1)[1:]] if at else []
-        for secret in sorted({*secrets, *map(unquote, secrets)} - {""}, key=len, reverse=True):
+        for secret in secrets(self.full):
             text = text.replace(secret, HIDDEN)
         return masked(text)

@@ -14,6 +14,7 @@ from typing import Any, cast
 import numpy as np
 
 from deodar import registry
+from deodar.credentials import masked
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import MissingExtra, Problem, WorldError, did_you_mean
@@ -26,7 +27,6 @@ from deodar.server import scene
 from deodar.server.to_page import WorldPreview
 from deodar.session import agreement
 from deodar.session.exchange import used
-from deodar.worlds._address import masked
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 

@@ -86,6 +86,7 @@ class ExperimentRun:
         self._looking, self._seen = threading.Lock(), queue.SimpleQueue[RowsSeen]()
         self._writer, self._opened = RowsWriter(), False
         self._begun = 0.0, 0
+        self._trials: set[int] = set()
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._repeating = threading.Lock()
@@ -128,8 +129,11 @@ class ExperimentRun:
         self._prepare()
 
     def _take(self, progress: Progress) -> None:
-        known = {row["trial"] for row in self.rows}
-        self.rows.extend(row for row in progress.new if row["trial"] not in known)
+        if len(self._trials) != len(self.rows):
+            self._trials = {row["trial"] for row in self.rows}
+        new = [row for row in progress.new if row["trial"] not in self._trials]
+        self._trials |= {row["trial"] for row in new}
+        self.rows.extend(new)
         self.left = progress.left
         self._stand(None)
         self._changed()

@@ -19,6 +19,7 @@ from deodar.codec import JsonObject
 from deodar.errors import DeodarError, DocumentError, Problem
 from deodar.experiments.design import EXAMPLE, VERSION
 from deodar.experiments.experiment import Experiment
+from deodar.experiments.following import FOLLOW_SECONDS
 from deodar.experiments.results import EXPERIMENT, ROWS
 from deodar.experiments.setup import Setup
 from deodar.model.document import Document
@@ -41,9 +42,6 @@ LIMIT, TRIALS = 1000.0, 20
 
 MOST_TRIALS = 100_000
 """Most trials of one run: pages receive every row (a guess)."""
-
-FOLLOW_SECONDS = 1.0
-"""Least wall time between two reads of rows that another process writes, in seconds."""
 
 MOST_ROWS = 1000
 """Most rows in one message."""

@@ -14,6 +14,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
+from deodar.credentials import masked
 from deodar.errors import DocumentError, ModelError, ParameterError
 from deodar.importers import presets
 from deodar.importers.report import Line
@@ -40,7 +41,6 @@ from deodar.server.to_page import Answer, Fits, Folder
 from deodar.server.weights_stream import WeightsStream
 from deodar.session.recorder import compile_records
 from deodar.session.session import Session
-from deodar.worlds._address import masked
 from deodar.worlds._base import World
 
 MOST_STREAMS = 2000

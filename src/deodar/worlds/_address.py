@@ -1,4 +1,4 @@
-"""Addresses of cameras, and their credentials, which no message and no record shows."""
+"""Addresses of cameras."""
 
 from __future__ import annotations
 
@@ -9,66 +9,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import quote, urlsplit
 
-from deodar.codec import Json
+from deodar.credentials import HIDDEN, masked
 from deodar.errors import WorldError
 
 PORTS = {"rtsp": 554, "http": 80, "https": 443}
 """Schemes of addresses, with their usual ports."""
 
-HIDDEN = "***"
-"""What messages and records show instead of credentials."""
-
 _ADDRESS = re.compile(rf"({'|'.join(PORTS)})://", re.IGNORECASE)
-_URL = re.compile(r"([a-zA-Z][\w+.-]*://)([^\s\"']*)")
-_SECRET = re.compile(
-    r"([?&;#/_][^=&?/\s]*(?:token|pass|pw|key|secret|auth|sig|cred|sess|code|login)[^=&?/\s]*=)[^&\s\"']+",
-    re.IGNORECASE,
-)
 
 
 def is_address(text: str) -> bool:
     """Return whether a text begins as an address of a camera does: rtsp://, http:// or https://."""
     return _ADDRESS.match(text) is not None
-
-
-def masked(text: str) -> str:
-    """Return a text in which the credentials of every address are `***`.
-
-    These are the user and the password of an address, and the values of parameters whose names say so, such
-    as `token`, `password` and `key`.
-    """
-    return _URL.sub(lambda found: found[1] + _masked_rest(found[2]), text)
-
-
-def masked_data(data: Json) -> Json:
-    """Return plain data in which the credentials of every address are `***`."""
-    if isinstance(data, str):
-        return masked(data)
-    if isinstance(data, list):
-        return [masked_data(each) for each in data]
-    return {key: masked_data(each) for key, each in data.items()} if isinstance(data, dict) else data
-
-
-def _masked_rest(rest: str) -> str:
-    """Return what follows :// without credentials."""
-    authority = re.split(r"[/?#]", rest, maxsplit=1)[0]
-    _, at, host = authority.rpartition("@")
-    if at:
-        rest = f"{HIDDEN}@{host}{rest[len(authority) :]}"
-    elif "@" in rest and re.search(r":(?!\d+$)", authority.rpartition("]")[2]):
-        rest = f"{HIDDEN}@{rest.rpartition('@')[2]}"  # a password that contains a slash
-    return _SECRET.sub(rf"\g<1>{HIDDEN}", rest)
-
-
-@dataclass(frozen=True)
-class Hidden:
-    """A value that `repr` does not show.
-
-    Attributes:
-        value: the value.
-    """
-
-    value: int | str = field(repr=False)
 
 
 @dataclass(frozen=True)

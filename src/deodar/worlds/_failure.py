@@ -9,8 +9,8 @@ from collections.abc import Generator
 from pathlib import Path
 
 from deodar import registry
+from deodar.credentials import masked
 from deodar.errors import DeodarError, WorldError, first_line, show
-from deodar.worlds._address import masked
 from deodar.worlds._base import World
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from deodar import registry
+from deodar.credentials import masked
 from deodar.errors import WorldError, did_you_mean
-from deodar.worlds._address import is_address, masked
+from deodar.worlds._address import is_address
 from deodar.worlds._base import World
 
 

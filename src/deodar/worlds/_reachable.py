@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from http import HTTPStatus
 from urllib.parse import urlsplit
 
-from deodar.worlds._address import HIDDEN, Address
+from deodar.credentials import HIDDEN
+from deodar.worlds._address import Address
 
 _STATUS = re.compile(rb"(?:HTTP|RTSP)/\d\.\d (\d{3})\b")
 

@@ -9,12 +9,12 @@ import numpy as np
 
 from deodar import renamed
 from deodar.codec import Json
+from deodar.credentials import Hidden, masked
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axes
 from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds import _capture
-from deodar.worlds._address import Hidden, masked
 from deodar.worlds._base import Signal, World
 from deodar.worlds._camera_reader import CameraReader, CameraTimes, source_of
 from deodar.worlds._image import PICTURE, frame, sampled

@@ -11,11 +11,11 @@ import numpy as np
 
 from deodar import codec, registry
 from deodar.codec import Json, JsonObject
+from deodar.credentials import masked
 from deodar.errors import Problem, WorldError
 from deodar.numerics.axes import Axes
 from deodar.parameters import show
 from deodar.registry import register
-from deodar.worlds._address import masked
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._link_state import LinkState

@@ -15,11 +15,12 @@ import numpy as np
 
 from deodar import codec, registry
 from deodar.codec import Json, JsonObject
+from deodar.credentials import masked, masked_data
 from deodar.errors import Problem, WorldError, did_you_mean
 from deodar.numerics.axes import Axes
 from deodar.parameters import show
 from deodar.registry import register
-from deodar.worlds._address import is_address, masked, masked_data
+from deodar.worlds._address import is_address
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._link_state import LinkState
