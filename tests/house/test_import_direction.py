@@ -19,7 +19,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "errors",
         "plugins docstring declarations",
         "registry extensions renamed part_type family codec",
-        "demos runtime",
+        "demos runtime credentials",
         "parameters",
         "leaves",
         "numerics",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses as dc
-import functools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -118,8 +118,11 @@ def compute(
         hosts.require_one("workers or a cluster", across and spread is not None)
         jobs = cut.requests(dc.replace(request, dt=float(step)), labels, listed)
         assert not isinstance(out, OutputPart)
-        run_there = None if spread is None else functools.partial(spread, model, world, jobs, out)
-        parts = _in_pieces(model, jobs, world, steps, progress, run_there, out, across)
+        with _watched(across, steps * len(jobs), progress) as tell:
+            if spread is None:
+                parts = _one_by_one(model, jobs, world, steps, out, tell)
+            else:
+                parts = spread(model, world, jobs, out, tell)
         return _whole(cut, parts, asked)
     stopped, nothing = False, None
     with stoppable(across) as check:
@@ -241,36 +244,38 @@ def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tupl
     return 0, length - trials
 
 
-def _in_pieces(
-    model: Model,
-    jobs: Sequence[SimulationRequest],
-    world: World | None,
-    steps: int,
-    progress: Shown,
-    run_there: Callable[[Callable[[int], None]], list[pieces.PieceResult | None]] | None,
-    out: RunOutput | None,
-    across: bool,
-) -> list[pieces.PieceResult | None]:
-    """Compute the pieces one after another, or all by `run_there`, in worker processes."""
-    parts: list[pieces.PieceResult | None] = [None] * len(jobs)
-    with stoppable(across) as check, bar(steps * len(jobs), progress) as shown:
+@contextlib.contextmanager
+def _watched(across: bool, steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
+    """Return a function that receives the number of completed steps, shows it and checks for Ctrl-C."""
+    with stoppable(across) as check, bar(steps, progress) as shown:
 
         def between(done: int) -> None:
             check()
             shown(done)
 
-        if run_there is not None:
-            return run_there(between)
-        for k, job in enumerate(jobs):
-            if out is not None and k in out.done:
-                parts[k] = pieces.EMPTY
-                continue
-            part = None if out is None else out.part(k)
-            try:
-                parts[k] = compute(model, job, world, lambda done, k=k: between(k * steps + done), out=part)
-            except Interrupted as error:
-                parts[k] = pieces.PieceResult(error.data, False)
-                break
+        yield between
+
+
+def _one_by_one(
+    model: Model,
+    jobs: Sequence[SimulationRequest],
+    world: World | None,
+    steps: int,
+    out: RunOutput | None,
+    between: Callable[[int], None],
+) -> list[pieces.PieceResult | None]:
+    """Compute the pieces one after another; `between` receives the number of completed steps of all."""
+    parts: list[pieces.PieceResult | None] = [None] * len(jobs)
+    for k, job in enumerate(jobs):
+        if out is not None and k in out.done:
+            parts[k] = pieces.EMPTY
+            continue
+        part = None if out is None else out.part(k)
+        try:
+            parts[k] = compute(model, job, world, lambda done, k=k: between(k * steps + done), out=part)
+        except Interrupted as error:
+            parts[k] = pieces.PieceResult(error.data, False)
+            break
     return parts
 
 

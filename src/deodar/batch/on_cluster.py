@@ -24,7 +24,7 @@ from typing import Any, Self
 from deodar.batch import cluster_task, scheduler
 from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_task import INSTRUCTIONS
-from deodar.batch.staffing import Staffing, Watch
+from deodar.batch.staffing import Staffing, WorkerWatch
 from deodar.errors import WorkerError, first_line
 
 TASKS_A_WORKER = 2
@@ -111,7 +111,9 @@ class ClusterPool:
             the machine is `mixed`.
     """
 
-    def __init__(self, cluster: Cluster, precision: str = "float32", watch: Watch | None = None) -> None:
+    def __init__(
+        self, cluster: Cluster, precision: str = "float32", watch: WorkerWatch | None = None
+    ) -> None:
         self.cluster, self._precision, self._watch_by = cluster, precision, watch
         self.made_by: dict[str, str] = {}
         self._version = scheduler.version()

@@ -153,6 +153,7 @@ def _slurm(file: Path, most: int | None = None) -> Any:
         import yaml
 
         with _signals_kept():
+            # an extra
             from dask_jobqueue.slurm import SLURMCluster
     except ImportError:
         raise MissingExtra("dask-jobqueue", "cluster", "a cluster of SLURM") from None

@@ -19,7 +19,7 @@ class Staffing:
     running: int
 
 
-Watch = Callable[[Staffing], bool]
+WorkerWatch = Callable[[Staffing], bool]
 """A function that is called several times a second while workers run or are awaited; once it returns true,
 the computation ends at once.
 """

@@ -24,7 +24,7 @@ needs; the devices need not be there."""
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    parser.set_defaults(wrong=parser.error)
+    _options.wrong(parser)
     _options.add_document(parser)
     parser.add_argument(
         "--devices", type=_options.several, metavar="N", help="divide the fields among N devices, or all"

@@ -40,7 +40,7 @@ HELLO_SECONDS = 2.0
 RETRY = 0.2
 """Seconds between two attempts to reach the first host."""
 
-Message = dict[str, Any]
+HostMessage = dict[str, Any]
 
 
 class HostLinks:
@@ -65,7 +65,9 @@ class HostLinks:
         self.failed = False
         self._links = dict(links)
         self._number = 0
-        self._inbox: dict[int, queue.SimpleQueue[Message | None]] = {k: queue.SimpleQueue() for k in links}
+        self._inbox: dict[int, queue.SimpleQueue[HostMessage | None]] = {
+            k: queue.SimpleQueue() for k in links
+        }
         self._heard = dict.fromkeys(links, time.monotonic())
         self._sending = threading.Lock()
         self._closed = threading.Event()
@@ -99,11 +101,11 @@ class HostLinks:
             HostsError: one does not answer, is somewhere else in its script, or has ended its run.
         """
         self._number += 1
-        own: Message = {"n": self._number, "what": what, "said": said}
+        own: HostMessage = {"n": self._number, "what": what, "said": said}
         try:
             if self.index:
                 self._send(0, own)
-                found: list[Message] = self._hear(0, what)["all"]
+                found: list[HostMessage] = self._hear(0, what)["all"]
             else:
                 found = [own, *(self._hear(k, what) for k in range(1, self.count))]
                 self._send_all({"n": self._number, "all": found})
@@ -127,7 +129,7 @@ class HostLinks:
     def leave(self, reason: str) -> None:
         """Tell the others, at their next exchange, that the run has ended here."""
         self._number += 1
-        left: Message = {"n": self._number, "left": reason}
+        left: HostMessage = {"n": self._number, "left": reason}
         if self.index:
             self._send(0, left)
         else:
@@ -139,7 +141,7 @@ class HostLinks:
         while not self.lost and time.monotonic() < until:
             time.sleep(0.01)
 
-    def _hear(self, k: int, what: str) -> Message:
+    def _hear(self, k: int, what: str) -> HostMessage:
         until = time.monotonic() + self.timeout
         while True:
             try:
@@ -159,11 +161,11 @@ class HostLinks:
             if found["n"] >= self._number:  # else it belongs to a run that has ended here
                 return found
 
-    def _send(self, k: int, message: Message) -> None:
+    def _send(self, k: int, message: HostMessage) -> None:
         with contextlib.suppress(OSError), self._sending:  # its reader finds that it has ended
             self._links[k].sendall(f"{codec.line(message)}\n".encode())
 
-    def _send_all(self, message: Message) -> None:
+    def _send_all(self, message: HostMessage) -> None:
         for k in self._links:
             self._send(k, message)
 
@@ -218,7 +220,7 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
         HostsError: one does not come in time, or differs in the number of hosts or in versions.
     """
     host, _, port = address.rpartition(":")
-    hello: Message = {"host": index, "about": {"hosts": count, **_versions()}}
+    hello: HostMessage = {"host": index, "about": {"hosts": count, **_versions()}}
     until = time.monotonic() + timeout
     if index:
         link, answer = _call((host.strip("[]"), int(port)), hello, until, timeout)
@@ -244,8 +246,8 @@ def _versions() -> dict[str, str]:
 
 
 def _call(
-    place: tuple[str, int], hello: Message, until: float, timeout: float
-) -> tuple[socket.socket, Message]:
+    place: tuple[str, int], hello: HostMessage, until: float, timeout: float
+) -> tuple[socket.socket, HostMessage]:
     """Reach the first host, and wait for its answer, which it gives when all have come."""
     reason = "no answer"
     while time.monotonic() < until:
@@ -269,7 +271,9 @@ def _call(
     )
 
 
-def _welcome(port: int, count: int, hello: Message, until: float, timeout: float) -> dict[int, socket.socket]:
+def _welcome(
+    port: int, count: int, hello: HostMessage, until: float, timeout: float
+) -> dict[int, socket.socket]:
     """Wait on the first host for all others."""
     links: dict[int, socket.socket] = {}
     both = socket.has_dualstack_ipv6()
@@ -306,7 +310,7 @@ def _welcome(port: int, count: int, hello: Message, until: float, timeout: float
     return links
 
 
-def _first_words(link: socket.socket) -> Message:
+def _first_words(link: socket.socket) -> HostMessage:
     """Return the first message of a link; empty if it does not come in time."""
     link.settimeout(HELLO_SECONDS)
     try:
@@ -321,7 +325,7 @@ def _refuse(links: Collection[socket.socket], reason: str) -> None:
             link.sendall(f"{codec.line({'error': reason})}\n".encode())
 
 
-def _line(link: socket.socket) -> Message:
+def _line(link: socket.socket) -> HostMessage:
     """Return the first message of a link; empty if it is none."""
     text = b""
     while not text.endswith(b"\n") and len(text) < 2**16:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from deodar import renamed
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
-from deodar.batch.staffing import Staffing, Watch
+from deodar.batch.staffing import Staffing, WorkerWatch
 from deodar.experiments.rows import KEY, Row, Rows
 from deodar.session.interrupt import stoppable
 
@@ -67,7 +67,7 @@ def run_jobs(
     workers: int | None = None,
     stopped: Callable[[], bool] | None = None,
     cluster: ClusterPool | None = None,
-    watch: Watch | None = None,
+    watch: WorkerWatch | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
 
@@ -128,7 +128,7 @@ def run_jobs(
 def _anywhere(
     jobs: Sequence[Job],
     workers: int | None,
-    ends: Watch,
+    ends: WorkerWatch,
     cluster: ClusterPool | None,
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     if not jobs or not (workers or cluster):
@@ -149,7 +149,7 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 
 
 def _in_workers(
-    jobs: Sequence[Job], pool: Pool | ClusterPool, ends: Watch
+    jobs: Sequence[Job], pool: Pool | ClusterPool, ends: WorkerWatch
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     running, interrupted = dict[tuple[str, ...], Job](), False
     run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run

@@ -15,7 +15,7 @@ from deodar import codec, renamed
 from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed import require_portable
-from deodar.batch.staffing import Watch
+from deodar.batch.staffing import WorkerWatch
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.credentials import masked_data
@@ -59,7 +59,7 @@ def run_trials(
     out: str | Path | None,
     workers: int | None = None,
     progress: Callable[[Progress], None] | None = None,
-    watch: Watch | None = None,
+    watch: WorkerWatch | None = None,
     cluster: Cluster | str | None = None,
     part: tuple[int, int] | None = None,
 ) -> xarray.Dataset:
@@ -103,7 +103,7 @@ def _run_trials(
     out: Path,
     workers: int | None,
     progress: Callable[[Progress], None] | None,
-    watch: Watch | None,
+    watch: WorkerWatch | None,
     cluster: Cluster | None,
     part: tuple[int, int] | None,
 ) -> xarray.Dataset:
@@ -162,7 +162,7 @@ def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> Non
 
 @contextlib.contextmanager
 def _opened(
-    setup: Setup, handed: packed.PackedExperiment | None, cluster: Cluster | None, watch: Watch | None
+    setup: Setup, handed: packed.PackedExperiment | None, cluster: Cluster | None, watch: WorkerWatch | None
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the experiment; None without a cluster.
 
