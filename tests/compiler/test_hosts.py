@@ -378,6 +378,33 @@ def test_a_stranger_at_the_port_does_not_end_the_first_host(
     assert len(found) == 2
 
 
+@pytest.mark.parametrize("resets", [True, False])
+def test_a_host_that_ends_while_it_waits_may_be_started_again(resets: bool) -> None:
+    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+
+    def host(k: int) -> None:
+        found[k] = meet(address, 3, k, 10.0)[0]
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in (0, 1, 2)]
+    threads[0].start()
+    about = {"hosts": 3, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
+    with reached(address) as dead:
+        dead.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+        time.sleep(0.1)
+        with reached(address) as second:  # refused, because host 1 still waits
+            second.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+            assert b"host 1 is not one of 3, or has come already" in second.recv(1000)
+        if resets:
+            dead.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    for thread in threads[1:]:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for links in found.values():
+        links.close()
+    assert sorted(found) == [0, 1, 2]
+
+
 def reached(address: str) -> socket.socket:
     """Return a connection to a port that is opened meanwhile."""
     host, _, port = address.partition(":")

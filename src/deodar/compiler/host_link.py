@@ -40,7 +40,13 @@ HELLO_SECONDS = 2.0
 RETRY = 0.2
 """Seconds between two attempts to reach the first host."""
 
-HostMessage = dict[str, Any]
+ALIKE = "Install the same versions and start all hosts alike"
+"""What to do if hosts differ."""
+
+EVERYWHERE = "Start the same script on every host, with its own number"
+"""What to do if a host does not come."""
+
+Message = dict[str, Any]
 
 
 class HostLinks:
@@ -65,9 +71,7 @@ class HostLinks:
         self.failed = False
         self._links = dict(links)
         self._number = 0
-        self._inbox: dict[int, queue.SimpleQueue[HostMessage | None]] = {
-            k: queue.SimpleQueue() for k in links
-        }
+        self._inbox: dict[int, queue.SimpleQueue[Message | None]] = {k: queue.SimpleQueue() for k in links}
         self._heard = dict.fromkeys(links, time.monotonic())
         self._sending = threading.Lock()
         self._closed = threading.Event()
@@ -101,11 +105,11 @@ class HostLinks:
             HostsError: one does not answer, is somewhere else in its script, or has ended its run.
         """
         self._number += 1
-        own: HostMessage = {"n": self._number, "what": what, "said": said}
+        own: Message = {"n": self._number, "what": what, "said": said}
         try:
             if self.index:
                 self._send(0, own)
-                found: list[HostMessage] = self._hear(0, what)["all"]
+                found: list[Message] = self._hear(0, what)["all"]
             else:
                 found = [own, *(self._hear(k, what) for k in range(1, self.count))]
                 self._send_all({"n": self._number, "all": found})
@@ -129,7 +133,7 @@ class HostLinks:
     def leave(self, reason: str) -> None:
         """Tell the others, at their next exchange, that the run has ended here."""
         self._number += 1
-        left: HostMessage = {"n": self._number, "left": reason}
+        left: Message = {"n": self._number, "left": reason}
         if self.index:
             self._send(0, left)
         else:
@@ -141,7 +145,7 @@ class HostLinks:
         while not self.lost and time.monotonic() < until:
             time.sleep(0.01)
 
-    def _hear(self, k: int, what: str) -> HostMessage:
+    def _hear(self, k: int, what: str) -> Message:
         until = time.monotonic() + self.timeout
         while True:
             try:
@@ -161,11 +165,11 @@ class HostLinks:
             if found["n"] >= self._number:  # else it belongs to a run that has ended here
                 return found
 
-    def _send(self, k: int, message: HostMessage) -> None:
+    def _send(self, k: int, message: Message) -> None:
         with contextlib.suppress(OSError), self._sending:  # its reader finds that it has ended
             self._links[k].sendall(f"{codec.line(message)}\n".encode())
 
-    def _send_all(self, message: HostMessage) -> None:
+    def _send_all(self, message: Message) -> None:
         for k in self._links:
             self._send(k, message)
 
@@ -220,14 +224,14 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
         HostsError: one does not come in time, or differs in the number of hosts or in versions.
     """
     host, _, port = address.rpartition(":")
-    hello: HostMessage = {"host": index, "about": {"hosts": count, **_versions()}}
+    hello: Message = {"host": index, "about": {"hosts": count, **_versions()}}
     until = time.monotonic() + timeout
     if index:
         link, answer = _call((host.strip("[]"), int(port)), hello, until, timeout)
         links = {0: link}
         if "error" in answer:
             link.close()
-            raise HostsError(answer["error"], fix="Install the same versions and start all hosts alike")
+            raise HostsError(answer["error"], fix=answer["fix"])
         found = int(answer["port"])
     else:
         links = _welcome(int(port), count, hello, until, timeout)
@@ -246,8 +250,8 @@ def _versions() -> dict[str, str]:
 
 
 def _call(
-    place: tuple[str, int], hello: HostMessage, until: float, timeout: float
-) -> tuple[socket.socket, HostMessage]:
+    place: tuple[str, int], hello: Message, until: float, timeout: float
+) -> tuple[socket.socket, Message]:
     """Reach the first host, and wait for its answer, which it gives when all have come."""
     reason = "no answer"
     while time.monotonic() < until:
@@ -271,9 +275,7 @@ def _call(
     )
 
 
-def _welcome(
-    port: int, count: int, hello: HostMessage, until: float, timeout: float
-) -> dict[int, socket.socket]:
+def _welcome(port: int, count: int, hello: Message, until: float, timeout: float) -> dict[int, socket.socket]:
     """Wait on the first host for all others."""
     links: dict[int, socket.socket] = {}
     both = socket.has_dualstack_ipv6()
@@ -285,32 +287,51 @@ def _welcome(
             f"port {port} cannot be opened on this host ({error.strerror})", fix="Choose another port"
         ) from None
     with server:
-        while len(links) < count - 1 and time.monotonic() < until:
+        while time.monotonic() < until:
             server.settimeout(max(0.01, until - time.monotonic()))
             with contextlib.suppress(TimeoutError):
                 link, _ = server.accept()
                 found = _first_words(link)
+                _drop_ended(links)
                 if not found:  # no host, or one that calls again
                     link.close()
                     continue
                 k = found.get("host")
                 if not isinstance(k, int) or not 0 < k < count or k in links:
-                    _refuse([link], f"host {show(k)} is not one of {count}, or has come already")
+                    _refuse([link], f"host {show(k)} is not one of {count}, or has come already", ALIKE)
                     continue
                 links[k] = link
                 if found.get("about") != hello["about"]:
                     text = f"host {k} differs from host 0: {found.get('about')} and {hello['about']}"
-                    _refuse(links.values(), text)
-                    raise HostsError(text, fix="Install the same versions and start all hosts alike")
+                    _refuse(links.values(), text, ALIKE)
+                    raise HostsError(text, fix=ALIKE)
+            if len(links) == count - 1:
+                break
     if len(links) < count - 1:
+        _drop_ended(links)
         missing = ", ".join(str(k) for k in range(1, count) if k not in links)
         text = f"host {missing} has not come within {timeout:g} s"
-        _refuse(links.values(), text)
-        raise HostsError(text, fix="Start the same script on every host, with its own number")
+        _refuse(links.values(), text, EVERYWHERE)
+        raise HostsError(text, fix=EVERYWHERE)
     return links
 
 
-def _first_words(link: socket.socket) -> HostMessage:
+def _drop_ended(links: dict[int, socket.socket]) -> None:
+    """Remove the hosts whose process has ended while they wait, so that they may be started again."""
+    for k, link in list(links.items()):
+        link.setblocking(False)
+        try:
+            ended = not link.recv(1, socket.MSG_PEEK)
+        except BlockingIOError:  # it waits, and says nothing
+            continue
+        except OSError:
+            ended = True
+        if ended:
+            link.close()
+            del links[k]
+
+
+def _first_words(link: socket.socket) -> Message:
     """Return the first message of a link; empty if it does not come in time."""
     link.settimeout(HELLO_SECONDS)
     try:
@@ -319,13 +340,13 @@ def _first_words(link: socket.socket) -> HostMessage:
         return {}
 
 
-def _refuse(links: Collection[socket.socket], reason: str) -> None:
+def _refuse(links: Collection[socket.socket], reason: str, fix: str) -> None:
     for link in links:
         with contextlib.suppress(OSError), link:
-            link.sendall(f"{codec.line({'error': reason})}\n".encode())
+            link.sendall(f"{codec.line({'error': reason, 'fix': fix})}\n".encode())
 
 
-def _line(link: socket.socket) -> HostMessage:
+def _line(link: socket.socket) -> Message:
     """Return the first message of a link; empty if it is none."""
     text = b""
     while not text.endswith(b"\n") and len(text) < 2**16:
