@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import socket
 import struct
 import subprocess
@@ -14,11 +15,12 @@ import time
 from collections.abc import Generator, Sequence
 from pathlib import Path
 
+import jax
 import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler import host_link
+from deodar.compiler import host_link, hosts
 from deodar.compiler.host_link import HostLinks, meet
 from deodar.errors import HostsError, ParameterError
 from deodar.recording.record import about
@@ -173,6 +175,15 @@ try:
     session.run(1e8)
 except (HostsError, OSError) as error:
     print(type(error).__name__, error)
+"""
+
+
+JOINING = """
+import sys, deodar as dd
+from deodar.compiler import host_link
+
+host_link.STUCK = 1.0
+dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]), timeout=5)
 """
 
 
@@ -412,6 +423,79 @@ def reached(address: str) -> socket.socket:
         with contextlib.suppress(ConnectionRefusedError):
             return socket.create_connection((host, int(port)), 5.0)
         time.sleep(0.01)
+
+
+def opened_behind_a_firewall(port: int, backlog: int) -> socket.socket:
+    """Open a port; one that the system chooses refuses all connections."""
+    if port:
+        return socket.create_server(("127.0.0.1", port), backlog=backlog)
+    silent = socket.socket()
+    silent.bind(("127.0.0.1", 0))
+    return silent
+
+
+def test_a_port_for_jax_that_cannot_be_reached_is_named_on_all_hosts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(host_link, "_opened", opened_behind_a_firewall)
+    address, texts = f"127.0.0.1:{free_port()}", list[str]()
+
+    def host(k: int) -> None:
+        with pytest.raises(HostsError) as error:
+            meet(address, 3, k, 10.0)
+        texts.append(str(error.value))
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in (2, 1, 0)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(texts) == 3 and len(set(texts)) == 1, texts
+    assert re.match(r"host 1 cannot reach port \d+ of host 0 \(Connection refused\)", texts[0])
+    assert "firewall of host 0" in texts[0]
+
+
+def test_a_host_that_ends_before_jax_starts_is_named() -> None:
+    address = f"127.0.0.1:{free_port()}"
+    about = {"hosts": 2, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
+
+    def host() -> None:
+        with reached(address) as dead:
+            dead.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+            assert b"port" in dead.recv(1000)
+
+    thread = threading.Thread(target=host)
+    thread.start()
+    with pytest.raises(HostsError, match="host 1 has ended"):
+        meet(address, 2, 0, 10.0)
+    thread.join()
+
+
+@pytest.mark.parametrize("ending", [0, 1])
+def test_a_host_that_ends_while_jax_starts_ends_the_other_with_its_name(ending: int) -> None:
+    port = free_port()
+    other = started(JOINING, 1 - ending, 2, port)
+    meet(f"127.0.0.1:{port}", 2, ending, 60.0)[0].close()
+    [(status, _, err)] = ended([other])
+    assert status == 1 and err.endswith(f"deodar: host {ending} has ended, so this process ends\n"), err
+
+
+def test_an_error_of_jax_at_its_start_closes_the_links(monkeypatch: pytest.MonkeyPatch) -> None:
+    def initialize(*_: object, **__: object) -> None:
+        raise RuntimeError("no port")
+
+    monkeypatch.setattr(jax.distributed, "initialize", initialize)
+    monkeypatch.setattr(jax.config, "update", lambda *_: None)  # pyright: ignore
+    monkeypatch.setattr("jax._src.xla_bridge.backends_are_initialized", lambda: False)
+    address, found = f"127.0.0.1:{free_port()}", list[HostLinks]()
+    other = threading.Thread(target=lambda: found.append(meet(address, 2, 0, 10.0)[0]))
+    other.start()
+    with pytest.raises(HostsError, match="JAX has not started on the hosts: RuntimeError: no port"):
+        dd.join_hosts(address, 2, 1, timeout=10)
+    other.join()
+    found[0].begin()
+    with pytest.raises(HostsError, match="host 1 has ended"):
+        found[0].exchange("a", 1)
+    found[0].close()
+    assert hosts.count() == 1
 
 
 def test_hosts_that_differ_are_refused() -> None:

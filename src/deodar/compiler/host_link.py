@@ -40,11 +40,20 @@ HELLO_SECONDS = 2.0
 RETRY = 0.2
 """Seconds between two attempts to reach the first host."""
 
+REACH = 10.0
+"""Seconds in which the other hosts must reach the port of the first one that JAX uses."""
+
 ALIKE = "Install the same versions and start all hosts alike"
 """What to do if hosts differ."""
 
 EVERYWHERE = "Start the same script on every host, with its own number"
 """What to do if a host does not come."""
+
+CAUSE = "Its output has the cause. Start the run again on all hosts"
+"""What to do if a host has ended."""
+
+FIREWALL = "JAX needs this port, which the system chooses: let the firewall of host 0 pass all ports"
+"""What to do if a port of the first host cannot be reached."""
 
 Message = dict[str, Any]
 
@@ -160,7 +169,7 @@ class HostLinks:
                 self._inbox[k].put(None)  # also for the next one who asks
                 raise HostsError(
                     lost_hosts(self.lost) or f"host {k} has ended",
-                    fix="Its output has the cause. Start the run again on all hosts",
+                    fix=CAUSE,
                 )
             if found["n"] >= self._number:  # else it belongs to a run that has ended here
                 return found
@@ -221,28 +230,91 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
     """Return the links with the other hosts, and a port of the first host that is free for JAX.
 
     Raises:
-        HostsError: one does not come in time, or differs in the number of hosts or in versions.
+        HostsError: one does not come in time, differs in the number of hosts or in versions, or cannot reach
+            the port for JAX.
     """
     host, _, port = address.rpartition(":")
     hello: Message = {"host": index, "about": {"hosts": count, **_versions()}}
     until = time.monotonic() + timeout
     if index:
-        link, answer = _call((host.strip("[]"), int(port)), hello, until, timeout)
+        place = host.strip("[]"), int(port)
+        link, answer = _call(place, hello, until, timeout)
         links = {0: link}
-        if "error" in answer:
-            link.close()
-            raise HostsError(answer["error"], fix=answer["fix"])
-        found = int(answer["port"])
+        found = int(_said(answer, "port", link))
+        reason = _unreached((place[0], found))
+        _tell([link], {"reached": not reason, "reason": reason})
+        # longer than the first host waits, so that it is the one that says which host has ended
+        _said(_next_words(link, 3 * REACH), "start", link)
     else:
         links = _welcome(int(port), count, hello, until, timeout)
-        with socket.create_server(("", 0)) as free:
-            found = int(free.getsockname()[1])
-        for link in links.values():
-            link.sendall(f"{codec.line({'port': found})}\n".encode())
+        found = _probed(links)
     for link in links.values():
         link.settimeout(None)
         link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return HostLinks(links, index, count, timeout), found
+
+
+def _said(answer: Message, name: str, link: socket.socket) -> Any:
+    """Return what the first host says by this name.
+
+    Raises:
+        HostsError: it refuses this host, or has ended.
+    """
+    if name in answer:
+        return answer[name]
+    link.close()
+    raise HostsError(
+        answer.get("error", "host 0 has ended, or does not answer"), fix=answer.get("fix", CAUSE)
+    )
+
+
+def _probed(links: dict[int, socket.socket]) -> int:
+    """Return a port of the first host that is free, and which all others have reached.
+
+    Raises:
+        HostsError: one of them cannot reach it, or has ended.
+    """
+    with _opened(0, len(links)) as server:
+        found = int(server.getsockname()[1])
+        _tell(links.values(), {"port": found})
+        until = time.monotonic() + 2 * REACH
+        # all are read: closing a link with words that are not read would also lose those that are sent
+        answers = {k: _next_words(link, max(RETRY, until - time.monotonic())) for k, link in links.items()}
+    for k, answer in sorted(answers.items()):
+        if not answer.get("reached"):
+            text, fix = f"host {k} has ended, or does not answer", CAUSE
+            if reason := answer.get("reason"):
+                text, fix = f"host {k} cannot reach port {found} of host 0 ({reason})", FIREWALL
+            _refuse(links.values(), text, fix)
+            raise HostsError(text, fix=fix)
+    # JAX opens the port again at once
+    _tell(links.values(), {"start": True})
+    return found
+
+
+def _unreached(place: tuple[str, int]) -> str:
+    """Return why a port cannot be reached; "" if it can."""
+    try:
+        socket.create_connection(place, REACH).close()
+    except OSError as error:
+        return error.strerror or str(error)
+    return ""
+
+
+def _next_words(link: socket.socket, seconds: float) -> Message:
+    """Return the next message of a link; empty if it does not come in time, or the link ends."""
+    link.settimeout(seconds)
+    try:
+        return _line(link)
+    except OSError:
+        return {}
+
+
+def _opened(port: int, backlog: int) -> socket.socket:
+    """Return a socket that listens at a port; 0: at one that is free."""
+    both = socket.has_dualstack_ipv6()
+    family = socket.AF_INET6 if both else socket.AF_INET
+    return socket.create_server(("", port), family=family, backlog=backlog, dualstack_ipv6=both)
 
 
 def _versions() -> dict[str, str]:
@@ -278,10 +350,8 @@ def _call(
 def _welcome(port: int, count: int, hello: Message, until: float, timeout: float) -> dict[int, socket.socket]:
     """Wait on the first host for all others."""
     links: dict[int, socket.socket] = {}
-    both = socket.has_dualstack_ipv6()
     try:
-        family = socket.AF_INET6 if both else socket.AF_INET
-        server = socket.create_server(("", port), family=family, backlog=count, dualstack_ipv6=both)
+        server = _opened(port, count)
     except OSError as error:
         raise HostsError(
             f"port {port} cannot be opened on this host ({error.strerror})", fix="Choose another port"
@@ -291,7 +361,7 @@ def _welcome(port: int, count: int, hello: Message, until: float, timeout: float
             server.settimeout(max(0.01, until - time.monotonic()))
             with contextlib.suppress(TimeoutError):
                 link, _ = server.accept()
-                found = _first_words(link)
+                found = _next_words(link, HELLO_SECONDS)
                 _drop_ended(links)
                 if not found:  # no host, or one that calls again
                     link.close()
@@ -331,19 +401,16 @@ def _drop_ended(links: dict[int, socket.socket]) -> None:
             del links[k]
 
 
-def _first_words(link: socket.socket) -> Message:
-    """Return the first message of a link; empty if it does not come in time."""
-    link.settimeout(HELLO_SECONDS)
-    try:
-        return _line(link)
-    except OSError:
-        return {}
-
-
 def _refuse(links: Collection[socket.socket], reason: str, fix: str) -> None:
+    _tell(links, {"error": reason, "fix": fix})
     for link in links:
-        with contextlib.suppress(OSError), link:
-            link.sendall(f"{codec.line({'error': reason, 'fix': fix})}\n".encode())
+        link.close()
+
+
+def _tell(links: Collection[socket.socket], message: Message) -> None:
+    for link in links:
+        with contextlib.suppress(OSError):  # what is read next finds that it has ended
+            link.sendall(f"{codec.line(message)}\n".encode())
 
 
 def _line(link: socket.socket) -> Message:

@@ -24,7 +24,7 @@ from jax.experimental import multihost_utils
 from jax.sharding import Mesh, NamedSharding, PartitionSpec, Sharding
 
 from deodar import codec
-from deodar.compiler.host_link import HostLinks, lost_hosts, meet
+from deodar.compiler.host_link import SILENT, HostLinks, lost_hosts, meet
 from deodar.errors import HostsError, ParameterError, first_line, show
 
 T = TypeVar("T")
@@ -60,7 +60,8 @@ def join_hosts(
         timeout: seconds to wait for the others, at the start and whenever they exchange something.
 
     Raises:
-        HostsError: JAX has started, a host does not come, or versions differ between the hosts.
+        HostsError: JAX has started, or cannot start; a host does not come, or cannot reach the port for JAX;
+            or versions differ between the hosts.
         ParameterError: an argument is not valid.
     """
     _require(address, count, index, timeout)
@@ -77,21 +78,43 @@ def join_hosts(
     if number < 2:
         return
     links, port = meet(place, number, own, timeout)
+    links.begin()
+    try:
+        _start_jax(links, f"{place.rpartition(':')[0]}:{port}", local)
+    except BaseException as error:
+        links.failed = True
+        if _joined:
+            # JAX of the others depends on the first host, which therefore waits for them
+            links.end()
+            _joined.clear()
+        links.close()
+        if not isinstance(error, Exception) or isinstance(error, HostsError):
+            raise
+        raise HostsError(
+            f"JAX has not started on the hosts: {type(error).__name__}: {first_line(error)}",
+            fix="Start the run again on all hosts",
+        ) from error
+
+
+def _start_jax(links: HostLinks, address: str, local: Any) -> None:
+    """Start JAX on all hosts, and connect their devices. If a host ends meanwhile, so does this process."""
     jax.config.update("jax_cpu_collectives_implementation", "gloo")
     # without it JAX ends this process when another one has ended, before an error can be raised
     jax.config.update("jax_enable_recoverability", True)
     # else SIGTERM, as from scancel, would no longer end this process
     jax.config.update("jax_enable_preemption_service", False)
+    links.inside = time.monotonic()
     jax.distributed.initialize(
-        f"{place.rpartition(':')[0]}:{port}",
-        number,
-        own,
+        address,
+        links.count,
+        links.index,
         local_device_ids=local,
         cluster_detection_method="deactivate",
-        initialization_timeout=max(1, round(timeout)),
+        # longer than the links need to find that a host has ended: after it JAX aborts without naming one
+        initialization_timeout=round(max(links.timeout, 2 * SILENT)),
     )
+    links.inside = 0.0
     _joined.append(links)
-    links.begin()
     # registered after that of JAX, so called before it
     atexit.register(links.end)
     with calling(True), _no_words_of_gloo():
