@@ -22,7 +22,7 @@ import pytest
 import deodar as dd
 from deodar.compiler import host_link, hosts
 from deodar.compiler.host_link import HostLinks, meet
-from deodar.errors import HostsError, ParameterError
+from deodar.errors import HostsError, ParameterError, UnknownName
 from deodar.recording.record import about
 
 LIMIT = 300.0
@@ -344,6 +344,19 @@ def test_a_host_that_leaves_a_run_ends_it_on_the_others_which_may_begin_another(
         [answer] = at_once([links[1 - leaving]], ("a", 1))
         assert str(answer).startswith(f"host {leaving} has ended the run: OutputError: full")
         assert at_once(links, ("c", 1), ("c", 2)) == [[1, 2]] * 2
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_an_error_of_a_run_on_a_device_of_one_host_concerns_no_other(
+    index: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with linked() as links:
+        monkeypatch.setattr(hosts, "_joined", [links[index]])
+        with pytest.raises(UnknownName):
+            made = dd.load("example:selection")
+            dd.simulate(made, 1, record=["missing"], devices=1, device="cpu:0", progress=False)
+        assert not links[index].failed
+        assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
 
 
 def test_a_host_that_does_not_answer_is_named() -> None:

@@ -157,7 +157,7 @@ def simulate(
         if given is not None and cluster is not None:
             raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
     spread = None if cluster is None else functools.partial(on_cluster, Cluster.of(cluster))
-    with hosts.together(devices is not None):
+    with hosts.together(places.of_all_hosts(devices, device)):
         across = hosts.count() > 1 and hosts.span(places.several(devices, device))
         if out is None:
             file = None

@@ -100,6 +100,13 @@ def several(count: int | str | None, kind: str | None = None) -> tuple[Device, .
     return tuple(found[:count])
 
 
+def of_all_hosts(count: int | str | None, kind: str | None = None) -> bool:
+    """Return whether hosts that have joined share the devices that `several` returns. One that is named by
+    its number is a device of this host.
+    """
+    return count is not None and hosts.count() > 1 and ":" not in str(kind)
+
+
 def _everywhere(count: int | str, kind: str) -> tuple[Device, ...]:
     """Return devices of all hosts, of each the same number."""
     found = [[d for d in jax.devices(kind) if d.process_index == k] for k in range(hosts.count())]
