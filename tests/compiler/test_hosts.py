@@ -290,24 +290,24 @@ def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_pat
 
 
 @contextlib.contextmanager
-def linked(timeout: float = 5.0) -> Generator[list[HostLinks]]:
-    """Link two hosts in this process."""
+def linked(timeout: float = 5.0, count: int = 2) -> Generator[list[HostLinks]]:
+    """Link hosts in this process."""
     address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
 
     def host(k: int) -> None:
-        found[k] = meet(address, 2, k, timeout)[0]
+        found[k] = meet(address, count, k, timeout)[0]
         found[k].begin()
 
-    threads = [threading.Thread(target=host, args=(k,)) for k in (1, 0)]
+    threads = [threading.Thread(target=host, args=(k,)) for k in reversed(range(count))]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
     try:
-        yield [found[0], found[1]]
+        yield [found[k] for k in range(count)]
     finally:
-        found[0].close()
-        found[1].close()
+        for links in found.values():
+            links.close()
 
 
 def at_once(links: Sequence[HostLinks], *said: tuple[str, object]) -> list[object]:
@@ -359,10 +359,20 @@ def test_an_error_of_a_run_on_a_device_of_one_host_concerns_no_other(
         assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
 
 
-def test_a_host_that_does_not_answer_is_named() -> None:
+def test_a_host_that_does_not_answer_is_named_on_all_hosts() -> None:
+    with linked(1.0, 3) as links:
+        first, second = at_once(links[:2], ("a", 1), ("a", 1))
+        assert str(first).startswith("a: host 2 has not answered for 1 s")
+        assert second == first
+        assert at_once(links[2:], ("a", 1)) == [first], "it finds that it comes too late"
+        assert at_once(links, ("b", 1), ("b", 2), ("b", 3)) == [[1, 2, 3]] * 3
+
+
+def test_a_first_host_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(host_link, "GRACE", 0.1)
     with linked(1.0) as links:
-        [answer] = at_once(links[:1], ("a", 1))
-        assert str(answer).startswith("a: host 1 has not answered for 1 s")
+        [answer] = at_once(links[1:], ("a", 1))
+        assert str(answer).startswith("a: host 0 has not answered for 1 s")
 
 
 @pytest.mark.parametrize("ending", [0, 1])

@@ -14,7 +14,7 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from deodar import codec
@@ -33,6 +33,9 @@ program.
 
 PARTING = 5.0
 """Most seconds that the first host waits for the others before it ends, after an error."""
+
+GRACE = 2.0
+"""Seconds that the other hosts wait for an answer of the first one beyond the time limit."""
 
 HELLO_SECONDS = 2.0
 """Seconds in which who connects to the first host must say which host it is."""
@@ -118,9 +121,9 @@ class HostLinks:
         try:
             if self.index:
                 self._send(0, own)
-                found: list[Message] = self._hear(0, what)["all"]
+                found = self._answer(what)
             else:
-                found = [own, *(self._hear(k, what) for k in range(1, self.count))]
+                found = [own, *self._answers(what)]
                 self._send_all({"n": self._number, "all": found})
         except HostsError:
             self.failed = True
@@ -154,23 +157,48 @@ class HostLinks:
         while not self.lost and time.monotonic() < until:
             time.sleep(0.01)
 
-    def _hear(self, k: int, what: str) -> Message:
+    def _answers(self, what: str) -> list[Message]:
+        """Return on the first host what the others say."""
         until = time.monotonic() + self.timeout
+        heard = {k: self._hear(k, until) for k in range(1, self.count)}
+        late = [k for k, one in heard.items() if one is None]
+        if late:
+            self._send_all({"n": self._number, "late": late})
+            raise self._late(late, what)
+        return [one for one in heard.values() if one is not None]
+
+    def _answer(self, what: str) -> list[Message]:
+        """Return on another host what all say, as the first one answers."""
+        # longer than the first host waits, so that it is the one that says which host is late
+        found = self._hear(0, time.monotonic() + self.timeout + GRACE)
+        if found is None:
+            raise self._late([0], what)
+        if "late" in found:
+            raise self._late(found["late"], what)
+        return found["all"]
+
+    def _late(self, late: Sequence[int], what: str) -> HostsError:
+        named, verb = ", ".join(map(str, late)), "has" if len(late) == 1 else "have"
+        return HostsError(
+            f"{'host' if len(late) == 1 else 'the hosts'} {named} {verb} not answered for {self.timeout:g} s",
+            where=what,
+            fix="Its script may do something else; or give join_hosts a longer timeout",
+        )
+
+    def _hear(self, k: int, until: float) -> Message | None:
+        """Return what a host says in the present exchange; none if it does not in time.
+
+        Raises:
+            HostsError: it has ended.
+        """
         while True:
             try:
                 found = self._inbox[k].get(timeout=max(0.0, until - time.monotonic()))
             except queue.Empty:
-                raise HostsError(
-                    f"host {k} has not answered for {self.timeout:g} s",
-                    where=what,
-                    fix="Its script may do something else; or give join_hosts a longer timeout",
-                ) from None
+                return None
             if found is None:
                 self._inbox[k].put(None)  # also for the next one who asks
-                raise HostsError(
-                    lost_hosts(self.lost) or f"host {k} has ended",
-                    fix=CAUSE,
-                )
+                raise HostsError(lost_hosts(self.lost) or f"host {k} has ended", fix=CAUSE)
             if found["n"] >= self._number:  # else it belongs to a run that has ended here
                 return found
 
