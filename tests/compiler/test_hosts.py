@@ -130,21 +130,30 @@ print("good")
 """
 
 ENDING = """
-import os, signal, sys, threading, deodar as dd
+import os, signal, sys, deodar as dd
+from deodar.compiler import host_link, hosts
 from deodar.errors import HostsError, Interrupted
 from tests.compiler.test_shard import plane
 
-host, port, how = int(sys.argv[1]), sys.argv[2], sys.argv[3]
+host, port, how, trials = int(sys.argv[1]), sys.argv[2], sys.argv[3], int(sys.argv[4])
+host_link.SILENT, host_link.STUCK = 3.0, 1.0
 dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
-made = plane(1.0, "zero", (24, 8))
+made = plane(1.0, "zero", (24, 8) if trials else (96, 40))
+
+def end(across=True):
+    print("now", flush=True)
+    os.kill(os.getpid(), getattr(signal, how))
 
 def shown(done):
-    if host and done > 1000:
-        os.kill(os.getpid(), getattr(signal, how))
+    if host and done > 1000 and trials:
+        end()
+    elif host and not trials:
+        # after the exchange before the next chunk, so that the other host waits in the program
+        hosts.calling = end
 
 try:
-    given = {"record": ["u"], "every": 100.0, "out": sys.argv[4]} if how == "SIGINT" else {}
-    dd.simulate(made, 1e8, trials=4, devices="all", progress=shown, **given)
+    given = {"record": ["u"], "every": 100.0, "out": sys.argv[5]} if how == "SIGINT" else {}
+    dd.simulate(made, 1e8, trials=trials or None, devices="all", progress=shown, **given)
 except (HostsError, Interrupted) as error:
     print(type(error).__name__, error)
 """
@@ -241,12 +250,30 @@ def test_the_end_of_one_host_is_an_error_on_the_other(
     how: str, status: int, text: str, tmp_path: Path
 ) -> None:
     port, out = free_port(), str(tmp_path / "night.zarr")
-    there, here = ended([started(ENDING, host, 2, port, how, out) for host in (1, 0)])
+    there, here = ended([started(ENDING, host, 2, port, how, "4", out) for host in (1, 0)])
     assert here[0] == 0 and here[1].startswith(text), here[2]
     assert there[0] == status, there[2]
     if how == "SIGINT":
         data = dd.open_record(out)
         assert about(data)["complete"] is False and data.sizes["time"] > 10
+
+
+@pytest.mark.parametrize(("how", "seconds"), [("SIGKILL", 1.0), ("SIGSTOP", 3.0)])
+def test_a_divided_field_of_which_a_host_ends_or_stops_ends_on_the_others(how: str, seconds: float) -> None:
+    port = free_port()
+    there, here = (started(ENDING, host, 2, port, how, "0") for host in (1, 0))
+    try:
+        assert there.stdout is not None and there.stdout.readline() == "now\n"
+        began = time.monotonic()
+        _, err = here.communicate(timeout=LIMIT)
+        taken = time.monotonic() - began
+    finally:
+        there.kill()
+        here.kill()
+        there.communicate()
+    assert here.returncode == 1, err
+    assert err.splitlines()[-1] == "deodar: host 1 has ended, so this process ends", err
+    assert taken < seconds + 4 * host_link.BEAT
 
 
 def test_an_error_of_one_host_ends_the_session_of_the_others_with_its_reason() -> None:
