@@ -58,7 +58,7 @@ CAUSE = "Its output has the cause. Start the run again on all hosts"
 FIREWALL = "JAX needs this port, which the system chooses: let the firewall of host 0 pass all ports"
 """What to do if a port of the first host cannot be reached."""
 
-Message = dict[str, Any]
+HostMessage = dict[str, Any]
 
 
 class HostLinks:
@@ -83,7 +83,7 @@ class HostLinks:
         self.failed = False
         self._links = dict(links)
         self._number = 0
-        self._inbox: dict[int, queue.SimpleQueue[Message | None]] = {k: queue.SimpleQueue() for k in links}
+        self._inbox = {k: queue.SimpleQueue[HostMessage | None]() for k in links}
         self._heard = dict.fromkeys(links, time.monotonic())
         self._sending = threading.Lock()
         self._closed = threading.Event()
@@ -117,7 +117,7 @@ class HostLinks:
             HostsError: one does not answer, is somewhere else in its script, or has ended its run.
         """
         self._number += 1
-        own: Message = {"n": self._number, "what": what, "said": said}
+        own: HostMessage = {"n": self._number, "what": what, "said": said}
         try:
             if self.index:
                 self._send(0, own)
@@ -145,7 +145,7 @@ class HostLinks:
     def leave(self, reason: str) -> None:
         """Tell the others, at their next exchange, that the run has ended here."""
         self._number += 1
-        left: Message = {"n": self._number, "left": reason}
+        left: HostMessage = {"n": self._number, "left": reason}
         if self.index:
             self._send(0, left)
         else:
@@ -157,7 +157,7 @@ class HostLinks:
         while not self.lost and time.monotonic() < until:
             time.sleep(0.01)
 
-    def _answers(self, what: str) -> list[Message]:
+    def _answers(self, what: str) -> list[HostMessage]:
         """Return on the first host what the others say."""
         until = time.monotonic() + self.timeout
         heard = {k: self._hear(k, until) for k in range(1, self.count)}
@@ -167,7 +167,7 @@ class HostLinks:
             raise self._late(late, what)
         return [one for one in heard.values() if one is not None]
 
-    def _answer(self, what: str) -> list[Message]:
+    def _answer(self, what: str) -> list[HostMessage]:
         """Return on another host what all say, as the first one answers."""
         # longer than the first host waits, so that it is the one that says which host is late
         found = self._hear(0, time.monotonic() + self.timeout + GRACE)
@@ -185,7 +185,7 @@ class HostLinks:
             fix="Its script may do something else; or give join_hosts a longer timeout",
         )
 
-    def _hear(self, k: int, until: float) -> Message | None:
+    def _hear(self, k: int, until: float) -> HostMessage | None:
         """Return what a host says in the present exchange; none if it does not in time.
 
         Raises:
@@ -202,11 +202,11 @@ class HostLinks:
             if found["n"] >= self._number:  # else it belongs to a run that has ended here
                 return found
 
-    def _send(self, k: int, message: Message) -> None:
+    def _send(self, k: int, message: HostMessage) -> None:
         with contextlib.suppress(OSError), self._sending:  # its reader finds that it has ended
             self._links[k].sendall(f"{codec.line(message)}\n".encode())
 
-    def _send_all(self, message: Message) -> None:
+    def _send_all(self, message: HostMessage) -> None:
         for k in self._links:
             self._send(k, message)
 
@@ -262,7 +262,7 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
             the port for JAX.
     """
     host, _, port = address.rpartition(":")
-    hello: Message = {"host": index, "about": {"hosts": count, **_versions()}}
+    hello: HostMessage = {"host": index, "about": {"hosts": count, **_versions()}}
     until = time.monotonic() + timeout
     if index:
         place = host.strip("[]"), int(port)
@@ -282,7 +282,7 @@ def meet(address: str, count: int, index: int, timeout: float) -> tuple[HostLink
     return HostLinks(links, index, count, timeout), found
 
 
-def _said(answer: Message, name: str, link: socket.socket) -> Any:
+def _said(answer: HostMessage, name: str, link: socket.socket) -> Any:
     """Return what the first host says by this name.
 
     Raises:
@@ -329,7 +329,7 @@ def _unreached(place: tuple[str, int]) -> str:
     return ""
 
 
-def _next_words(link: socket.socket, seconds: float) -> Message:
+def _next_words(link: socket.socket, seconds: float) -> HostMessage:
     """Return the next message of a link; empty if it does not come in time, or the link ends."""
     link.settimeout(seconds)
     try:
@@ -350,8 +350,8 @@ def _versions() -> dict[str, str]:
 
 
 def _call(
-    place: tuple[str, int], hello: Message, until: float, timeout: float
-) -> tuple[socket.socket, Message]:
+    place: tuple[str, int], hello: HostMessage, until: float, timeout: float
+) -> tuple[socket.socket, HostMessage]:
     """Reach the first host, and wait for its answer, which it gives when all have come."""
     reason = "no answer"
     while time.monotonic() < until:
@@ -375,7 +375,9 @@ def _call(
     )
 
 
-def _welcome(port: int, count: int, hello: Message, until: float, timeout: float) -> dict[int, socket.socket]:
+def _welcome(
+    port: int, count: int, hello: HostMessage, until: float, timeout: float
+) -> dict[int, socket.socket]:
     """Wait on the first host for all others."""
     links: dict[int, socket.socket] = {}
     try:
@@ -435,13 +437,13 @@ def _refuse(links: Collection[socket.socket], reason: str, fix: str) -> None:
         link.close()
 
 
-def _tell(links: Collection[socket.socket], message: Message) -> None:
+def _tell(links: Collection[socket.socket], message: HostMessage) -> None:
     for link in links:
         with contextlib.suppress(OSError):  # what is read next finds that it has ended
             link.sendall(f"{codec.line(message)}\n".encode())
 
 
-def _line(link: socket.socket) -> Message:
+def _line(link: socket.socket) -> HostMessage:
     """Return the first message of a link; empty if it is none."""
     text = b""
     while not text.endswith(b"\n") and len(text) < 2**16:
