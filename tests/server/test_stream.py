@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 import deodar as dd
+from deodar.live.published import PublishedState
 from deodar.live.section import Section
-from deodar.server import stream
+from deodar.live.trace import Trace, TraceRequest
+from deodar.server import frames, stream
+from deodar.server.to_page import Announced
 from deodar.worlds.picture import Picture
 
 X, Y, Z, W = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyzw", (4, 5, 6, 3), strict=True))
@@ -100,3 +103,24 @@ def test_thinned_rows_keep_a_narrow_peak_at_each_time() -> None:
     thin = stream.thin_rows(rows, 20)
     assert thin.shape == (3, 20)
     assert thin.argmax(axis=1).tolist() == [2, 8, 14] and thin.max(axis=1).tolist() == [4, 4, 4]
+
+
+def test_samples_that_a_thread_adds_while_a_frame_is_made_are_in_the_next_one() -> None:
+    class Growing(Trace):
+        """Takes another sample whenever it is read, as the thread of the engine may."""
+
+        def since(self, count: int, end: int | None = None) -> np.ndarray:
+            found = super().since(count, end)
+            self.add(float(self.count), 0.5)
+            return found
+
+    trace, times = Growing(), list[float]()
+    course = stream.Stream(7, ("u", "output"), request=TraceRequest(("u", "output")))
+    course._said = Announced(stream=7, shape=[2], axes=[], rest=[], folded=[], channels=False)
+    for _ in range(3):
+        trace.add(float(trace.count), 0.5)
+        frame = course.frame(PublishedState(1, 0.0, 0, {}), trace)
+        assert frame is not None
+        _, _, start, values = frames.unpack(frame)
+        times += (start + values[::2]).tolist()
+    assert times == [0, 1, 2, 3, 4], "each sample once; the last one is in the next frame"

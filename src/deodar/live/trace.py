@@ -45,32 +45,40 @@ class TraceRequest:
 
 
 class Trace:
-    """The newest samples of a time course; `count` is the number of all samples so far."""
+    """The newest samples of a time course; `count` is the number of all samples so far.
+
+    One thread may add samples while another one reads. A reader that passes the `count` of its last reading
+    gets every sample once.
+    """
 
     def __init__(self) -> None:
         self.count = 0
-        self._begin = 0
-        self._samples = np.zeros((CAPACITY, 2))
+        self._buffer = np.zeros((CAPACITY, 2)), 0  # the samples, and the number of the first one
 
     @property
     def width(self) -> int:
         """Number of values of a sample, without its time."""
-        return self._samples.shape[1] - 1
+        return self._buffer[0].shape[1] - 1
 
     def add(self, time: float, value: float | np.ndarray) -> None:
         """Add a sample; one with another number of values than the last removes those before it."""
         width = np.size(value)
         if width != self.width:
-            self._samples, self._begin = np.zeros((capacity(width), 1 + width)), self.count
-        row = self._samples[self.count % len(self._samples)]
+            self._buffer = np.zeros((capacity(width), 1 + width)), self.count
+        samples = self._buffer[0]
+        row = samples[self.count % len(samples)]
         row[0], row[1:] = time, value
         self.count += 1
 
-    def since(self, count: int) -> np.ndarray:
-        """Return the samples after the first `count`, if in the buffer: (time, *values), oldest first."""
-        samples, begin = self._samples, self._begin
-        first = max(count, begin, self.count - len(samples))
-        return samples[np.arange(first, self.count) % len(samples)]
+    def since(self, count: int, end: int | None = None) -> np.ndarray:
+        """Return the samples after the first `count`, if in the buffer: (time, *values), oldest first.
+
+        `end`: a former `count`; samples after it are left out. None: all samples so far.
+        """
+        end = self.count if end is None else end
+        samples, begin = self._buffer
+        first = max(count, begin, end - len(samples))
+        return samples[np.arange(first, max(first, end)) % len(samples)]
 
     def until(self, time: float) -> Trace:
         """Return a new time course with the samples up to a time."""

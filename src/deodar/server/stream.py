@@ -83,10 +83,12 @@ class Stream:
     def _samples(self, trace: Trace | None, number: int) -> bytes | None:
         if trace is not self._trace:
             self._trace, self._taken = trace, 0
-        if trace is None or trace.count == self._taken:
+        # read once: a thread adds samples meanwhile, which the next frame has
+        count = 0 if trace is None else trace.count
+        if trace is None or count == self._taken:
             return None
-        samples = trace.since(self._taken)
-        self._taken = trace.count
+        samples = trace.since(self._taken, count)
+        self._taken = count
         if not len(samples):
             return None
         start = float(samples[0, 0])
