@@ -12,6 +12,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, TimeError
+from deodar.live import engine as engine_module
 from deodar.live.engine import Engine, Injection
 from deodar.live.section import Section
 from deodar.live.trace import CAPACITY, Trace, TraceRequest
@@ -173,6 +174,46 @@ def test_traces_contain_times_and_values_and_are_cleared_by_a_reset(driven: Driv
     assert (top[:, 1] >= mean[:, 1]).all() and np.allclose(top[:, 1], at[:, 1])
     driven.do(engine.reset)
     assert all(engine.traces[w].count == 0 for w in requests)
+
+
+def test_requested_steps_wait_for_the_program_that_samples_a_new_trace(
+    driven: Driven, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Otherwise a plot that was just opened would stay without the steps that follow."""
+    made = engine_module.port_reader
+
+    def slow(*given: Any) -> Any:
+        time.sleep(0.5)
+        return made(*given)
+
+    monkeypatch.setattr(engine_module, "port_reader", slow)
+    engine, place = driven.engine, (driven.u, "activation")
+    both = [place, (driven.model["s"].id, "output")]  # read by another program than the trace
+    driven.do(lambda: engine.show(both, []))
+    driven.until(lambda: place in engine.published.arrays)  # whose state is the first sample of the trace
+    request = TraceRequest(place, "mean")
+    driven.do(lambda: engine.show(both, [request]))
+    driven.do(lambda: engine.step(40))
+    driven.until(lambda: engine.published.tick == 40)
+    times = engine.traces[request].since(0)[:, 0]
+    assert times[-1] == 40 and len(times) > 4 and np.diff(times).max() < 40
+
+
+def test_a_trace_whose_program_is_late_gets_the_present_sample(driven: Driven) -> None:
+    engine, place = driven.engine, (driven.u, "activation")
+    both = [place, (driven.model["s"].id, "output")]
+    driven.do(lambda: engine.show(both, []))
+    driven.until(lambda: place in engine.published.arrays)
+    request = TraceRequest(place, "mean")
+
+    def late() -> None:
+        engine.show(both, [request])
+        assert engine.session is not None
+        engine.session.step(5)  # as in a run that does not wait
+
+    driven.do(late)
+    driven.until(lambda: engine.traces[request].newest == 5)
+    assert len(engine.traces[request].since(0)) == 2
 
 
 def test_a_live_change_acts_at_once_and_a_structural_one_when_it_is_compiled(driven: Driven) -> None:

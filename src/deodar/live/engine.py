@@ -346,6 +346,8 @@ class Engine:
         if session is None or not (self.running or self._steps):
             self._halt()
             return 0.02 if self._stale and self._wanted else 0.5
+        if self._steps and self._making is not None and self._target is None:
+            return 0.02  # time courses that were just requested shall have these steps
         n = min(self._steps, self.pace.most(session)) if self._steps else self.pace.due(session)
         if n == 0:
             return self.pace.rest(session)
@@ -389,7 +391,8 @@ class Engine:
         if self.session is not None:
             self.pace.shorten(self.session)
 
-    def _take_samples(self, session: Session) -> None:
+    def _take_samples(self, session: Session, lacking: bool = False) -> None:
+        """Add the present values to the time courses; with `lacking` to those without this moment."""
         sample = self._sample
         if not self.traces or sample is None or sample.program is not session.program:
             return
@@ -397,14 +400,14 @@ class Engine:
             session.read_ports(sample, {request.place for request in self.traces}), session
         )
         for request, trace in self.traces.items():
-            if request.place in arrays:
+            if request.place in arrays and not (lacking and trace.newest == session.time):
                 axes = session.program.axes(session.program.port(*request.place))
                 trace.add(session.time, request.value(arrays[request.place], axes))
 
     def _take_first(self, session: Session) -> None:
-        """Take the first sample of new time courses, also during a pause."""
-        if any(trace.count == 0 for trace in self.traces.values()):
-            self._take_samples(session)
+        """Take the present sample of new time courses, also during a pause."""
+        if any(trace.newest != session.time for trace in self.traces.values()):
+            self._take_samples(session, lacking=True)
             self._stale = True
 
     def _trace_so_far(self, request: TraceRequest) -> Trace:

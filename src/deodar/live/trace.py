@@ -60,6 +60,12 @@ class Trace:
         """Number of values of a sample, without its time."""
         return self._buffer[0].shape[1] - 1
 
+    @property
+    def newest(self) -> float | None:
+        """Time of the newest sample; None without one."""
+        samples, begin = self._buffer
+        return float(samples[(self.count - 1) % len(samples), 0]) if self.count > begin else None
+
     def add(self, time: float, value: float | np.ndarray) -> None:
         """Add a sample; one with another number of values than the last removes those before it."""
         width = np.size(value)
