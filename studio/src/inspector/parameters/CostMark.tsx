@@ -22,7 +22,7 @@ export function CostMark({
 }) {
   const busy = useBusy(element, path);
   if (busy) {
-    return <Loader size={12} aria-label="Being made" />;
+    return <Loader size={12} role="img" aria-label="Being made" />;
   }
   if (cost === "live") {
     return null;
