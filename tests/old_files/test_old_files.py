@@ -112,12 +112,15 @@ def test_a_record_is_run_again_from_its_document(record: str) -> None:
 def test_a_record_is_run_and_drawn_by_the_commands(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["run", str(OLD / "record.nc"), "--out", str(tmp_path / "again.nc")]) == 0
+    # status 1: last digits differ. The record names a family of processors with several instruction sets
+    assert main(["run", str(OLD / "record.nc"), "--out", str(tmp_path / "again.nc")]) in (0, 1)
     assert main(["plot", str(OLD / "record.nc"), "--out", str(tmp_path / "record.png")]) == 0
     assert (tmp_path / "again.nc").exists() and (tmp_path / "record.png").stat().st_size > 1000
+    again, old = dd.load_record(tmp_path / "again.nc"), dd.load_record(OLD / "record.nc")
+    np.testing.assert_allclose(again["u.activation"], old["u.activation"], atol=1e-4)
     np.testing.assert_allclose(
-        dd.load_record(tmp_path / "again.nc")["n.activation"],
-        dd.load_record(OLD / "record.nc")["n.activation"],
+        again["n.activation"],
+        old["n.activation"],
         atol=1e-4,
     )
 
