@@ -241,7 +241,7 @@ real = Rows.append
 def append(self, rows):
     if len(self.found) >= 4:
         os.kill(os.getpid(), signal.SIGKILL)
-    real(self, rows)
+    return real(self, rows)
 
 Rows.append = append
 with pytest.MonkeyPatch.context() as patch:

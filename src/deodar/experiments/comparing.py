@@ -7,7 +7,7 @@ import dataclasses as dc
 import io
 import math
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from deodar.batch.on_cluster import ClusterPool
@@ -76,15 +76,11 @@ def _compared(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[Co
             if other is None:
                 continue
             while not pool.idle:
-                yield from _arrived(pool, rows)
-                check()
-                pool.look()
+                yield from _arrived(pool, rows, check)
             unrecorded = dc.replace(job, arguments={**job.arguments, "records": None})
             pool.give(job.keys, named, unrecorded, machine=other)
         while pool.busy:
-            yield from _arrived(pool, rows)
-            check()
-            pool.look()
+            yield from _arrived(pool, rows, check)
 
 
 def chosen(jobs: Sequence[Job]) -> list[Job]:
@@ -93,7 +89,8 @@ def chosen(jobs: Sequence[Job]) -> list[Job]:
     return [jobs[k * len(jobs) // count] for k in range(count)]
 
 
-def _arrived(pool: ClusterPool, rows: Rows) -> Iterator[ComparedTrial]:
+def _arrived(pool: ClusterPool, rows: Rows, check: Callable[[], None]) -> Iterator[ComparedTrial]:
+    """Yield what has arrived after a moment; `check` and the pool's `look` may end the comparison."""
     for _, repeated in pool.wait(0.2):
         for row in repeated:
             stored = rows.found[row[KEY]]
@@ -102,6 +99,8 @@ def _arrived(pool: ClusterPool, rows: Rows) -> Iterator[ComparedTrial]:
                 yield ComparedTrial(
                     int(row["trial"]), machines, (str(stored["outcome"]), str(row["outcome"]))
                 )
+    check()
+    pool.look()
 
 
 def _table(found: Sequence[ComparedTrial]) -> str:

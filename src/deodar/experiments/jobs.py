@@ -116,13 +116,14 @@ def run_jobs(
     def ends(now: Staffing) -> bool:
         return (watch is not None and watch(now)) or (stopped is not None and stopped())
 
-    tell([rows.found[key] for job in jobs for key in job.keys if key in rows.found])
+    stored = {} if progress is None else {row[KEY]: row for row in rows.found.values()}
+    tell([stored[key] for job in jobs for key in job.keys if key in stored])
+    del stored
     for job, found in _anywhere(missing, workers, ends, cluster):
-        new = [row for row in found if row[KEY] not in rows.found]
-        rows.append(found)
+        new = rows.append(found)
         done += job.cost
         kept += len({row[KEY] for row in new} & {*job.keys})
-        tell([rows.found[row[KEY]] for row in new])
+        tell(new)
 
 
 def _anywhere(

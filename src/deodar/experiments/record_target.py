@@ -11,7 +11,6 @@ import socket
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import google_crc32c
 import xarray
@@ -290,14 +289,18 @@ def _require_objects(address: StoreAddress, rows: Mapping[str, Row], folder: Pat
     """Refuse a store that lacks the records of rows."""
     if not rows:
         return
-    beside = sum(RECORD not in row for row in rows.values())
+    objects, beside = dict[str, int](), 0
+    for row in rows.values():
+        if RECORD in row:
+            objects[row[RECORD]["object"]] = row[RECORD]["size"]
+        else:
+            beside += 1
     if beside:
         raise RecordError(
             f"{beside} trials have rows whose records are not in a store, but in {OBJECTS}/ beside them",
             where=str(folder),
             fix="Leave out records (--records), or begin in another folder (--out)",
         )
-    objects: Mapping[str, Any] = {row[RECORD]["object"]: row[RECORD]["size"] for row in rows.values()}
     found = address.open().sizes(OBJECTS)
     missing = sorted(name for name, size in objects.items() if found.get(name) != size)
     if missing:

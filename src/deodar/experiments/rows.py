@@ -137,19 +137,22 @@ class Rows:
         if made != stored[ABOUT]:
             output.append(path, (codec.line(stored, ascii=True) + "\n").encode())
 
-    def append(self, rows: Iterable[Row]) -> None:
-        """Store rows, on the disk when this returns; a row whose key exists is left out."""
+    def append(self, rows: Iterable[Row]) -> list[Row]:
+        """Store rows, on the disk when this returns, and return them as they are read from the file; a row
+        whose key exists is left out.
+        """
         new: dict[str, bytes] = {}
         for row in rows:
             if row[KEY] not in self.found and row[KEY] not in new:
                 new[row[KEY]] = (codec.line(row, ascii=True, finite=True) + "\n").encode()
         if not new:
-            return
+            return []
         at = self.path.stat().st_size
         output.append(self.path, b"".join(new.values()))
         for key, line in new.items():
             self.found.place(key, at)
             at += len(line)
+        return [codec.parse(line) for line in new.values()]
 
     def _identity(self) -> JsonObject | None:
         """Note where the rows of an existing file begin, and return its last identity; None: it has none yet.

@@ -25,7 +25,7 @@ from deodar.experiments.trial import Trial
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load
-from deodar.model.resolve import resolve
+from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import shape
 from deodar.recording import provenance
 from deodar.recording.opened import named
@@ -266,7 +266,10 @@ class Setup:
     @property
     def record_bytes(self) -> float:
         """Size in bytes of the records of a trial that lasts until the limit."""
-        e, by = self.experiment, {node.id: node for node in resolve(self.model.document)[0]}
+        return self._record_bytes(resolve(self.model.document)[0])
+
+    def _record_bytes(self, nodes: Sequence[Node]) -> float:
+        e, by = self.experiment, {node.id: node for node in nodes}
         looks = e.limit / (e.every or self.dt) + 1
         cells = 0
         for name in e.record:
@@ -276,6 +279,6 @@ class Setup:
 
     def _most(self) -> int:
         """Return the largest number of trials in one batch."""
-        size = memory.copy_bytes(resolve(self.model.document)[0], self.experiment.precision)
-        recorded = self.record_bytes
+        nodes = resolve(self.model.document)[0]
+        size, recorded = memory.copy_bytes(nodes, self.experiment.precision), self._record_bytes(nodes)
         return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), int(RECORD_BYTES // max(1.0, recorded))))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses as dc
+import functools
 import math
 import queue
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -86,7 +87,6 @@ class ExperimentRun:
         self._looking, self._seen = threading.Lock(), queue.SimpleQueue[RowsSeen]()
         self._writer, self._opened = RowsWriter(), False
         self._begun = 0.0, 0
-        self._trials: set[int] = set()
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._repeating = threading.Lock()
@@ -115,7 +115,8 @@ class ExperimentRun:
         try:
             cluster = self.place.cluster
             workers = None if cluster is not None else self.workers
-            run_trials(self.setup, self.folder, workers, self._take, self._watched, cluster)
+            take = functools.partial(self._take, {row["trial"] for row in self.rows})
+            run_trials(self.setup, self.folder, workers, take, self._watched, cluster)
         except KeyboardInterrupt:
             self.state = "stopped"
         except DeodarError as error:
@@ -128,12 +129,9 @@ class ExperimentRun:
         self._changed()
         self._prepare()
 
-    def _take(self, progress: Progress) -> None:
-        if len(self._trials) != len(self.rows):
-            self._trials = {row["trial"] for row in self.rows}
-        new = [row for row in progress.new if row["trial"] not in self._trials]
-        self._trials |= {row["trial"] for row in new}
-        self.rows.extend(new)
+    def _take(self, known: Collection[int], progress: Progress) -> None:
+        """Add rows; `known`: the trials whose rows it had before, which a run begins with."""
+        self.rows.extend(row for row in progress.new if row["trial"] not in known)
         self.left = progress.left
         self._stand(None)
         self._changed()
