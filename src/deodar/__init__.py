@@ -33,8 +33,8 @@ def __getattr__(name: str) -> Any:
     """Import a public name when it is first used, so that `import deodar` imports neither JAX nor NumPy."""
     home = _HOMES.get(name)
     if home is None:
-        # otherwise `from deodar import` would call this function again
-        raise importlib.import_module("deodar.renamed").missing("deodar", name, _HOMES)
+        # not `from deodar import errors`, which would call this function again
+        raise importlib.import_module("deodar.errors").no_attribute("deodar", name, _HOMES)
     found = (
         importlib.import_module(f"deodar.{name}")
         if home == "deodar"

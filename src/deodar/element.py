@@ -17,14 +17,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NoReturn, Self
+from typing import Annotated, Any, ClassVar, NoReturn, Self
 
 import jax.numpy as jnp
 import numpy as np
 from jax import Array, lax
 from jax.typing import DTypeLike
 
-from deodar import renamed
 from deodar.errors import ModelError
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.exact import Exact, exact, split, wide
@@ -55,11 +54,6 @@ class Time:
     passed: Array | np.uint32
     step: Exact
     ticks: int = 1
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            raise renamed.no_member(self, name)
 
     @classmethod
     def at(cls, now: float, dt: float, dtype: DTypeLike) -> Time:
@@ -152,11 +146,6 @@ class Setting:
     dtype: DTypeLike
     convolve: Callable[[Array], Array] = _undeclared
 
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            raise renamed.no_member(self, name)
-
     def full(self, axes: Axes, value: Scalar) -> Array:
         """Return an array over the axes, filled with one value."""
         return jnp.full(shape(axes), value, self.dtype)
@@ -217,12 +206,6 @@ class Element(Part):
     scaled_by: ClassVar[str] = ""
     levels: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     maps: ClassVar[Mapping[str, tuple[str, ...]]] = {}
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        for name in vars(cls):
-            if hint := renamed.fix(f"dd.Element.{name}"):
-                raise ModelError(f"{cls.__name__} sets {name!r}, which elements no longer have", fix=hint)
 
     def __rshift__(self, other: object) -> Any:
         raise ModelError(

@@ -216,6 +216,16 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     return f"Valid names: {shown}"
 
 
+def no_attribute(module: str, name: str, known: Iterable[str]) -> AttributeError:
+    """Return the error for a name that a module does not have, with the nearest known name.
+
+    A private name, which Python and tools look up by themselves, suggests nothing.
+    """
+    hint = "" if name.startswith("_") else did_you_mean(name, known)
+    text = f"module {module!r} has no attribute {name!r}"
+    return AttributeError(f"{text}. {hint}" if hint else text, name=name, obj=None)
+
+
 def first_line(error: BaseException) -> str:
     """Return the first line of the message of an error that deodar did not raise."""
     return (str(error).strip() or "no message").splitlines()[0]

@@ -25,7 +25,6 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from deodar import renamed
 from deodar.declarations import TIME_ROLES, Cost, Declaration, FormSection, Names, Needed, Recompile, Role
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
@@ -142,8 +141,7 @@ class Part(metaclass=PartType):
         known = [p.name for p in parameters(cls)]
         for name in kwargs:
             if name not in known:
-                hint = renamed.fix(f"dd.{cls.__name__}({name}=...)") or did_you_mean(name, known)
-                raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=hint)
+                raise UnknownName(f"{cls.__name__} has no parameter {name!r}", fix=did_you_mean(name, known))
         if len(args) > len(positional(cls)):
             raise ParameterError(
                 f"{cls.__name__} takes {len(positional(cls))} values by position, not {len(args)}",

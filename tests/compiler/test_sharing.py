@@ -152,9 +152,3 @@ def test_a_second_call_of_convolve_is_an_error() -> None:
 def test_convolving_without_a_declaration_is_an_error() -> None:
     with pytest.raises(ModelError, match=r"declares no convolution.*dd.Convolution"):
         executable(coupled(Undeclared)).chunk(())
-
-
-@pytest.mark.parametrize("old", ["sharing", "sees_output", "wants", "misfits", "faults", "settle", "push"])
-def test_a_class_that_overrides_a_removed_method_is_an_error(old: str) -> None:
-    with pytest.raises(ModelError, match=rf"Late sets {old!r}.*dd.Element.{old} is now dd.Element"):
-        type("Late", (dd.Element,), {old: True})

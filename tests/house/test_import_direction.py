@@ -10,16 +10,16 @@ import pytest
 from tests.house.source import MODULES, SRC, imported, module, tree
 
 # The floors of ARCHITECTURE.md, from the lowest. Packages of one floor do not import each other; a file may
-# import its own folder. `demos` and `runtime` are old names that only raise errors. `registry` is below
-# `parameters`, which looks up kinds in it; `recording` is below `session`, whose runs it labels; the root
-# package resolves its names lazily and is above all, like `__main__`.
+# import its own folder. `registry` is below `parameters`, which looks up kinds in it; `recording` is below
+# `session`, whose runs it labels; the root package resolves its names lazily and is above all, like
+# `__main__`.
 FLOORS: tuple[frozenset[str], ...] = tuple(
     frozenset(floor.split())
     for floor in (
         "errors",
         "plugins docstring declarations",
-        "registry extensions renamed part_type family codec",
-        "demos runtime credentials",
+        "registry extensions part_type family codec",
+        "credentials",
         "parameters",
         "leaves",
         "numerics",

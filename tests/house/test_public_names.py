@@ -1,12 +1,9 @@
-"""Public names: the root's list and its snapshot, the cost of importing them, and errors of old names."""
+"""Public names: the root's list and its snapshot, the cost of importing them, and errors of unknown names."""
 
 from __future__ import annotations
 
-import functools
-import importlib
 import inspect
 import json
-import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -15,9 +12,9 @@ from pathlib import Path
 import pytest
 
 import deodar
-from deodar import registry, renamed
+from deodar import registry
 from deodar.experiments import actions, events
-from tests.house.source import ROOT, SRC
+from tests.house.source import SRC
 
 SNAPSHOT = Path(__file__).with_name("public_names.txt")
 HEAVY = ["jax", "jaxlib", "numpy", "scipy", "xarray", "zarr", "matplotlib", "PIL", "rich", "psutil"]
@@ -116,58 +113,6 @@ def test_an_unknown_private_name_suggests_nothing() -> None:
         deodar.__wrapped__  # noqa: B018
 
 
-def test_a_renamed_name_of_the_root_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(renamed, "RENAMED", {"dd.Feild": "dd.Field"})
-    with pytest.raises(
-        AttributeError, match=r"^module 'deodar' has no attribute 'Feild'. dd.Feild is now dd.Field$"
-    ):
-        deodar.Feild  # noqa: B018
-
-
-CALLS: dict[str, Callable[[], object]] = {
-    f"dd.Element.{name}": functools.partial(type, "Late", (deodar.Element,), {name: True})
-    for name in (
-        "faults",
-        "lasting",
-        "misfits",
-        "outside",
-        "push",
-        "sees_output",
-        "settle",
-        "sharing",
-        "wants",
-    )
-}
-CALLS["deodar.model.document.Document.knobs"] = lambda: deodar.Model("m").document.knobs  # type: ignore[attr-defined]
-"""For each old name that is an argument with a certain value, or a call that needs more than its name: the
-call that raises.
-"""
-
-
-def _use(old: str) -> object:
-    """Use an old name as a script does: import it from its module, or read it, call it or look it up in an
-    instance.
-    """
-    if old in CALLS:
-        return CALLS[old]()
-    if not old.startswith("dd."):
-        module, _, name = old.rpartition(".")
-        return exec(f"from {module} import {name}", {})
-    name, call, argument = old.removeprefix("dd.").partition("(")
-    owner, _, member = name.partition(".")
-    if call:
-        found = getattr(deodar, owner)
-        return (getattr(found, member) if member else found)(**{argument.removesuffix("=...)"): None})
-    return getattr(object.__new__(getattr(deodar, owner)), member) if member else getattr(deodar, owner)
-
-
-@pytest.mark.parametrize("old", sorted(renamed.RENAMED))
-def test_every_old_name_raises_an_error_that_states_the_new_one(old: str) -> None:
-    with pytest.raises((ImportError, AttributeError, deodar.errors.DeodarError)) as caught:
-        _use(old)
-    assert str(caught.value).endswith(f"{old} is now {renamed.RENAMED[old]}")
-
-
 @pytest.mark.parametrize(
     "call",
     [deodar.Model.add, deodar.animate_path, deodar.Model.set_ticks],
@@ -193,39 +138,6 @@ def test_every_is_a_time_in_every_public_call(name: str) -> None:
 def test_an_unknown_attribute_of_a_model_raises_an_error_of_python() -> None:
     with pytest.raises(AttributeError, match=r"^'Model' object has no attribute 'chnge'$"):
         deodar.Model("m").chnge  # noqa: B018
-
-
-def test_a_module_with_moved_names_reports_unknown_names() -> None:
-    from deodar.analysis import paths
-
-    with pytest.raises(AttributeError, match=r"^module 'deodar.analysis.paths' has no attribute 'nothing'$"):
-        paths.nothing  # noqa: B018
-
-
-@pytest.mark.parametrize("new", sorted(set(renamed.RENAMED.values())))
-def test_every_new_name_of_the_table_exists(new: str) -> None:
-    """Where the new name is one of `dd`, or modules; calls and arguments are tested where they are."""
-    if new.startswith("deodar."):
-        assert [importlib.import_module(name) for name in re.split(", | and ", new)]
-        return
-    found = deodar
-    for name in new.removeprefix("dd.").split("(")[0].split("."):
-        found = getattr(found, name)
-
-
-@pytest.mark.parametrize("old", ["deodar.demos.spa", "deodar.runtime.session"])
-def test_a_module_of_an_old_package_states_the_new_one(old: str) -> None:
-    package = old.rpartition(".")[0]
-    with pytest.raises(ImportError, match=f"^{package} is now {renamed.RENAMED[package]}$"):
-        importlib.import_module(old)
-
-
-def test_the_changelog_holds_the_table_of_renamed_names() -> None:
-    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-    table = text.split("| old | new |\n|---|---|\n")[1].split("\n\n")[0]
-    rows = [line.strip("| ").split(" | ") for line in table.splitlines()]
-    assert {old.strip("`"): new.strip("`") for old, new in rows} == renamed.RENAMED
-    assert [old for old, _ in rows] == sorted(old for old, _ in rows)
 
 
 def test_importing_deodar_imports_nothing_heavy() -> None:

@@ -90,11 +90,3 @@ def test_reset_with_a_seed_changes_the_seed() -> None:
     other.step(5)
     np.testing.assert_array_equal(session.read("u0.activation"), other.read("u0.activation"))
     assert session.seed == 2
-
-
-def test_the_old_name_of_an_external_input_states_the_new_one() -> None:
-    model = dd.Model("m")
-    model.add(dd.Field("u", [X]))
-    session = dd.Session(model)
-    with pytest.raises(AttributeError, match=r"dd.Session.push is now dd.Session.inject"):
-        session.push("u", 1.0)

@@ -5,9 +5,6 @@ their results. Where a module and its function share a name, `deodar.analysis` e
 other names from the module.
 """
 
-from typing import TYPE_CHECKING
-
-from deodar import renamed
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.branch import SteadyBranch
 from deodar.analysis.continuation.dynamics import Dynamics
@@ -76,6 +73,3 @@ __all__ = [
     "thresholds",
     "wilson",
 ]
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from deodar import renamed
 from deodar.errors import AnalysisError
 from deodar.parameters import show
 
@@ -96,7 +94,3 @@ def speeds(path: ArrayLike, times: ArrayLike, over: int = 1) -> np.ndarray:
     """
     line, at = points(path), np.asarray(times, float)
     return np.linalg.norm(line[over:] - line[:-over], axis=1) / (at[over:] - at[:-over])
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

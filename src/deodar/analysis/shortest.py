@@ -6,12 +6,11 @@ import heapq
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from deodar import renamed
 from deodar.analysis.paths import clearance
 from deodar.errors import AnalysisError
 
@@ -130,7 +129,3 @@ def shortest_path(
     while line[-1] != begin:
         line.append(before[line[-1]])
     return np.asarray([on.place((k // width - 1, k % width - 1)) for k in reversed(line)])
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from deodar import renamed
 from deodar.analysis.peaks import peaks
 
 if TYPE_CHECKING:
@@ -103,7 +102,3 @@ def cascade(data: xarray.Dataset, begin: float, stop: float = np.inf) -> list[Ac
 def _switches(on: np.ndarray, to: bool) -> list[int]:
     """Return the indices at which a state changes to `to`."""
     return [int(j) + 1 for j in np.flatnonzero((on[1:] == to) & (on[:-1] != to))]
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

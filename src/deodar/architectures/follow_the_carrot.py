@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from deodar import renamed
 from deodar.errors import ParameterError
 from deodar.numerics.axes import Axis
 from deodar.worlds.arena.arena import Arena
@@ -102,7 +101,6 @@ class Ending:
     limit: int = 3000
 
 
-@renamed.arguments("dd.architectures.follow")
 def follow(
     arena: Arena,
     paths: Sequence[ArrayLike],

@@ -20,9 +20,7 @@ Reference:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from deodar import renamed
 from deodar.couplings.adaptive_weights import AdaptiveWeights
 from deodar.couplings.gain import Gain
 from deodar.couplings.product import Product
@@ -344,7 +342,3 @@ def _field(
         noise=noise,
         quadrature=QUADRATURE,
     )
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -24,7 +24,6 @@ from __future__ import annotations
 import dataclasses as dc
 from collections.abc import Sequence
 
-from deodar import renamed
 from deodar.couplings.convolve import Convolve
 from deodar.couplings.interaction import Interaction
 from deodar.elements.field import Field
@@ -57,7 +56,6 @@ class Layer:
         return Field(name, axes, self.tau, self.resting_level, sigmoid, kernel, noise=self.noise)
 
 
-@renamed.arguments("dd.architectures.two_layer_field")
 def two_layer_field(
     axes: Sequence[Axis],
     kernel: Sequence[Kernel],

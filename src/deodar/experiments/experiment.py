@@ -6,9 +6,8 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from deodar import renamed
 from deodar.batch.cluster import Cluster
 from deodar.batch.simulate import LONG_STEPS
 from deodar.errors import DeodarError, Problem, RunWarning
@@ -50,11 +49,6 @@ class Experiment(Design):
         dt: Euler step; none: the document's own.
         precision: float32 or float64.
     """
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            raise renamed.no_member(self, name)
 
     def setup(self, trust: bool = False) -> Setup:
         """Open the model and the world, and check the experiment before any trial runs.

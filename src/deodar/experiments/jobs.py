@@ -5,9 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from deodar import renamed
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing, WorkerWatch
@@ -180,7 +179,3 @@ def named(job: Job) -> list[Row]:
     from deodar.recording.provenance import machine
 
     return [{**row, MACHINE: machine()} for row in job.run()]
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -8,7 +8,6 @@ from typing import Any, cast
 
 import numpy as np
 
-from deodar import renamed
 from deodar.codec import JsonObject
 from deodar.errors import ParameterError, Problem, UnknownName, did_you_mean
 from deodar.model.parts import schema as schema_of
@@ -70,11 +69,7 @@ def from_data(
     known = [p.name for p in parameters(cls) if p.name not in given]
     strange = [key for key in values if key != "kind" and key not in known]
     problems += [
-        Problem(
-            f"{where}.{key}",
-            f"{name} has no such parameter",
-            renamed.fix(f"dd.{name}({key}=...)") or did_you_mean(key, known),
-        )
+        Problem(f"{where}.{key}", f"{name} has no such parameter", did_you_mean(key, known))
         for key in strange
     ]
     missing = [

@@ -11,7 +11,7 @@ from collections.abc import Callable, Generator, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from deodar import codec, renamed
+from deodar import codec
 from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed import require_portable
@@ -319,7 +319,3 @@ def _no_results(folder: Path) -> RecordError:
         where=str(folder),
         fix="Name a folder that deodar experiment wrote",
     )
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

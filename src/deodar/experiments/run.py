@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Generator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from deodar import renamed
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, ParameterError, TimeError
@@ -250,7 +248,3 @@ def _put_back(world: World | None, actions: Sequence[Action]) -> Generator[None]
     finally:
         with errors_of(world, "arrange"):
             world.arrange(before)
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -6,7 +6,7 @@ import dataclasses as dc
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray
@@ -16,7 +16,6 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
-from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _draw, _style, maze
 from deodar.figures._moving import Changing, frames
@@ -134,7 +133,6 @@ def _paths(ax: Axes, view: View) -> list[DrawnPath]:
     return drawn
 
 
-@renamed.arguments("dd.animate_path")
 def animate_path(
     variable: xarray.DataArray | View,
     file: str | Path,
@@ -252,7 +250,3 @@ def _arena(world: World) -> Arena:
 def _rgb(colour: Sequence[float]) -> tuple[int, int, int]:
     r, g, b = (round(255 * c) for c in colour)
     return r, g, b
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

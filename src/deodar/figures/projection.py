@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import itertools
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import matplotlib
 import numpy as np
@@ -13,7 +13,6 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._moving import Changing, frames, limits, texts
@@ -165,7 +164,3 @@ def _label(view: View, pairs: list[tuple[str, ...]]) -> str:
 def _grid(n: int) -> tuple[int, int]:
     columns = min(n, 3)
     return -(-n // columns), columns
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._moving import Changing, frames, limits, texts
@@ -158,7 +157,3 @@ def _title(ax: Axes, text: str) -> None:
     """Write a short title with information that the axes do not show."""
     if text:
         ax.set_title(", ".join(t for t in (ax.get_title(), text) if t))
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

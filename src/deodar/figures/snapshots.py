@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
 import xarray
 from matplotlib.figure import Figure, FigureBase
 
-from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _lines, _map, _style
 from deodar.figures._view import View, values
@@ -95,7 +94,3 @@ def _steps(view: View) -> list[int]:
 def _grid(n: int) -> tuple[int, int]:
     rows = -(-n // ROW)
     return rows, -(-n // rows)
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

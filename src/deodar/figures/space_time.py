@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _color, _draw, _style
 from deodar.figures._view import View, values
@@ -72,7 +71,3 @@ def paint(ax: Axes, view: View) -> None:
     if view.note():
         ax.set_title(view.note())
     _color.bar(ax.figure, colors, ax, view.label(), view.threshold)
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from deodar import renamed
 from deodar.errors import RecordError
 from deodar.figures import _course, _draw, _lines, _style
 from deodar.figures._view import TRIAL, View, values
@@ -120,7 +119,3 @@ def _nearest(view: View, place: np.ndarray) -> Sample:
         if not low <= p <= high:
             raise RecordError(f"{p:g} lies outside {d}, which goes from {low:g} to {high:g}", where=view.name)
     return tuple(int(np.abs(view.points(d) - p).argmin()) for d, p in zip(view.space, place, strict=True))
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from deodar import renamed
 from deodar.errors import DeodarError
 from deodar.importers.opening import load, tool_of
 from deodar.importers.report import ImportReport, Line
@@ -165,7 +164,3 @@ def _leaves(old: Any, new: Any, path: str) -> list[tuple[str, Any]]:
             for leaf in _leaves(getattr(old, p.name), getattr(new, p.name), f"{path}.{p.name}")
         ]
     return [(path, new)]
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

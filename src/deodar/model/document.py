@@ -5,9 +5,8 @@ from __future__ import annotations
 import dataclasses as dc
 import functools
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from deodar import renamed
 from deodar.codec import Json
 from deodar.element import Element
 from deodar.model.paths import Index, PathNames, display
@@ -117,11 +116,6 @@ class Document:
     notes: str = ""
     layout: Mapping[str, Json] = dc.field(default_factory=dict[str, Any])
     foreign: bool = dc.field(default=False, compare=False)
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            raise renamed.no_member(self, name)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for a pickle, without trust: trust is valid only in the process in which it was

@@ -8,9 +8,8 @@ import html
 import sys
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from deodar import renamed
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
 from deodar.model import edit, files, find, uses
@@ -56,11 +55,6 @@ class Model:
         self.declared: dict[str, str] = {}
         self.programs: dict[Hashable, Any] = {}
 
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            raise renamed.no_member(self, name)
-
     def __copy__(self) -> Model:
         """Return an independent model with the same document, history and trust, without compiled
         programs.
@@ -88,7 +82,6 @@ class Model:
 
     # ----------------------------------------------------------------------------------------------- building
 
-    @renamed.arguments("dd.Model.add")
     def add(
         self, element: Element, group: str = "", ticks: int = 1, after: Handle | None = None, id: str = ""
     ) -> Handle:

@@ -10,13 +10,13 @@ import stat
 import warnings
 from collections.abc import Generator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import psutil
 import xarray
 
-from deodar import codec, renamed
+from deodar import codec
 from deodar.errors import DeodarError, OutputExists, Problem, RecordError, TooLarge, did_you_mean
 from deodar.model import output
 from deodar.recording import growing, lazy, netcdf, places, portable, sound, table
@@ -291,7 +291,3 @@ def _opened(path: Path, kind: str) -> xarray.Dataset:
     members = group.get("consolidated_metadata", {}).get("metadata")
     data = xarray.open_zarr(path, zarr_format=3, consolidated=bool(members), decode_cf=False, chunks=None)
     return sound.present(lazy.lazily(data, path, members or {}), path)
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

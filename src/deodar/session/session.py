@@ -7,11 +7,10 @@ import html
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from deodar import renamed
 from deodar.compiler import hosts
 from deodar.compiler.arguments import ProgramValues
 from deodar.compiler.batch import Batch
@@ -78,11 +77,6 @@ class Session:
         journal: every change of a parameter or of dt, every reset and restore, and every change of the world
             by the user, with its tick; together with seed and document it repeats the session.
     """
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            raise renamed.no_member(self, name)
 
     def __init__(
         self,

@@ -7,7 +7,6 @@ from typing import Any, cast
 
 import numpy as np
 
-from deodar import renamed
 from deodar.codec import Json
 from deodar.credentials import Hidden, masked
 from deodar.errors import WorldError
@@ -59,7 +58,6 @@ class Camera(World):
     repeatable = False
     wall_clock = True
 
-    @renamed.arguments("dd.Camera")
     def __init__(
         self,
         source: int | str = 0,

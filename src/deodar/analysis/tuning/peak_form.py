@@ -7,8 +7,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from deodar import renamed
-from deodar.analysis.isolated import Isolated
 from deodar.analysis.tuning.requirement import (
     ExactQuantity,
     Requirement,
@@ -19,7 +17,6 @@ from deodar.analysis.tuning.requirement import (
     written,
 )
 from deodar.analysis.tuning.response import FieldInput, FieldResponse, SettledBatch
-from deodar.errors import ParameterError
 
 
 @dataclass(frozen=True, repr=False)
@@ -120,7 +117,6 @@ class AmplitudeRequirement(Requirement):
         return written("peak_amplitude", amplitude=self.amplitude, within=self.within, strength=self.strength)
 
 
-@renamed.arguments("dd.selects")
 def selects(strength: float | None = None) -> SelectionRequirement:
     """Require that two equal inputs end in one peak.
 
@@ -129,10 +125,6 @@ def selects(strength: float | None = None) -> SelectionRequirement:
     Args:
         strength: amplitude of each input; None: that of `dd.tune`.
     """
-    if isinstance(strength, Isolated):
-        raise ParameterError(
-            "dd.selects is a requirement of dd.tune", fix=renamed.fix("dd.selects(isolated=...)")
-        )
     return SelectionRequirement(accepted_strength(strength))
 
 

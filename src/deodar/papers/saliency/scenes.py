@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar import codec, renamed
+from deodar import codec
 from deodar.analysis.peaks import Peaks, peaks
 from deodar.architectures.saliency import CUE_AT, SIDE, retina, saliency, scene
 from deodar.batch.simulate import simulate
@@ -277,7 +277,3 @@ def _outcome(scene_: CueScene, record: xarray.Dataset, end: xarray.Dataset, k: i
 
 def _places(scene: CueScene, found: Peaks, axes: Axes) -> tuple[tuple[float, float], ...]:
     return tuple(scene.picture.to_pixels(axes, p.position[0], p.position[1]) for p in found)
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from deodar import renamed
 from deodar.analysis.claims import Claim
 from deodar.analysis.paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
@@ -291,7 +290,3 @@ def sentence(result: Narrative) -> str:
         "; ".join(f"{what} at step {k}" if k is not None else f"never {what}" for what, k in said)
         + f" (one step is {STEP_MS:g} ms)."
     )
-
-
-if not TYPE_CHECKING:
-    __getattr__ = renamed.left(__name__)
