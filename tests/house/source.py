@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-import ast
-import functools
 import subprocess
+import sys
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-SRC = ROOT / "src" / "deodar"
-MODULES = sorted(SRC.rglob("*.py"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+import packages
+from packages import ROOT as ROOT
+from packages import tree as tree
+
+SRC = ROOT / "src"
+ENGINE = SRC / "deodar"
+MODULES = [path for package in packages.packages() for path in packages.modules(package)]
 
 NEVER = {
     ".git",
@@ -46,45 +50,23 @@ TEXT = {
 }
 
 
-@functools.cache
-def tree(path: Path) -> ast.Module:
-    """Return the syntax tree of a file."""
-    return ast.parse(path.read_text(encoding="utf-8"), str(path))
-
-
 def module(path: Path) -> str:
-    """Return the dotted name of a file of the package, without the package: `numerics.axes`."""
-    names = list(path.relative_to(SRC).with_suffix("").parts)
-    return ".".join(names[:-1] if names[-1] == "__init__" else names)
+    """Return the dotted name of a module; of the engine without `deodar`: `numerics.axes`."""
+    return _short(packages.dotted(path))
 
 
 def imported(path: Path) -> list[tuple[int, str]]:
-    """Return (line, module of the package) of each import of deodar in a file: at its top, in functions,
-    for types.
+    """Return line and module of each import of deodar's packages in a file: at its top, in functions, for
+    types; of the engine without `deodar`.
     """
-    found: list[tuple[int, str]] = []
-    for node in ast.walk(tree(path)):
-        if isinstance(node, ast.Import):
-            found += [(node.lineno, alias.name) for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
-            # `from deodar.model import edit` imports deodar.model.edit; a plain name of a module counts as
-            # the module
-            for alias in node.names:
-                whole = f"{node.module}.{alias.name}"
-                found.append((node.lineno, whole if _is_module(whole) else node.module))
+    known = packages.packages()
     return [
-        (line, name.removeprefix("deodar").removeprefix("."))
-        for line, name in found
-        if name.split(".")[0] == "deodar"
+        (line, _short(name)) for line, name in packages.imports(path) if packages.package_of(name) in known
     ]
 
 
-def _is_module(name: str) -> bool:
-    parts = name.split(".")
-    if parts[0] != "deodar":
-        return False
-    path = SRC.joinpath(*parts[1:])
-    return path.with_suffix(".py").is_file() or path.is_dir()
+def _short(name: str) -> str:
+    return name.removeprefix("deodar.") if name.startswith("deodar.") else name.removesuffix("deodar")
 
 
 def texts() -> list[Path]:

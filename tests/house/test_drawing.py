@@ -1,4 +1,4 @@
-"""Only figures/ and diagrams/ draw: they import matplotlib, in one style."""
+"""Only figures and diagrams draw: they import matplotlib, in one style."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def _matplotlib(path: Path) -> list[int]:
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(SRC)))
 def test_matplotlib_is_imported_where_figures_are_drawn(path: Path) -> None:
     name = module(path)
-    if name.split(".")[0] != "figures" and name not in DIAGRAMS:
-        assert not _matplotlib(path), f"{path.name} draws: move it below src/deodar/figures"
+    if not {"figure", "figures"} & set(name.split(".")) and name not in DIAGRAMS:
+        assert not _matplotlib(path), f"{path.name} draws: move it to the figures of its package"
 
 
 def test_colours_are_named_only_in_the_style() -> None:
     """A colour of a figure has a meaning, and a line in `Palette`."""
     allowed = {"_style.py", "animation.py"}  # the video has a palette of its own for the floor of the arena
-    for path in sorted((SRC / "figures").glob("*.py")):
+    for path in (p for p in MODULES if {"figure", "figures"} & set(module(p).split("."))):
         texts = [
             n.value for n in ast.walk(tree(path)) if isinstance(n, ast.Constant) and isinstance(n.value, str)
         ]

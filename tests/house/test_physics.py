@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from tests.house.source import ROOT, SRC, tree
+from tests.house.source import ENGINE, ROOT, SRC, tree
 
 sys.path.insert(0, str(ROOT / "tools"))
 from measure import OPTIMISER
 
 FILES = [
-    *sorted((SRC / "elements").glob("*.py")),
-    *sorted((SRC / "couplings").glob("*.py")),
-    SRC / "element.py",
+    *sorted((ENGINE / "elements").glob("*.py")),
+    *sorted((ENGINE / "couplings").glob("*.py")),
+    ENGINE / "element.py",
 ]
 ROOMS = ("deodar.compiler", "deodar.numerics.choice", "deodar.numerics.waves")
 """Modules that decide how kernels are applied."""
