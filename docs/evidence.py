@@ -65,7 +65,7 @@ class Evidence:
 
     def report(self) -> papers.Report:
         """Claims, figures, tables and numbers of the rows."""
-        return papers.paper(self.paper).report(self.rows, self.quick)
+        return papers.PAPERS[self.paper].report(self.rows, self.quick)
 
     def results(self, report: papers.Report) -> str:
         """The content of `results.json`."""
@@ -104,7 +104,7 @@ def take(source: Path, into: Path = EVIDENCE) -> Evidence:
     lines = [json.loads(line) for line in text[: text.rfind("\n") + 1].splitlines()]
     made = [line["about"] for line in lines if "key" not in line][-1]
     name = made["paper"]
-    paper = papers.paper(name)
+    paper = papers.PAPERS[name]
     quick = bool(made["quick"])
     command = f"deodar reproduce {name}" + (" --quick" if quick else "")
     if any(made.get(k) != v for k, v in json.loads(json.dumps(paper.about(quick))).items()):
@@ -213,7 +213,7 @@ def _made(about: Mapping[str, Any]) -> str:
 
 def _missing(evidence: Evidence) -> str:
     """The conditions of which no runs are kept."""
-    keys = {key for job in papers.paper(evidence.paper).jobs(evidence.quick) for key in job.keys}
+    keys = {key for job in papers.PAPERS[evidence.paper].jobs(evidence.quick) for key in job.keys}
     return ", ".join(_unfinished(keys, evidence.rows)) or "none"
 
 
@@ -232,7 +232,7 @@ def unrun(paper: str) -> dict[str, str]:
         "command",
         "missing",
     )
-    return {**papers.paper(paper).report({}, False).numbers, **dict.fromkeys(names, papers.NOT_RUN)}
+    return {**papers.PAPERS[paper].report({}, False).numbers, **dict.fromkeys(names, papers.NOT_RUN)}
 
 
 def _counted(what: str, claims: Sequence[dd.analysis.claims.Claim]) -> str:
@@ -298,7 +298,7 @@ def write(evidence: Evidence, pictures: bool) -> dict[str, str]:
     """Write claims and pictures; return the numbers for the pages."""
     report = evidence.report()
     (EVIDENCE / evidence.paper / RESULTS).write_text(evidence.results(report), encoding="utf-8")
-    for picture, figure in papers.paper(evidence.paper).PICTURES.items() if pictures else ():
+    for picture, figure in papers.PAPERS[evidence.paper].PICTURES.items() if pictures else ():
         if figure in report.figures:
             dd.figures.save_figure(
                 report.figures[figure], DOCS / "pictures" / f"{picture}.png", force=True, dots=DOTS
@@ -312,7 +312,7 @@ def main() -> int:
     taken = [take(Path(word)).paper for word in words]
     known = {
         paper: write(read(paper), paper in taken) if paper in kept() else unrun(paper)
-        for paper in papers.names()
+        for paper in papers.PAPERS
     }
     if "--print" in sys.argv[1:]:
         for paper, found in known.items():

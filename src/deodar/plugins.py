@@ -1,4 +1,5 @@
-"""Packages that extend deodar, found by their entry points.
+"""Packages that extend the engine, found by their entry points: those beside it in the distribution deodar,
+and those of others.
 
 A package lists its extensions in its metadata, for example
 
@@ -26,10 +27,12 @@ GROUPS = {
     "worlds": "worlds, by the name of their class",
     "measures": "measures of experiments: classes derived from dd.BaseMeasure, by their names",
     "figures": "modules with ACROSS, size and fill; with paint where ACROSS is true",
-    "plots": "modules with TITLE, FILE and AXES: plots of the studio, drawn by an ES module",
     "importers": "modules with NAME, sniff and read",
+    "exporters": "modules with NAME, ENDING, HELP, and write (of models) or save (of records)",
+    "names": "public names: what `dd.NAME` is",
+    "examples": "modules whose folder holds documents and scripts, for example:NAME",
     "commands": "modules with HELP, arguments and run",
-    "papers": "modules with HELP, about, jobs, report and so on",
+    "groups": "groups that packages define: their deodar.extensions.Extensions",
 }
 """The kind of object that the entry points of each group `deodar.GROUP` refer to."""
 
@@ -63,7 +66,7 @@ class Plugin:
 
 
 def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
-    """Return the entry points of a group, in the order of their packages.
+    """Return the entry points of a group, those of deodar's own packages first, in the order of packages.
 
     A name that deodar (`taken`) or an earlier package already has is a problem.
     """
@@ -128,11 +131,25 @@ def unfit(
 
 
 @functools.cache
+def first_party() -> frozenset[str]:
+    """Return the import packages of the distribution deodar: `deodar`, and those of its entry points.
+
+    They are `deodar` alone where deodar is run without being installed.
+    """
+    try:
+        entries = importlib.metadata.distribution("deodar").entry_points
+    except importlib.metadata.PackageNotFoundError:
+        entries = ()
+    return frozenset({"deodar", *(entry.module.partition(".")[0] for entry in entries)})
+
+
+@functools.cache
 def _entries(group: str) -> tuple[importlib.metadata.EntryPoint, ...]:
     entries = importlib.metadata.entry_points(group=f"deodar.{group}")
     return tuple(
         sorted(
-            (e for e in entries if e.dist is not None), key=lambda e: (e.dist.name if e.dist else "", e.name)
+            (e for e in entries if e.dist is not None),
+            key=lambda e: (e.dist.name != "deodar", e.dist.name, e.name) if e.dist else (True, "", ""),
         )
     )
 

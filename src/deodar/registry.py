@@ -37,6 +37,11 @@ def register(cls: T) -> T:
     return cls
 
 
+def own(cls: type[Any]) -> bool:
+    """Return whether a class is part of the distribution deodar: of the engine, or of a package beside it."""
+    return cls.__module__.partition(".")[0] in plugins.first_party()
+
+
 def modules(room: str) -> list[str]:
     """Return the names of the modules of an extension folder.
 
@@ -106,8 +111,8 @@ def kind(name: str) -> type[Any]:
 
 def packaged() -> list[Plugin]:
     """Return the kinds and worlds of installed packages, without importing them."""
-    own = {name for name, cls in _kinds.items() if cls.__module__.startswith("deodar.")}
-    return [*plugins.found("kinds", own), *plugins.found("worlds", own)]
+    taken = [name for name, cls in _kinds.items() if own(cls)]
+    return [*plugins.found("kinds", taken), *plugins.found("worlds", taken)]
 
 
 def take(plugin: Plugin) -> str:
@@ -129,7 +134,7 @@ def package(name: str) -> str:
     deodar.
     """
     cls = _kinds.get(name)
-    if cls is None or cls.__module__.startswith("deodar."):
+    if cls is None or own(cls):
         return ""
     outside = (p for p in packaged() if p.name == name)
     return next((f"{p.package} {p.version}" for p in outside if p.load()[0] is cls), "")

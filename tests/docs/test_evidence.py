@@ -44,7 +44,7 @@ def test_stored_claims_follow_from_the_rows(reports: dict[str, Any]) -> None:
 def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) -> None:
     known = {
         name: evidence.numbers(*reports[name]) if name in reports else evidence.unrun(name)
-        for name in papers.names()
+        for name in papers.PAPERS
     }
     for page in evidence.pages():
         text = page.read_text(encoding="utf-8")
@@ -53,7 +53,7 @@ def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) 
 
 
 def test_without_runs_a_page_states_settings_and_no_results() -> None:
-    none = {name: evidence.unrun(name) for name in papers.names()}
+    none = {name: evidence.unrun(name) for name in papers.PAPERS}
     results = [
         value
         for name, value in none["spa"].items()
@@ -79,7 +79,7 @@ def test_evidence_states_versions_and_date_and_no_path(reports: dict[str, Any]) 
         assert sum(p.stat().st_size for p in (evidence.EVIDENCE / name).iterdir()) < 4e6
         design = kept.design[-1]
         assert {k: design[k] for k in design if k != "made_by"} == json.loads(
-            json.dumps(papers.paper(name).about(kept.quick))
+            json.dumps(papers.PAPERS[name].about(kept.quick))
         ), "the design has changed"
 
 
@@ -93,7 +93,7 @@ def test_the_wheel_contains_no_evidence() -> None:
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """Return the folder of a reproduction whose rows agree with the paper."""
-    spa = papers.paper("spa")
+    spa = papers.PAPERS["spa"]
     first = {"about": {**spa.about(False), "made_by": MADE}}
     text = "".join(
         json.dumps(line) + "\n"
@@ -157,7 +157,7 @@ def test_conditions_that_a_new_folder_lacks_are_kept_if_their_settings_are_the_p
     assert first.about["earlier"] == []
     lines = (folder / "runs.jsonl").read_text().splitlines()
     new = [json.loads(line) for line in lines if '"condition": "z/planner/low"' in line]
-    about = {"about": {**papers.paper("spa").about(False), "made_by": other}}
+    about = {"about": {**papers.PAPERS["spa"].about(False), "made_by": other}}
     (folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in [about, *new]))
     both = evidence.take(folder, into)
     assert both.rows.keys() == first.rows.keys() and both.about["made_by"] == other
@@ -191,7 +191,7 @@ def test_tables_are_written_between_their_marks(folder: Path, tmp_path: Path) ->
 
 
 def test_a_quick_reproduction_is_stored_as_quick(folder: Path, tmp_path: Path) -> None:
-    first = {"about": {**papers.paper("spa").about(True), "made_by": MADE}}
+    first = {"about": {**papers.PAPERS["spa"].about(True), "made_by": MADE}}
     rows = all_rows(True, lambda c, k: {"path": PATH[::10]}).values()
     (folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in [first, *rows]))
     taken = evidence.take(folder, tmp_path / "evidence")

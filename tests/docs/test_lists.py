@@ -38,8 +38,8 @@ LISTS = {
     "Sigmoids": sorted(registry.kinds("numerics.sigmoids")),
     "Worlds": sorted(registry.kinds("worlds")),
     "Published models": _models(),
-    "Reproduced papers": sorted(papers.own()),
-    "Importers": sorted(opening.own()),
+    "Reproduced papers": sorted(p.name for p in papers.PAPERS.packaged() if p.package == "deodar"),
+    "Importers": sorted(p.name for p in opening.IMPORTERS.packaged() if p.package == "deodar"),
     "Commands": sorted(cli.commands()),
 }
 """The rows of the table of features in README.md, and the existing names."""

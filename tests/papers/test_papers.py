@@ -11,10 +11,10 @@ from deodar import papers
 from deodar.errors import UnknownName
 
 
-@pytest.mark.parametrize("name", papers.names())
+@pytest.mark.parametrize("name", list(papers.PAPERS))
 @pytest.mark.parametrize("quick", [True, False])
 def test_a_paper_has_the_parts_that_the_command_uses(name, quick):
-    paper = papers.paper(name)
+    paper = papers.PAPERS[name]
     assert paper.HELP and "\n" not in paper.HELP and paper.__doc__
     jobs = paper.jobs(quick)
     keys = [key for job in jobs for key in job.keys]
@@ -26,9 +26,9 @@ def test_a_paper_has_the_parts_that_the_command_uses(name, quick):
     assert named == {key.rpartition("/")[0] for key in keys}
 
 
-@pytest.mark.parametrize("name", papers.names())
+@pytest.mark.parametrize("name", list(papers.PAPERS))
 def test_without_runs_every_claim_is_undecided(name):
-    report = papers.paper(name).report({}, True)
+    report = papers.PAPERS[name].report({}, True)
     assert report.claims and not report.figures
     assert all(c.holds is None for c in report.claims)
     names = [c.name for c in report.claims]
@@ -37,7 +37,7 @@ def test_without_runs_every_claim_is_undecided(name):
 
 def test_an_unknown_paper_suggests_the_nearest():
     with pytest.raises(UnknownName, match="Did you mean 'spa'"):
-        papers.paper("sba")
+        papers.PAPERS["sba"]
 
 
 def test_each_paper_of_deodar_with_a_file_demo_is_a_demonstration():

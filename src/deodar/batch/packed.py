@@ -90,7 +90,7 @@ def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
 def _outside(data: Mapping[str, Any]) -> list[type]:
     """Return the classes outside deodar that the document names."""
     used = {name: registry.kind(name) for name in kinds_in(data["elements"])}
-    return [cls for _, cls in sorted(used.items()) if not cls.__module__.startswith("deodar.")]
+    return [cls for _, cls in sorted(used.items()) if not registry.own(cls)]
 
 
 def _require_module(classes: Sequence[type]) -> None:

@@ -15,10 +15,7 @@ from deodar.importers import examples
 if TYPE_CHECKING:
     from deodar.batch.cluster import Cluster
     from deodar.model.model import Model
-    from deodar.neuromorphic.prepare import SpikingOptions
     from deodar.worlds._base import World
-
-SPIKING = ("neurons", "step", "chip", "mismatch", "tonic", "seed")
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -110,42 +107,6 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="cores that a program uses (default 1, the quickest for most models)",
     )
-
-
-def add_spiking(parser: argparse.ArgumentParser, of: str = "") -> None:
-    """Add `--neurons`, `--step`, `--chip`, `--mismatch` and `--tonic`; `of` begins their help."""
-    parser.add_argument(
-        "--neurons", type=whole, metavar="N", help=f"{of}neurons of each sample of a field (default 20)"
-    )
-    parser.add_argument(
-        "--step", type=positive, metavar="T", help=f"{of}step of the neurons (default: the document's)"
-    )
-    parser.add_argument(
-        "--chip",
-        metavar="NAME",
-        help=f"{of}limits of a chip: ideal, analog-mismatch or digital-8-bit (default ideal)",
-    )
-    parser.add_argument(
-        "--mismatch",
-        type=float,
-        metavar="SHARE",
-        help=f"{of}relative standard deviation of thresholds and constant currents (default: the chip's)",
-    )
-    parser.add_argument(
-        "--tonic",
-        action="store_true",
-        default=None,
-        help=f"{of}resting levels by neurons that spike in every step, which mismatch does not change",
-    )
-
-
-def spiking(args: argparse.Namespace) -> SpikingOptions:
-    """Return what `add_spiking` added, and `--seed` where a command has it."""
-    # start-up time: this brings JAX
-    from deodar.neuromorphic.prepare import SpikingOptions
-
-    given = {name: getattr(args, name, None) for name in SPIKING}
-    return SpikingOptions(**{name: value for name, value in given.items() if value is not None})
 
 
 def use_cores(cores: int | None, wanted: int = 1) -> None:

@@ -197,21 +197,25 @@ def _is_experiment(path: Path) -> bool:
 def _plugins() -> list[dict[str, str]]:
     """Return the extensions of installed packages, each with its problem; "" without a problem."""
     # start-up time: these bring JAX
-    from deodar import cli, papers, registry
+    import deodar
+    from deodar import cli, plugins, registry
     from deodar.experiments.measures import MEASURES
+    from deodar.exporters.tools import EXPORTERS
     from deodar.figures import _panels
-    from deodar.importers import opening
-    from deodar.server.plots import PLOTS
+    from deodar.importers import examples, opening
 
     registry.kinds()  # names in deodar
+    names = plugins.found("names", deodar.__all__)
+    groups = plugins.found("groups", plugins.GROUPS)
+    defined = [group.load()[0] for group in groups if not group.load()[1]]
     listed = [(p, registry.take(p)) for p in registry.packaged()]
-    listed += [(p, MEASURES.problem(p)) for p in MEASURES.packaged()]
-    listed += [(p, _panels.KINDS.problem(p)) for p in _panels.KINDS.packaged()]
-    listed += [(p, PLOTS.problem(p)) for p in PLOTS.packaged()]
-    listed += [(p, p.load()[1]) for p in (*opening.packaged(), *cli.packaged(), *papers.packaged())]
+    for group in (MEASURES, _panels.KINDS, opening.IMPORTERS, EXPORTERS, *defined):
+        listed += [(p, group.problem(p)) for p in group.packaged()]
+    listed += [(p, p.load()[1]) for p in (*cli.packaged(), *examples.packaged(), *names, *groups)]
     return [
         {"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem}
         for p, problem in listed
+        if p.package != "deodar" or problem
     ]
 
 

@@ -52,9 +52,7 @@ def run(args: argparse.Namespace) -> int:
     listed = {room: registry.kinds(room) for room in registry.ROOMS}
     known = {name for found in listed.values() for name in found}
     outside = {
-        name: cls
-        for name, cls in registry.kinds().items()
-        if name not in known and not cls.__module__.startswith("deodar.")
+        name: cls for name, cls in registry.kinds().items() if name not in known and not registry.own(cls)
     }
     listed |= {"own": outside} if outside else {}
     lines = {

@@ -11,23 +11,21 @@ from pathlib import Path
 from deodar import codec
 from deodar.cli import _figure, _options, _report
 from deodar.cli._bar import Bar
+from deodar.exporters.tools import EXPORTERS, of_models, of_records
 
 HELP = (
     "write a record in another format, what deodar plot draws of it as a video, or a model as a file of"
-    " another tool (cosivina, nir)"
+    " another tool"
 )
 EPILOG = """\
-netcdf, csv and zarr hold the values; cedar is a folder with one CSV file for each variable, as cedar's
-recorder writes it, mat a file of MATLAB, and rosbag a bag of ROS 2 with a topic for each variable (extra
-network). gif, mp4 (extra video) and png (a folder of numbered files) show
-what deodar plot draws, frame by frame: a line moves over panels of time, and snapshots, projections and paths
-show each time.
-cosivina and nir write a model instead of a record, with a report of what was carried, approximated or
-dropped; `deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. nir is a network of spiking
-neurons (extra neuromorphic). Status 1 with --strict if anything was not carried."""
+netcdf, csv and zarr hold the values.
+gif, mp4 (extra video) and png (a folder of numbered files) show what deodar plot draws, frame by frame: a
+line moves over panels of time, and snapshots, projections and paths show each time. Formats of other tools:
+{records}. These formats take a model instead of a record, with a report of what was carried, approximated
+or dropped: {models}. `deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. Status 1
+with --strict if anything was not carried."""
 
-DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr", "cedar": "", "mat": ".mat", "rosbag": ""}
-TOOLS = {"cosivina": ".json", "nir": ".nir"}
+DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr"}
 VIDEOS = {"gif": ".gif", "mp4": ".mp4", "png": ""}
 """Formats, and the endings of their names; the others are folders."""
 
@@ -38,16 +36,18 @@ SELECTED = ("trial", "where", "time_range", "every")
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.epilog = EPILOG
-    _figure.add_record(parser, "; with --to cosivina or nir a model")
+    records, models = of_records(), of_models()
+    parser.epilog = EPILOG.format(
+        records="; ".join(f"{name}, {exporter.HELP}" for name, exporter in records.items()),
+        models="; ".join(f"{name}, {exporter.HELP}" for name, exporter in models.items()),
+    )
+    formats = [*DATA, *records, *VIDEOS, *models]
+    _figure.add_record(parser, f"; with --to {' or '.join(models) or 'TOOL'} a model")
     parser.add_argument(
         "--to",
-        choices=(*DATA, *VIDEOS, *TOOLS),
+        choices=formats,
         metavar="FORMAT",
-        help=(
-            "netcdf, csv, zarr, cedar, mat, rosbag, gif, mp4, png, cosivina or nir (default: given by the"
-            " ending of --out)"
-        ),
+        help=f"{', '.join(formats)} (default: given by the ending of --out)",
     )
     parser.add_argument(
         "--out", "-o", type=Path, metavar="PATH", help="file or folder (default: NAME-export-001, ... here)"
@@ -71,7 +71,13 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of a model: fail, and write nothing, if anything is approximated or dropped",
     )
-    _options.add_spiking(parser, "of nir: ")
+    foreign: dict[str, str] = {}
+    for name, exporter in models.items():
+        if hasattr(exporter, "arguments"):
+            before = {action.dest for action in parser._actions}
+            exporter.arguments(parser)
+            foreign |= {action.dest: name for action in parser._actions if action.dest not in before}
+    parser.set_defaults(exporter_of_option=foreign)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.add_force(parser)
     _options.add_json(parser)
@@ -82,11 +88,11 @@ def run(args: argparse.Namespace) -> int:
     """Write the file and print its path; status 1 if `--strict` prevents that."""
     _named_first(args)
     format, out = _target(args)
-    if format in TOOLS:
+    if format in of_models():
         return _write_model(args, format, out)
     if args.strict:
         args.wrong(f"--strict is about a model, and --to {format} writes a record")
-    _no_neurons(args, format)
+    _require_options(args, format)
     if format in VIDEOS:
         every, args.every = args.every, None  # of the frames, not of the samples in a panel
         drawn = _figure.drawn(args)
@@ -109,11 +115,12 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
     # start-up time: this brings JAX
     from deodar.recording import places
 
-    endings = DATA | VIDEOS | TOOLS
+    endings = DATA | VIDEOS | ({args.to: EXPORTERS[args.to].ENDING} if args.to in EXPORTERS else {})
     format, out = args.to, args.out
     if format is None:
         ending = "" if out is None else out.suffix.lower()
-        found = [name for name, known in endings.items() if known and known == ending and name not in TOOLS]
+        endings |= {name: exporter.ENDING for name, exporter in of_records().items()}
+        found = [name for name, known in endings.items() if known and known == ending]
         if not found:
             args.wrong("the format is missing: end --out in .nc, .csv, .zarr, .gif or .mp4, or give --to")
         format = found[0]
@@ -121,7 +128,7 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
         what = f"a name that ends in {endings[format]}" if endings[format] else "the name of a folder"
         args.wrong(f"--to {format} needs {what}, not {out}")
     if out is None:
-        figure = args.record.suffix.lower() == ".toml" or format in TOOLS
+        figure = args.record.suffix.lower() == ".toml" or format in of_models()
         name = args.record.stem.rpartition(":")[2] if figure else _figure.stem(args.record)
         out = places.free(Path(), f"{name}-export", endings[format])
     return format, out
@@ -130,7 +137,12 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
 def _named_first(args: argparse.Namespace) -> None:
     """Read `export cosivina MODEL` as `export MODEL --to cosivina`."""
     name = str(args.record)
-    if name in TOOLS and len(args.variables) == 1 and args.to in (None, name) and not args.record.exists():
+    if (
+        name in of_models()
+        and len(args.variables) == 1
+        and args.to in (None, name)
+        and not args.record.exists()
+    ):
         args.to, args.record, args.variables = name, Path(args.variables[0]), []
 
 
@@ -147,9 +159,10 @@ def _write_model(args: argparse.Namespace, format: str, out: Path) -> int:
     if given:
         args.wrong(f"--{given[0].replace('_', '-')} is about a record, and --to {format} writes a model")
     output.claim(out, args.force)
-    if format != "nir":
-        _no_neurons(args, format)
-    done = exported(load(args.record), out.name, format, _options.spiking(args))
+    _require_options(args, format)
+    exporter = EXPORTERS[format]
+    options = exporter.options(args) if hasattr(exporter, "options") else {}
+    done = exported(load(args.record), out.name, format, **options)
     failed = args.strict and not done.report.faithful
     if not failed:
         output.write(out, done.content)
@@ -161,11 +174,11 @@ def _write_model(args: argparse.Namespace, format: str, out: Path) -> int:
     return int(failed)
 
 
-def _no_neurons(args: argparse.Namespace, format: str) -> None:
-    """Refuse options of spiking neurons."""
-    for name in _options.SPIKING:
-        if getattr(args, name, None) is not None:
-            args.wrong(f"--{name} is about spiking neurons, and --to {format} writes none")
+def _require_options(args: argparse.Namespace, format: str) -> None:
+    """Refuse options of other exporters."""
+    for option, name in args.exporter_of_option.items():
+        if name != format and getattr(args, option) is not None:
+            args.wrong(f"--{option} is about {EXPORTERS[name].ABOUT}, and --to {format} writes none")
 
 
 def _shown(bar: Bar) -> Callable[[int, int], None]:
@@ -184,8 +197,8 @@ def _shown(bar: Bar) -> Callable[[int, int], None]:
 
 def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
     """Write the values of the selected part of a record; return the names of its variables."""
-    # start-up time: these bring JAX
-    from deodar.recording import cedar, files, mat, rosbag
+    # start-up time: this brings JAX
+    from deodar.recording import files
 
     if args.record.suffix.lower() == ".toml":
         args.wrong(f"{args.record} describes a figure, and --to {format} writes the values of a record")
@@ -195,12 +208,8 @@ def _convert(args: argparse.Namespace, format: str, out: Path) -> list[str]:
     data = files.open_record(args.record)
     names = _figure.variables(data, args.variables)
     part = _figure.selected(args, data, names)
-    if format == "cedar":
-        cedar.save(part, out, args.force)
-    elif format == "mat":
-        mat.save(part, out, args.force)
-    elif format == "rosbag":
-        rosbag.save(part, out, args.force)
+    if format in EXPORTERS:
+        EXPORTERS[format].save(part, out, args.force)
     else:
         files.save_record(part, out, format, args.force)
     return names

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from deodar import codec
 from deodar.cli import _options
 from deodar.model import output
+from deodar_spikes import options
 
 if TYPE_CHECKING:
     from deodar.neuromorphic.comparison import Estimate, SpikingComparison
@@ -42,7 +43,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--duration", type=_options.positive, metavar="T", help="document time (default: 1000 ms)"
     )
-    _options.add_spiking(parser)
+    options.add(parser)
     parser.add_argument(
         "--seed", type=_options.whole, metavar="N", help="seed of noise and mismatch (default 0)"
     )
@@ -79,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
     duration = args.duration or 1.0 / _seconds(doc.time_unit)
     norse = False if args.no_norse else args.norse or True
     found = compare_spikes(
-        model, duration, args.trials, _options.spiking(args), _options.world(args.world), norse
+        model, duration, args.trials, options.read(args), _options.world(args.world), norse
     )
     if args.out is not None:
         first = {run: {k: v[:, 0] for k, v in r.items()} for run, r in found.runs.items()}

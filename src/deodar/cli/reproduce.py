@@ -41,7 +41,7 @@ RESULTS = "results.json"
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.epilog = EPILOG
-    parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.names())}")
+    parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.PAPERS)}")
     parser.add_argument(
         "--quick",
         action="store_true",
@@ -80,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.recording.provenance import made_by
 
     _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
-    paper = papers.paper(args.paper)
+    paper = papers.PAPERS[args.paper]
     jobs = _chosen(args, paper.jobs(args.quick))
     out: Path = args.out or places.free(Path.cwd(), args.paper)
     cluster = _options.cluster(args)

@@ -12,8 +12,9 @@ import re
 from pathlib import Path
 from typing import Any
 
-from deodar import codec
+from deodar import codec, plugins
 from deodar.errors import UnknownName, did_you_mean
+from deodar.plugins import Plugin
 
 PREFIX = "example:"
 """Prefix of a name that means the file of an example."""
@@ -25,8 +26,21 @@ MAKERS = ("make", "pictures")
 """Scripts of the folder that write the examples and their pictures, and are not examples."""
 
 
+def packaged() -> list[Plugin]:
+    """Return the folders of examples that installed packages name, without importing them."""
+    return plugins.found("examples")
+
+
+def folders() -> list[Path]:
+    """Return the folder of deodar, and those of packages: the folder of the module that each entry names."""
+    modules = [module for module, problem in (p.load() for p in packaged()) if not problem]
+    return [folder(), *(Path(module.__file__).parent for module in modules)]
+
+
 def folder() -> Path:
-    """Return the folder: beside the code in an installed deodar, beside `src` in a copy of its repository."""
+    """Return the folder of deodar: beside the code in an installed deodar, beside `src` in a copy of its
+    repository.
+    """
     package = Path(__file__).parents[1]
     installed = package / "examples"
     return installed if installed.is_dir() else package.parents[1] / "examples"
@@ -36,13 +50,14 @@ def names() -> list[str]:
     """List the documents, in the order in which a reader should see them."""
     order = folder() / "order.txt"
     first = order.read_text(encoding="utf-8").split() if order.is_file() else []
-    found = sorted(p.stem for p in folder().glob("*.json"))
-    return [n for n in first if n in found] + [n for n in found if n not in first]
+    stems = [p.stem for place in folders() for p in sorted(place.glob("*.json"))]
+    return list(dict.fromkeys([*(n for n in first if n in stems), *stems]))
 
 
 def scripts() -> list[str]:
     """List the scripts."""
-    return sorted(p.stem for p in folder().glob("*.py") if p.stem not in MAKERS)
+    found = (p.stem for place in folders() for p in sorted(place.glob("*.py")))
+    return [name for name in dict.fromkeys(found) if name not in MAKERS and not name.startswith("_")]
 
 
 def file(name: str) -> Path:
@@ -51,10 +66,10 @@ def file(name: str) -> Path:
     Raises:
         UnknownName: no example has that name.
     """
-    if name in names():
-        return folder() / f"{name}.json"
-    if name in scripts():
-        return folder() / f"{name}.py"
+    ending = "json" if name in names() else "py" if name in scripts() else ""
+    if ending:
+        paths = (place / f"{name}.{ending}" for place in folders())
+        return next(path for path in paths if path.is_file())
     known = [*names(), *scripts()]
     raise UnknownName(
         f"there is no example {name!r}",
@@ -95,7 +110,7 @@ def named(path: str | Path) -> Path:
 
 def holds(path: Path) -> bool:
     """Return whether a path is the document of an example in the folder of the examples."""
-    return path.suffix == ".json" and path.parent == folder() and path.stem in names()
+    return path.suffix == ".json" and path.parent in folders()
 
 
 def near(path: Path) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import importlib
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
-from deodar import plugins, registry
 from deodar.errors import DeodarError, DocumentError, Problem
+from deodar.extensions import Extensions
 from deodar.importers import examples
 from deodar.importers._beside import in_folder
 from deodar.importers.imported import Imported
@@ -23,31 +23,24 @@ OWN = b'"deodar":'
 """First bytes of deodar's documents."""
 
 
-def tools() -> dict[str, ModuleType]:
-    """Return the importers by name: every folder beside this file, and those of installed packages.
-
-    Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs, beside) -> Imported`; `beside`
-    reads other files of the same folder by their names.
-    """
-    outside = {p.name: p.load() for p in packaged() if not p.problem}
-    return own() | {name: module for name, (module, problem) in outside.items() if not problem}
+def _problem(plugin: Plugin, module: Any) -> str:
+    missing = [name for name in ("NAME", "sniff", "read") if not hasattr(module, name)]
+    return f"has no {', '.join(missing)}" if missing else ""
 
 
-def own() -> dict[str, ModuleType]:
-    """Return the importers that are part of deodar."""
-    found = [importlib.import_module(name) for name in registry.modules("importers")]
-    return {module.NAME: module for module in found if hasattr(module, "sniff")}
+IMPORTERS: Extensions[ModuleType] = Extensions("importers", "importer", dict, _problem)
+"""The importers by name.
+
+Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs, beside) -> Imported`; `beside` reads
+other files of the same folder by their names. It may state `ENDINGS`, the endings of its files besides
+`.json`.
+"""
 
 
 def endings() -> tuple[str, ...]:
     """Return the endings of file names, besides `.json`, that the importers state in `ENDINGS`."""
-    found = (ending for tool in tools().values() for ending in getattr(tool, "ENDINGS", ()))
+    found = (ending for tool in IMPORTERS.values() for ending in getattr(tool, "ENDINGS", ()))
     return tuple(dict.fromkeys(found))
-
-
-def packaged() -> list[Plugin]:
-    """Return the importers that installed packages name, without importing them."""
-    return plugins.found("importers", list(own()))
 
 
 def require(path: str | Path) -> Path:
@@ -88,7 +81,7 @@ def tool_for(content: bytes) -> ModuleType | None:
     head = content[:HEAD]
     if OWN in head[:200]:
         return None
-    return next((tool for tool in tools().values() if tool.sniff(head)), None)
+    return next((tool for tool in IMPORTERS.values() if tool.sniff(head)), None)
 
 
 def read(path: str | Path, bugs: bool = False) -> Imported:
@@ -109,7 +102,7 @@ def read(path: str | Path, bugs: bool = False) -> Imported:
         if tool is None:
             raise DocumentError(
                 "is not a file of a tool that deodar imports",
-                fix=f"Tools: {', '.join(tools())}. Documents of deodar need no import",
+                fix=f"Tools: {', '.join(IMPORTERS)}. Documents of deodar need no import",
             )
         size = path.stat().st_size
         if size > MOST_BYTES:

@@ -22,7 +22,7 @@ def reference(base: type[Any]) -> dict[str, Any]:
         "oneOf": [
             {"$ref": f"#/$defs/{name}"}
             for name, cls in registry.kinds().items()
-            if issubclass(cls, base) and cls.__module__.startswith("deodar.")
+            if issubclass(cls, base) and registry.own(cls)
         ]
     }
 
@@ -30,9 +30,7 @@ def reference(base: type[Any]) -> dict[str, Any]:
 def document_schema() -> dict[str, Any]:
     """Return the schema of a whole document."""
     parts = {
-        name: cls
-        for name, cls in registry.kinds().items()
-        if issubclass(cls, Part) and cls.__module__.startswith("deodar.")
+        name: cls for name, cls in registry.kinds().items() if issubclass(cls, Part) and registry.own(cls)
     }
     defs: dict[str, Any] = {name: schema(cls, reference) for name, cls in parts.items()}
     for name, cls in parts.items():

@@ -1,5 +1,4 @@
-"""Published experiments, run again: one folder for each paper; the folder is the registry, and entry points
-`deodar.papers` of installed packages.
+"""Published experiments, run again: one folder for each paper, named by an entry point `deodar.papers`.
 
 A paper is a module or a package with
 
@@ -12,7 +11,7 @@ A paper is a module or a package with
 * `kept(row)`: the entries of a row that claims, figures or numbers read; they are stored in the repository;
 * `PICTURES`: pictures of the manual, each with its figure.
 
-A paper of deodar may have a file `demo.py`, its quick form, which `deodar demo NAME` runs: `HELP`,
+A paper that is a package may have a file `demo.py`, its quick form, which `deodar demo NAME` runs: `HELP`,
 `arguments(parser)` and `run(args, show)`, which returns a `papers.Demonstration`.
 
 Heavy imports are inside functions.
@@ -22,16 +21,13 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import pkgutil
 from collections.abc import Callable
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from deodar import plugins
-from deodar.errors import UnknownName, did_you_mean
+from deodar.extensions import Extensions
 from deodar.papers._demonstration import Demonstration as Demonstration
 from deodar.papers._demonstration import Show as Show
-from deodar.plugins import Plugin
 
 if TYPE_CHECKING:
     from deodar.papers._report import NOT_RUN as NOT_RUN
@@ -56,43 +52,13 @@ def files(package: str) -> Callable[[str], Any]:
     return __getattr__
 
 
-def names() -> list[str]:
-    """Return the names of all papers: those of deodar, then those of installed packages."""
-    return [*own(), *(p.name for p in packaged() if not p.problem)]
-
-
-def own() -> list[str]:
-    """Return the names of the papers of deodar: those of their folders, with hyphens."""
-    return sorted(m.name.replace("_", "-") for m in pkgutil.iter_modules(__path__) if m.name[0] != "_")
+PAPERS: Extensions[ModuleType] = Extensions("papers", "paper", dict, lambda plugin, module: "")
+"""The papers by name."""
 
 
 def demos() -> dict[str, ModuleType]:
-    """Return the demonstrations of deodar's papers, by the name of the paper."""
-    paths = {name: f"deodar.papers.{name.replace('-', '_')}.demo" for name in own()}
-    found = {name: path for name, path in paths.items() if importlib.util.find_spec(path)}
-    return {name: importlib.import_module(path) for name, path in found.items()}
-
-
-def packaged() -> list[Plugin]:
-    """Return the names of the papers of installed packages, without importing them."""
-    return plugins.found("papers", own())
-
-
-def paper(name: str) -> ModuleType:
-    """Return a paper by its name.
-
-    Raises:
-        UnknownName: no paper has this name (the nearest name is suggested), or its package cannot be used.
-    """
-    if name in own():
-        return importlib.import_module(f"deodar.papers.{name.replace('-', '_')}")
-    for p in packaged():
-        if p.name == name:
-            module, problem = p.load()
-            if problem:
-                raise UnknownName(
-                    f"the paper {name!r} cannot be used: the package {p.package} {p.version} {problem}",
-                    fix="Type: deodar doctor",
-                )
-            return module
-    raise UnknownName(f"there is no paper {name!r} to reproduce", fix=did_you_mean(name, names()))
+    """Return the demonstrations of all papers, by the name of the paper."""
+    found = {name: f"{paper.__name__}.demo" for name, paper in PAPERS.items()}
+    return {
+        name: importlib.import_module(path) for name, path in found.items() if importlib.util.find_spec(path)
+    }

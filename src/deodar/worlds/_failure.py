@@ -32,7 +32,7 @@ def errors_of(world: World | type[World], method: str, argument: str = "") -> Ge
     except (DeodarError, MemoryError):
         raise
     except Exception as error:  # a method may raise any exception
-        if kind.__module__.startswith("deodar."):
+        if registry.own(kind):
             raise
         name, line = _position(kind, error)
         package = registry.package(kind.__name__)

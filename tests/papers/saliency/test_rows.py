@@ -13,7 +13,7 @@ from deodar.experiments.rows import Row
 from deodar.papers.saliency import targets, trials
 from deodar.papers.saliency.scenes import CueScene, Outcome, SceneResult
 
-PAPER = papers.paper("saliency")
+PAPER = papers.PAPERS["saliency"]
 
 
 def ideal(scene: CueScene) -> SceneResult:

@@ -15,7 +15,7 @@ from deodar.papers.serial_order.arenas import random_arena
 
 @pytest.mark.parametrize("quick", [True, False])
 def test_every_run_belongs_to_one_job_whose_sequences_have_one_length(quick: bool) -> None:
-    keys = [key for job in papers.paper("serial-order").jobs(quick) for key in job.keys]
+    keys = [key for job in papers.PAPERS["serial-order"].jobs(quick) for key in job.keys]
     known = conditions.conditions(quick)
     assert sorted(keys) == sorted(c.key(k) for c in known.values() for k in range(c.count))
     for c in known.values():

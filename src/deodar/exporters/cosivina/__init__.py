@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
-from deodar.exporters.cosivina.simulator import write
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from deodar.exporters.exported import Exported
+    from deodar.model.model import Model
 
 NAME = "cosivina"
 ENDING = ".json"
+HELP = "a simulator of cosivina"
 
-__all__ = ["ENDING", "NAME", "write"]
+
+def write(model: Model, name: str) -> Exported:
+    """Return the file of a simulator, and the report."""
+    # start-up time: this brings JAX
+    from deodar.exporters.cosivina import simulator
+
+    return simulator.write(model, name)

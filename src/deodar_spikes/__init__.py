@@ -1,0 +1,1 @@
+"""From fields to spiking neurons: translation, graphs of NIR, simulation, limits of chips, comparison."""
