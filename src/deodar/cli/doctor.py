@@ -205,7 +205,7 @@ def _plugins() -> list[dict[str, str]]:
     from deodar.importers import examples, opening
 
     registry.kinds()  # names in deodar
-    names = plugins.found("names", deodar.__all__)
+    names = plugins.found("names", vars(deodar)["__all__"])
     groups = plugins.found("groups", plugins.GROUPS)
     defined = [group.load()[0] for group in groups if not group.load()[1]]
     listed = [(p, registry.take(p)) for p in registry.packaged()]
