@@ -48,19 +48,19 @@ from tests.neuromorphic.scenes import (  # noqa: E402
 import deodar as dd  # noqa: E402
 from deodar.analysis.statistics import wilson  # noqa: E402
 from deodar.architectures.looking import retina  # noqa: E402
-from deodar.neuromorphic.build import build  # noqa: E402
-from deodar.neuromorphic.chip_limits import chip_limits  # noqa: E402
-from deodar.neuromorphic.comparison import compare_spikes  # noqa: E402
-from deodar.neuromorphic.drive import NetworkInput, network_input  # noqa: E402
-from deodar.neuromorphic.fitting import fit  # noqa: E402
-from deodar.neuromorphic.graph import NirGraph  # noqa: E402
-from deodar.neuromorphic.mismatch import chip, differing  # noqa: E402
-from deodar.neuromorphic.norse import norse_version, run_norse  # noqa: E402
-from deodar.neuromorphic.prepare import SpikingOptions  # noqa: E402
-from deodar.neuromorphic.running import rates  # noqa: E402
-from deodar.neuromorphic.simulator import SpikingSimulator  # noqa: E402
-from deodar.neuromorphic.translate import translate  # noqa: E402
 from deodar.recording.provenance import machine  # noqa: E402
+from deodar_spikes.build import build  # noqa: E402
+from deodar_spikes.chip_limits import chip_limits  # noqa: E402
+from deodar_spikes.comparison import compare_spikes  # noqa: E402
+from deodar_spikes.drive import NetworkInput, network_input  # noqa: E402
+from deodar_spikes.fitting import fit  # noqa: E402
+from deodar_spikes.graph import NirGraph  # noqa: E402
+from deodar_spikes.mismatch import chip, differing  # noqa: E402
+from deodar_spikes.norse import norse_version, run_norse  # noqa: E402
+from deodar_spikes.prepare import SpikingOptions  # noqa: E402
+from deodar_spikes.running import rates  # noqa: E402
+from deodar_spikes.simulator import SpikingSimulator  # noqa: E402
+from deodar_spikes.translate import translate  # noqa: E402
 
 FOLDER = ROOT / "evidence" / "neuromorphic"
 PAGE = ROOT / "docs" / "neuromorphic.md"

@@ -184,8 +184,8 @@ MEASURES = [
         "dd.export",
         "dd.SpikingOptions",
         "dd.compare_spikes",
-        "deodar.neuromorphic.comparison.SpikingComparison",
-        "deodar.neuromorphic.comparison.Estimate",
+        "deodar_spikes.comparison.SpikingComparison",
+        "deodar_spikes.comparison.Estimate",
         "deodar.importers.report.ImportReport",
         "deodar.importers.report.Line",
     ),
@@ -530,7 +530,7 @@ def keys(declared: type[Any]) -> str:
 
 def fill(text: str) -> str:
     """Return the page of the command line with new tables of arguments; missing commands are added."""
-    for name, module in cli.commands().items():
+    for name, module in cli.COMMANDS.first_party().items():
         begin, end = f"<!-- arguments of {name} -->\n", f"<!-- end of {name} -->\n"
         if begin not in text:
             text = text.rstrip("\n") + f"\n\n## deodar {name}\n\n{begin}{end}"

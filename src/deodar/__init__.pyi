@@ -179,8 +179,6 @@ from deodar.model.draw import draw as draw
 from deodar.model.model import Model as Model
 from deodar.model.model import save as save
 from deodar.model.paths import quote as quote
-from deodar.neuromorphic.comparison import compare_spikes as compare_spikes
-from deodar.neuromorphic.prepare import SpikingOptions as SpikingOptions
 from deodar.numerics.axes import Axes as Axes
 from deodar.numerics.axes import Axis as Axis
 from deodar.numerics.integrators import euler as euler
@@ -227,5 +225,7 @@ from deodar.worlds.ros2.ros2 import ROS2 as ROS2
 from deodar.worlds.ros_bag.ros_bag import ROSBag as ROSBag
 from deodar.worlds.video import Video as Video
 from deodar.worlds.zenoh.zenoh import Zenoh as Zenoh
+from deodar_spikes.comparison import compare_spikes as compare_spikes
+from deodar_spikes.prepare import SpikingOptions as SpikingOptions
 
 __version__: str

@@ -36,6 +36,13 @@ class Extensions(Mapping[str, T], Generic[T]):
         """Return the members from installed packages, without importing them."""
         return plugins.found(self._group, list(self._own()))
 
+    def first_party(self) -> dict[str, T]:
+        """Return the members that come with deodar: of the engine, and of the packages beside it."""
+        beside = {
+            p.name: p.load()[0] for p in self.packaged() if p.package == "deodar" and not self.problem(p)
+        }
+        return dict(sorted({**beside, **self._own()}.items()))
+
     def problem(self, plugin: Plugin) -> str:
         """Import a member of a package and return its problem; "" without a problem."""
         found, problem = plugin.load()

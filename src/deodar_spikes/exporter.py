@@ -10,7 +10,7 @@ from deodar_spikes import options as spiking_options
 if TYPE_CHECKING:
     from deodar.exporters.exported import Exported
     from deodar.model.model import Model
-    from deodar.neuromorphic.prepare import SpikingOptions
+    from deodar_spikes.prepare import SpikingOptions
 
 NAME = "nir"
 ENDING = ".nir"
@@ -31,9 +31,9 @@ def write(model: Model, name: str, spiking: SpikingOptions | None = None) -> Exp
     """
     # start-up time: these bring JAX
     from deodar.exporters.exported import Exported
-    from deodar.neuromorphic.mismatch import chip
-    from deodar.neuromorphic.nir_file import write_nir
-    from deodar.neuromorphic.prepare import SpikingOptions, prepare
+    from deodar_spikes.mismatch import chip
+    from deodar_spikes.nir_file import write_nir
+    from deodar_spikes.prepare import SpikingOptions, prepare
 
     settings = spiking or SpikingOptions()
     network = prepare(model, name, settings)

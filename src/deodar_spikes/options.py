@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from deodar.cli._options import positive, whole
 
 if TYPE_CHECKING:
-    from deodar.neuromorphic.prepare import SpikingOptions
+    from deodar_spikes.prepare import SpikingOptions
 
 NAMES = ("neurons", "step", "chip", "mismatch", "tonic", "seed")
 
@@ -43,7 +43,7 @@ def add(parser: argparse.ArgumentParser, of: str = "") -> None:
 def read(args: argparse.Namespace) -> SpikingOptions:
     """Return what `add` added, and `--seed` where a command has it."""
     # start-up time: this brings JAX
-    from deodar.neuromorphic.prepare import SpikingOptions
+    from deodar_spikes.prepare import SpikingOptions
 
     given = {name: getattr(args, name, None) for name in NAMES}
     return SpikingOptions(**{name: value for name, value in given.items() if value is not None})

@@ -151,7 +151,7 @@ def test_every_command_with_a_model_accepts_names_of_examples(command: str) -> N
     from deodar.cli import _options
 
     parser = argparse.ArgumentParser()
-    cli.commands()[command].arguments(parser)
+    cli.COMMANDS[command].arguments(parser)
     assert next(a for a in parser._actions if a.dest == "file").type is _options.document
     assert _options.document("example:node") == examples.file("node")
 

@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.cli import main
-from deodar.neuromorphic.nir_reader import parse_nir
+from deodar_spikes.nir_reader import parse_nir
 
 
 @pytest.fixture

@@ -38,9 +38,9 @@ LISTS = {
     "Sigmoids": sorted(registry.kinds("numerics.sigmoids")),
     "Worlds": sorted(registry.kinds("worlds")),
     "Published models": _models(),
-    "Reproduced papers": sorted(p.name for p in papers.PAPERS.packaged() if p.package == "deodar"),
-    "Importers": sorted(p.name for p in opening.IMPORTERS.packaged() if p.package == "deodar"),
-    "Commands": sorted(cli.commands()),
+    "Reproduced papers": list(papers.PAPERS.first_party()),
+    "Importers": list(opening.IMPORTERS.first_party()),
+    "Commands": list(cli.COMMANDS.first_party()),
 }
 """The rows of the table of features in README.md, and the existing names."""
 

@@ -19,9 +19,9 @@ GOOD, BAD = "good.json", "bad.json"
 
 CALLS: dict[str, tuple[list[str], int, tuple[str, ...]]] = {
     "no command": ([], 2, ("COMMAND", "deodar --help")),
-    "a misspelt command": (["chek"], 2, ("there is no command 'chek'", "Did you mean 'check'?")),
-    "no such command": (["zzz"], 2, ("there is no command 'zzz'", "Valid names: ")),
-    "a command that is nothing": ([""], 2, ("there is no command ''",)),
+    "a misspelt command": (["chek"], 2, ("there is no command called 'chek'", "Did you mean 'check'?")),
+    "no such command": (["zzz"], 2, ("there is no command called 'zzz'", "Valid names: ")),
+    "a command that is nothing": ([""], 2, ("there is no command called ''",)),
     "an unknown option": (["--verbos"], 2, ("deodar --help",)),
     "check: nothing": (["check"], 2, ("FILE", "Type: deodar check --help")),
     "check: an unknown option": (["check", GOOD, "--force"], 2, ("--force",)),
@@ -78,13 +78,13 @@ def test_an_invalid_call_is_an_error_and_writes_nothing(
     assert sorted(folder.iterdir()) == before
 
 
-@pytest.mark.parametrize("command", ["", *cli.commands()])
+@pytest.mark.parametrize("command", ["", *cli.COMMANDS.first_party()])
 def test_every_command_has_help(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert _status([*([command] if command else []), "--help"]) == 0
     out, err = capsys.readouterr()
     assert out.startswith("usage: deodar") and not err
     if command:
-        assert cli.commands()[command].HELP.split()[0] in out
+        assert cli.COMMANDS[command].HELP.split()[0] in out
 
 
 def test_version_prints_the_version(capsys: pytest.CaptureFixture[str]) -> None:
@@ -112,7 +112,7 @@ def _raising(error: BaseException) -> Callable[..., int]:
 def test_an_error_of_a_command_is_one_line(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], error: BaseException, says: str
 ) -> None:
-    monkeypatch.setattr(cli.commands()["elements"], "run", _raising(error))
+    monkeypatch.setattr(cli.COMMANDS["elements"], "run", _raising(error))
     assert _status(["elements"]) == 1
     out, err = capsys.readouterr()
     assert not out and err.startswith("deodar elements: ") and says in err

@@ -35,7 +35,6 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "analysis",
         "experiments",
         "environments importers architectures",
-        "neuromorphic",
         "exporters",
         "compat",
         "figures",

@@ -18,7 +18,7 @@ OTHERS = {
     "server.token": "a secret of mode 0600, which must not exist before",
     "server.redirect_file": "a secret of mode 0600, in a temporary folder",
     "server.embodiment": "a file in a temporary folder",
-    "neuromorphic.norse": "the file for norse, in a temporary folder",
+    "deodar_spikes.norse": "the file for norse, in a temporary folder",
     "worlds.event_file.event_file": "an example in a temporary folder",
     "worlds.event_file.aedat4_process": "its output, a pipe",
     "worlds.robot.schema": "the generated schema, in the package",

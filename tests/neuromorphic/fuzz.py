@@ -14,7 +14,7 @@ from collections import Counter
 from pathlib import Path
 
 from deodar.errors import GraphError
-from deodar.neuromorphic.nir_reader import parse_nir
+from deodar_spikes.nir_reader import parse_nir
 
 READ, REFUSED, WRONG = 0, 1, 2
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from deodar.errors import UnknownName
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.chip_limits import ChipLimits, chip_limits, chip_names
-from deodar.neuromorphic.fitting import fit
-from deodar.neuromorphic.graph import AffineNode, NeuronNode
-from deodar.neuromorphic.mismatch import chip, differing
-from deodar.neuromorphic.translate import translate
+from deodar_spikes.build import build
+from deodar_spikes.chip_limits import ChipLimits, chip_limits, chip_names
+from deodar_spikes.fitting import fit
+from deodar_spikes.graph import AffineNode, NeuronNode
+from deodar_spikes.mismatch import chip, differing
+from deodar_spikes.translate import translate
 from tests.neuromorphic.scenes import pairs, winner_take_all
 
 

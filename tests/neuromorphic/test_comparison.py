@@ -7,14 +7,14 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, TimeError, TooLarge
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.comparison import compare_spikes
-from deodar.neuromorphic.drive import network_input
-from deodar.neuromorphic.norse import norse_version, run_norse
-from deodar.neuromorphic.outcomes import outcomes
-from deodar.neuromorphic.prepare import SpikingOptions
-from deodar.neuromorphic.running import SpikingTrials, simulated
-from deodar.neuromorphic.translate import translate
+from deodar_spikes.build import build
+from deodar_spikes.comparison import compare_spikes
+from deodar_spikes.drive import network_input
+from deodar_spikes.norse import norse_version, run_norse
+from deodar_spikes.outcomes import outcomes
+from deodar_spikes.prepare import SpikingOptions
+from deodar_spikes.running import SpikingTrials, simulated
+from deodar_spikes.translate import translate
 from tests.neuromorphic.scenes import pairs, winner_take_all
 
 X = dd.Axis("x", 0, 30, samples=31)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.comparison import SpikingComparison, compare_spikes
-from deodar.neuromorphic.drive import network_input
-from deodar.neuromorphic.prepare import SpikingOptions
-from deodar.neuromorphic.translate import translate
+from deodar_spikes.build import build
+from deodar_spikes.comparison import SpikingComparison, compare_spikes
+from deodar_spikes.drive import network_input
+from deodar_spikes.prepare import SpikingOptions
+from deodar_spikes.translate import translate
 from tests.neuromorphic.scenes import Targets, chosen, targets
 
 RECORDING = Path(__file__).parents[1] / "worlds" / "event_file" / "one.aedat4"

@@ -1,4 +1,4 @@
-"""Packages of spiking networks are imported in the folder `neuromorphic` alone, inside functions."""
+"""Packages of spiking networks are imported in `deodar_spikes` alone, inside functions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tests.house.source import MODULES, SRC, tree
 PACKAGES = {"nir", "h5py", "norse", "torch", "nirtorch"}
 
 
-def test_no_other_folder_imports_nir() -> None:
+def test_no_other_package_imports_nir() -> None:
     found = {
         path.relative_to(SRC)
         for path in MODULES
@@ -23,11 +23,11 @@ def test_no_other_folder_imports_nir() -> None:
         )
         if name.split(".")[0] in PACKAGES
     }
-    assert found and {p.parts[0] for p in found} == {"neuromorphic"}
+    assert found and {p.parts[0] for p in found} == {"deodar_spikes"}
 
 
 def test_they_are_not_needed_at_import() -> None:
-    for path in (SRC / "neuromorphic").glob("*.py"):
+    for path in (SRC / "deodar_spikes").glob("*.py"):
         top = [n for n in tree(path).body if isinstance(n, (ast.Import, ast.ImportFrom))]
         names = {a.name.split(".")[0] for n in top if isinstance(n, ast.Import) for a in n.names}
         names |= {(n.module or "").split(".")[0] for n in top if isinstance(n, ast.ImportFrom)}

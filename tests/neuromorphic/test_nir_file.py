@@ -17,13 +17,13 @@ import pytest
 
 import deodar as dd
 from deodar.errors import GraphError, MissingExtra, TimeError
-from deodar.neuromorphic import nir_file, nir_reader
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.graph import EndNode, NirGraph
-from deodar.neuromorphic.nir_file import read_nir, write_nir
-from deodar.neuromorphic.nir_reader import parse_nir
-from deodar.neuromorphic.simulator import SpikingSimulator
-from deodar.neuromorphic.translate import translate
+from deodar_spikes import nir_file, nir_reader
+from deodar_spikes.build import build
+from deodar_spikes.graph import EndNode, NirGraph
+from deodar_spikes.nir_file import read_nir, write_nir
+from deodar_spikes.nir_reader import parse_nir
+from deodar_spikes.simulator import SpikingSimulator
+from deodar_spikes.translate import translate
 from tests.house.source import ROOT
 from tests.neuromorphic.scenes import pairs, winner_take_all
 

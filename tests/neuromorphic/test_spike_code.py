@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.neuromorphic.graph import EndNode, NeuronNode, NirGraph
-from deodar.neuromorphic.simulator import SpikingSimulator
-from deodar.neuromorphic.spike_code import NoSpikeCode, spike_code, steady_rate
+from deodar_spikes.graph import EndNode, NeuronNode, NirGraph
+from deodar_spikes.simulator import SpikingSimulator
+from deodar_spikes.spike_code import NoSpikeCode, spike_code, steady_rate
 
 STEP = 5e-4
 CURRENTS = np.array([0.5, 1.0, 1.05, 1.3, 2.0, 3.7, 6.0, 12.0])

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.chip_limits import chip_limits
-from deodar.neuromorphic.fitting import fit
-from deodar.neuromorphic.graph import NirGraph
-from deodar.neuromorphic.mismatch import differing
-from deodar.neuromorphic.running import rates
-from deodar.neuromorphic.simulator import SpikingSimulator
-from deodar.neuromorphic.translate import translate
+from deodar_spikes.build import build
+from deodar_spikes.chip_limits import chip_limits
+from deodar_spikes.fitting import fit
+from deodar_spikes.graph import NirGraph
+from deodar_spikes.mismatch import differing
+from deodar_spikes.running import rates
+from deodar_spikes.simulator import SpikingSimulator
+from deodar_spikes.translate import translate
 from tests.neuromorphic.scenes import DETECTOR, bistable, pairs, winner_take_all
 
 DETECTION = 4.27

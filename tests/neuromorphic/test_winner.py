@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import deodar as dd
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.simulator import SpikingSimulator
-from deodar.neuromorphic.translate import translate
+from deodar_spikes.build import build
+from deodar_spikes.simulator import SpikingSimulator
+from deodar_spikes.translate import translate
 from tests.neuromorphic.scenes import CELLS, pairs, winner_take_all
 
 STEPS = 800

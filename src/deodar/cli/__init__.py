@@ -13,31 +13,35 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from deodar import __version__, plugins
-from deodar.errors import DeodarError, UnknownName, did_you_mean, first_line
+from deodar import __version__
+from deodar.errors import DeodarError, UnknownName, first_line
+from deodar.extensions import Extensions
 from deodar.plugins import Plugin
 
 
-def commands() -> dict[str, ModuleType]:
-    """Return every command of deodar by name; a module has a trailing underscore if the name is a keyword."""
+def _own() -> dict[str, ModuleType]:
+    """Return the commands of this folder; a module has a trailing underscore if the name is a keyword."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
     return {name.rstrip("_"): importlib.import_module(f"deodar.cli.{name}") for name in names}
 
 
-def packaged() -> list[Plugin]:
-    """Return the commands of installed packages, without importing them."""
-    return plugins.found("commands", list(commands()))
+def _problem(plugin: Plugin, module: Any) -> str:
+    missing = [name for name in ("HELP", "arguments", "run") if not hasattr(module, name)]
+    return f"has no {', '.join(missing)}" if missing else ""
 
 
-def _outside(given: Sequence[str]) -> dict[str, ModuleType]:
-    """Import the commands of packages that a call needs: the one it names, or all for the list of
-    commands.
-    """
+COMMANDS: Extensions[ModuleType] = Extensions("commands", "command", _own, _problem)
+"""The commands by name."""
+
+
+def _needed(given: Sequence[str]) -> dict[str, ModuleType]:
+    """Return the commands that a call needs: the one it names, or all for the list of commands."""
     named = next((word for word in given if not word.startswith("-")), None)
-    loaded = {p.name: p.load() for p in packaged() if named in (None, p.name) and not p.problem}
-    return {name: module for name, (module, problem) in loaded.items() if not problem}
+    if named is None:
+        return dict(sorted(COMMANDS.items()))
+    return {named: COMMANDS[named]} if named in COMMANDS else {}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -47,7 +51,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
-    """Return the parser of the command line, with the commands of packages that the call needs."""
+    """Return the parser of the command line, with the commands that the call needs."""
     top = _Parser(prog="deodar", description="A workbench for Dynamic Field Theory.")
     top.add_argument("--version", action="version", version=f"deodar {__version__}")
     top.add_argument(
@@ -59,7 +63,7 @@ def parser(given: Sequence[str] = ()) -> argparse.ArgumentParser:
         help="import a module with elements of your own first",
     )
     inside = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, module in (commands() | _outside(given)).items():
+    for name, module in _needed(given).items():
         sub = inside.add_parser(name, help=module.HELP, description=module.HELP)
         module.arguments(sub)
         sub.set_defaults(run=module.run)
@@ -71,9 +75,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     call.
     """
     given = list(sys.argv[1:] if argv is None else argv)
-    if given and not given[0].startswith("-") and given[0] not in commands() | _outside(given):
-        print(f"deodar: {_no_command(given[0])}", file=sys.stderr)
-        return 2
+    if given and not given[0].startswith("-"):
+        try:
+            COMMANDS[given[0]]
+        except UnknownName as error:
+            print(f"deodar: {error}", file=sys.stderr)
+            return 2
     args = parser(given).parse_args(given)
     try:
         for name in args.imports:
@@ -97,17 +104,6 @@ def main(argv: Sequence[str] | None = None) -> int:
             file=sys.stderr,
         )
     return 1
-
-
-def _no_command(name: str) -> str:
-    """Return why a command cannot run: no command has that name, or its package cannot be used."""
-    for p in packaged():
-        if p.name == name:
-            return (
-                f"the command {name!r} cannot be used: the package {p.package} {p.version} {p.load()[1]}."
-                " Type: deodar doctor"
-            )
-    return f"there is no command {name!r}. {did_you_mean(name, [*commands(), *(p.name for p in packaged())])}"
 
 
 def _import(name: str) -> None:

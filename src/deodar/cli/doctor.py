@@ -209,9 +209,9 @@ def _plugins() -> list[dict[str, str]]:
     groups = plugins.found("groups", plugins.GROUPS)
     defined = [group.load()[0] for group in groups if not group.load()[1]]
     listed = [(p, registry.take(p)) for p in registry.packaged()]
-    for group in (MEASURES, _panels.KINDS, opening.IMPORTERS, EXPORTERS, *defined):
+    for group in (MEASURES, _panels.KINDS, *defined, opening.IMPORTERS, EXPORTERS, cli.COMMANDS):
         listed += [(p, group.problem(p)) for p in group.packaged()]
-    listed += [(p, p.load()[1]) for p in (*cli.packaged(), *examples.packaged(), *names, *groups)]
+    listed += [(p, p.load()[1]) for p in (*examples.packaged(), *names, *groups)]
     return [
         {"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem}
         for p, problem in listed

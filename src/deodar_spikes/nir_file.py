@@ -17,7 +17,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.errors import GraphError
-from deodar.neuromorphic.graph import (
+from deodar_spikes.graph import (
     INPUT,
     NEURON_FIELDS,
     AffineNode,
@@ -28,7 +28,7 @@ from deodar.neuromorphic.graph import (
     NirGraph,
     OutputRange,
 )
-from deodar.neuromorphic.nir_reader import MOST_BYTES, hdf5, needed, output_range
+from deodar_spikes.nir_reader import MOST_BYTES, hdf5, needed, output_range
 
 SECONDS, SECONDS_PER_BYTE = 20.0, 1e-7
 """Limit of the time that reading takes."""
@@ -104,7 +104,7 @@ def read_nir(content: bytes, name: str = "") -> NirGraph:
     seconds = SECONDS + SECONDS_PER_BYTE * len(content)
     try:
         done = subprocess.run(
-            [sys.executable, "-m", "deodar.neuromorphic.nir_process", name],
+            [sys.executable, "-m", "deodar_spikes.nir_process", name],
             input=content,
             capture_output=True,
             timeout=seconds,

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from deodar.errors import GraphError, MissingExtra
-from deodar.neuromorphic.graph import NirGraph
-from deodar.neuromorphic.nir_file import write_nir
+from deodar_spikes.graph import NirGraph
+from deodar_spikes.nir_file import write_nir
 
 SCRIPT = Path(__file__).with_name("norse_process.py")
 

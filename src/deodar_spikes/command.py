@@ -13,7 +13,7 @@ from deodar.model import output
 from deodar_spikes import options
 
 if TYPE_CHECKING:
-    from deodar.neuromorphic.comparison import Estimate, SpikingComparison
+    from deodar_spikes.comparison import Estimate, SpikingComparison
 
 HELP = "run a model as a network of spiking neurons, and compare it with its rates"
 EPILOG = """\
@@ -66,9 +66,9 @@ def run(args: argparse.Namespace) -> int:
         return _chips(args)
     # start-up time: these bring JAX
     from deodar.figures import _files
-    from deodar.figures.spikes import spikes_figure
     from deodar.importers.opening import load
-    from deodar.neuromorphic.comparison import compare_spikes
+    from deodar_spikes.comparison import compare_spikes
+    from deodar_spikes.figure import spikes_figure
 
     file: Path | None = args.file
     if file is None:
@@ -135,7 +135,7 @@ def _cell(e: Estimate, kind: str, unit: str) -> str:
 def _chips(args: argparse.Namespace) -> int:
     """List the chips and their limits."""
     # start-up time: this brings NumPy
-    from deodar.neuromorphic.chip_limits import chip_limits, chip_names
+    from deodar_spikes.chip_limits import chip_limits, chip_names
 
     chips = [chip_limits(name) for name in chip_names()]
     if args.json:

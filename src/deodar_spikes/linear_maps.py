@@ -14,11 +14,11 @@ from deodar.compiler.functions import Functions, StepArguments
 from deodar.element import Setting, Time
 from deodar.errors import TooLarge
 from deodar.model.resolve import Node
-from deodar.neuromorphic.network import WeightMatrix
 from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.processor import on_cpu
+from deodar_spikes.network import WeightMatrix
 
 BLOCK = 512
 MOST_ENTRIES = 30_000_000

@@ -21,12 +21,12 @@ from deodar.model.document import Connection, Document, Entry
 from deodar.model.model import Model
 from deodar.model.resolve import Node, resolve
 from deodar.model.unit import unit_seconds
-from deodar.neuromorphic.counterparts import COUNTERPARTS, Counterpart, TranslationSetup
-from deodar.neuromorphic.linear_maps import element_matrix, require_size
-from deodar.neuromorphic.network import Population, Projection, SpikingNetwork, WeightMatrix
-from deodar.neuromorphic.spike_code import NoSpikeCode
-from deodar.neuromorphic.tonic import with_tonic_neurons
 from deodar.parameters import parameters
+from deodar_spikes.counterparts import COUNTERPARTS, Counterpart, TranslationSetup
+from deodar_spikes.linear_maps import element_matrix, require_size
+from deodar_spikes.network import Population, Projection, SpikingNetwork, WeightMatrix
+from deodar_spikes.spike_code import NoSpikeCode
+from deodar_spikes.tonic import with_tonic_neurons
 
 NEURONS, MEMBRANE = 20, 20e-3
 """Defaults: neurons of a cell, and tau_mem in s."""

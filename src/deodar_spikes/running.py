@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from deodar.neuromorphic.drive import NetworkInput
-from deodar.neuromorphic.graph import NirGraph
-from deodar.neuromorphic.mismatch import chip, differing
-from deodar.neuromorphic.norse import run_norse
-from deodar.neuromorphic.simulator import SpikingSimulator
+from deodar_spikes.drive import NetworkInput
+from deodar_spikes.graph import NirGraph
+from deodar_spikes.mismatch import chip, differing
+from deodar_spikes.norse import run_norse
+from deodar_spikes.simulator import SpikingSimulator
 
 Rates = Mapping[str, NDArray[np.float32]]
 """For each probed element: windows x trials x cells."""

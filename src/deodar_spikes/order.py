@@ -12,7 +12,7 @@ import dataclasses as dc
 from collections.abc import Sequence
 
 from deodar.errors import GraphError, show
-from deodar.neuromorphic.graph import INPUT, OUTPUT, NirGraph
+from deodar_spikes.graph import INPUT, OUTPUT, NirGraph
 
 
 @dc.dataclass(frozen=True)

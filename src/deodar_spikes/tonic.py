@@ -12,8 +12,8 @@ import dataclasses as dc
 
 import numpy as np
 
-from deodar.neuromorphic.network import Population, Projection, SpikingNetwork
-from deodar.neuromorphic.spike_code import QUICK, SpikeCode
+from deodar_spikes.network import Population, Projection, SpikingNetwork
+from deodar_spikes.spike_code import QUICK, SpikeCode
 
 LABEL = "tonic neurons"
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from deodar.importers.report import Line
-from deodar.neuromorphic.chip_limits import ChipLimits
-from deodar.neuromorphic.graph import INPUT, OUTPUT, AffineNode, GraphNode, NeuronNode, NirGraph, Singles
+from deodar_spikes.chip_limits import ChipLimits
+from deodar_spikes.graph import INPUT, OUTPUT, AffineNode, GraphNode, NeuronNode, NirGraph, Singles
 
 
 @dc.dataclass(frozen=True)

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from deodar.errors import ParameterError
 from deodar.importers.report import ImportReport, Line
 from deodar.model.model import Model
-from deodar.neuromorphic.build import build
-from deodar.neuromorphic.chip_limits import ChipLimits, chip_limits
-from deodar.neuromorphic.fitting import Fitted, fit
-from deodar.neuromorphic.translate import NEURONS, Translated, translate
+from deodar_spikes.build import build
+from deodar_spikes.chip_limits import ChipLimits, chip_limits
+from deodar_spikes.fitting import Fitted, fit
+from deodar_spikes.translate import NEURONS, Translated, translate
 
 CHIP = "ideal"
 DIFFERING: tuple[str, ...] = ("v_threshold", "bias")

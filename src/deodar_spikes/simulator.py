@@ -19,10 +19,10 @@ from jax import Array, lax
 from numpy.typing import NDArray
 
 from deodar.errors import GraphError, TimeError
-from deodar.neuromorphic.factors import factors
-from deodar.neuromorphic.graph import INPUT, OUTPUT, AffineNode, NeuronNode, NirGraph
-from deodar.neuromorphic.order import order
 from deodar.numerics.processor import on_cpu
+from deodar_spikes.factors import factors
+from deodar_spikes.graph import INPUT, OUTPUT, AffineNode, NeuronNode, NirGraph
+from deodar_spikes.order import order
 
 Copies: TypeAlias = Mapping[str, Mapping[str, NDArray[np.float32]]]
 """Parameters of nodes that differ between copies: copies x values, by name of the node and the parameter

@@ -14,13 +14,13 @@ from deodar.batch.simulate import simulate
 from deodar.codec import Json
 from deodar.errors import ParameterError
 from deodar.model.model import Model
-from deodar.neuromorphic.drive import NetworkInput, network_input
-from deodar.neuromorphic.norse import norse_version
-from deodar.neuromorphic.outcomes import FieldOutcomes, outcomes
-from deodar.neuromorphic.prepare import Prepared, SpikingOptions, prepare
-from deodar.neuromorphic.running import Rates, SpikingTrials, in_norse, simulated
 from deodar.numerics.axes import Axes
 from deodar.worlds._base import World
+from deodar_spikes.drive import NetworkInput, network_input
+from deodar_spikes.norse import norse_version
+from deodar_spikes.outcomes import FieldOutcomes, outcomes
+from deodar_spikes.prepare import Prepared, SpikingOptions, prepare
+from deodar_spikes.running import Rates, SpikingTrials, in_norse, simulated
 
 WINDOW = 5e-3
 """Length of a window in which spikes are counted, in s, about."""

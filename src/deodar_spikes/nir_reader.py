@@ -18,7 +18,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.errors import DeodarError, GraphError, MissingExtra, first_line, show
-from deodar.neuromorphic.graph import (
+from deodar_spikes.graph import (
     INPUT,
     NEURON_FIELDS,
     OUTPUT,

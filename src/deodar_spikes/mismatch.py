@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from deodar.neuromorphic.graph import AffineNode, NeuronNode, NirGraph, Singles
-from deodar.neuromorphic.simulator import Copies
+from deodar_spikes.graph import AffineNode, NeuronNode, NirGraph, Singles
+from deodar_spikes.simulator import Copies
 
 LEAST = 0.05
 """Smallest factor: a threshold or time constant is never negative."""

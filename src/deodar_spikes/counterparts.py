@@ -16,13 +16,13 @@ from deodar.errors import TimeError
 from deodar.importers.report import Verdict
 from deodar.leaves import per_axis
 from deodar.model.document import Entry
-from deodar.neuromorphic.linear_maps import kernel_matrix
-from deodar.neuromorphic.network import Population, Projection, WeightMatrix
-from deodar.neuromorphic.spike_code import SpikeCode, spike_code
 from deodar.numerics import noise as noises
 from deodar.numerics.axes import Axes, cell, shape
 from deodar.numerics.sigmoids._base import SigmoidFunction
 from deodar.numerics.sigmoids.linear import Linear
+from deodar_spikes.linear_maps import kernel_matrix
+from deodar_spikes.network import Population, Projection, WeightMatrix
+from deodar_spikes.spike_code import SpikeCode, spike_code
 
 INHIBITORY = 2
 """Neurons of an inhibitory unit, as a multiple of those of a cell."""

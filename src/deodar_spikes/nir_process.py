@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 
 from deodar.errors import GraphError
-from deodar.neuromorphic.nir_file import pack
-from deodar.neuromorphic.nir_reader import MOST_BYTES, parse_nir
+from deodar_spikes.nir_file import pack
+from deodar_spikes.nir_reader import MOST_BYTES, parse_nir
 
 
 def main(name: str) -> None:

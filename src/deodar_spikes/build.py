@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from deodar.neuromorphic.graph import (
+from deodar_spikes.graph import (
     INPUT,
     OUTPUT,
     AffineNode,
@@ -23,8 +23,8 @@ from deodar.neuromorphic.graph import (
     OutputRange,
     Singles,
 )
-from deodar.neuromorphic.linear_maps import WeightMatrix, require_size
-from deodar.neuromorphic.network import Population, SpikingNetwork
+from deodar_spikes.linear_maps import WeightMatrix, require_size
+from deodar_spikes.network import Population, SpikingNetwork
 
 POISSON = 1000.0
 """Rate of each train of Poisson spikes, in 1/s."""

@@ -17,8 +17,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from deodar.neuromorphic.spike_code import SpikeCode
 from deodar.numerics.axes import Axes
+from deodar_spikes.spike_code import SpikeCode
 
 WeightMatrix = NDArray[np.float64]
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from deodar.batch.simulate import simulate
 from deodar.errors import TimeError
 from deodar.model.model import Model
-from deodar.neuromorphic.graph import INPUT, NirGraph
-from deodar.neuromorphic.translate import Translated
 from deodar.worlds._base import World
+from deodar_spikes.graph import INPUT, NirGraph
+from deodar_spikes.translate import Translated
 
 InputValues = NDArray[np.float32]
 
