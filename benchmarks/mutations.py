@@ -28,12 +28,12 @@ from typing import Any
 
 import deodar as dd
 from deodar.errors import DeodarError
-from deodar.importers.cosivina.classes import CLASSES
-from deodar.importers.cosivina.classes.missing import MISSING
 from deodar.importers.opening import read, tool_of
 from deodar.model import files
 from deodar.model.document import Document
 from deodar.model.model import Model
+from deodar_interop.importers.cosivina.classes import CLASSES
+from deodar_interop.importers.cosivina.classes.missing import MISSING
 
 ROOT = Path(__file__).parent.parent
 SAMPLES = ROOT / "tests" / "importers" / "cosivina"

@@ -171,7 +171,6 @@ from deodar.figures.snapshot import snapshot as snapshot
 from deodar.figures.snapshots import snapshots as snapshots
 from deodar.figures.space_time import space_time as space_time
 from deodar.figures.time_course import time_course as time_course
-from deodar.importers.cedar.experiment import load_cedar_experiment as load_cedar_experiment
 from deodar.importers.opening import load as load
 from deodar.importers.opening import read as read
 from deodar.importers.presets import apply_preset as apply_preset
@@ -197,11 +196,9 @@ from deodar.numerics.sigmoids.logistic import Logistic as Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear as SemiLinear
 from deodar.numerics.sigmoids.step import Step as Step
 from deodar.numerics.windows import Window as Window
-from deodar.recording.cedar import load_cedar as load_cedar
 from deodar.recording.files import load_record as load_record
 from deodar.recording.files import open_record as open_record
 from deodar.recording.files import save_record as save_record
-from deodar.recording.mat import load_mat as load_mat
 from deodar.recording.probe import Probe as Probe
 from deodar.registry import register as register
 from deodar.session.session import Session as Session
@@ -225,6 +222,9 @@ from deodar.worlds.ros2.ros2 import ROS2 as ROS2
 from deodar.worlds.ros_bag.ros_bag import ROSBag as ROSBag
 from deodar.worlds.video import Video as Video
 from deodar.worlds.zenoh.zenoh import Zenoh as Zenoh
+from deodar_interop.importers.cedar.experiment import load_cedar_experiment as load_cedar_experiment
+from deodar_interop.records.cedar import load_cedar as load_cedar
+from deodar_interop.records.mat import load_mat as load_mat
 from deodar_spikes.comparison import compare_spikes as compare_spikes
 from deodar_spikes.prepare import SpikingOptions as SpikingOptions
 

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compat import cosivina
-from deodar.compat.cosivina import *  # noqa: F403
-from deodar.compat.cosivina import (
+from deodar.errors import DocumentError, ModelError, ParameterError, RunWarning, UnknownName
+from deodar_interop.compat import cosivina
+from deodar_interop.compat.cosivina import *  # noqa: F403
+from deodar_interop.compat.cosivina import (
     BoostStimulus,
     CustomStimulus,
     GaussKernel1D,
@@ -30,8 +31,7 @@ from deodar.compat.cosivina import (
     Transpose,
     options,
 )
-from deodar.compat.cosivina.elements import CLASSES
-from deodar.errors import DocumentError, ModelError, ParameterError, RunWarning, UnknownName
+from deodar_interop.compat.cosivina.elements import CLASSES
 from tests.exporters.cosivina.files import elements
 from tests.importers.cosivina.files import SAMPLES, element, text
 from tests.importers.cosivina.oracle import Sim

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compat.cosivina import (
+from deodar.errors import ModelError, ParameterError, RunWarning
+from deodar.model.kept_presets import kept_presets
+from deodar_interop.compat.cosivina import (
     GaussStimulus1D,
     GlobalControlButton,
     LateralInteractions1D,
@@ -22,8 +24,6 @@ from deodar.compat.cosivina import (
     StandardGUI,
     TimeDisplay,
 )
-from deodar.errors import ModelError, ParameterError, RunWarning
-from deodar.model.kept_presets import kept_presets
 from tests.importers.cosivina.scripts import imported
 
 SCRIPT = """

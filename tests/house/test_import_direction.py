@@ -36,7 +36,6 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "experiments",
         "environments importers architectures",
         "exporters",
-        "compat",
         "figures",
         "papers",
         "server",

@@ -13,7 +13,7 @@ OTHERS = {
     "server.open_folder": "the same steps in a folder that is held open, so that no link leads elsewhere",
     "recording.table": "writes into the temporary file that `output` gives it",
     "recording.netcdf": "the same",
-    "recording.cedar": "files in the temporary folder that `places` gives it",
+    "deodar_interop.records.cedar": "files in the temporary folder that `places` gives it",
     "figures._encode": "writes into the temporary file that `output` gives it",
     "server.token": "a secret of mode 0600, which must not exist before",
     "server.redirect_file": "a secret of mode 0600, in a temporary folder",

@@ -9,10 +9,11 @@ import pytest
 
 import deodar as dd
 from deodar.codec import JsonObject
-from deodar.importers import cedar, stored_report
+from deodar.importers import stored_report
 from deodar.importers.report import ImportReport, Line
 from deodar.model import building, edit, files
 from deodar.model.document import Document
+from deodar_interop.importers import cedar
 
 HERE = Path(__file__).parent
 SAMPLES = (

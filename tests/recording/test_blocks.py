@@ -13,9 +13,10 @@ import xarray
 
 import deodar as dd
 from deodar.errors import OutputExists, RecordError
-from deodar.recording import cedar, files, portable, table
+from deodar.recording import files, portable, table
 from deodar.recording.lazy import LazyArray
 from deodar.recording.slabs import slabs
+from deodar_interop.records import cedar
 from tests.recording.models import record
 
 

@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import RecordError
-from deodar.recording import cedar
+from deodar_interop.records import cedar
 
 
 def test_a_folder_of_cedar_opens_with_times_in_ms_and_the_first_index_fastest(tmp_path):

@@ -10,7 +10,7 @@ import scipy.io
 
 import deodar as dd
 from deodar.errors import OutputExists, RecordError, UnknownName
-from deodar.recording import mat
+from deodar_interop.records import mat
 from tests.recording.models import record
 
 LONG = "a very long name " * 6

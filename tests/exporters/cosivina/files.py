@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import deodar as dd
-from deodar.exporters.cosivina import write
+from deodar_interop.exporters.cosivina import write
 from tests.importers.cosivina.oracle import Sim
 
 

@@ -6,10 +6,10 @@ import pytest
 
 import deodar as dd
 from deodar import registry
-from deodar.exporters.cosivina import write
-from deodar.importers.cosivina import read
 from deodar.model.check import problems
 from deodar.model.resolve import resolve
+from deodar_interop.exporters.cosivina import write
+from deodar_interop.importers.cosivina import read
 
 KINDS = sorted(
     name

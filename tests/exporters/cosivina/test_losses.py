@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, OutputExists, UnknownName
-from deodar.exporters.cosivina import write
+from deodar_interop.exporters.cosivina import write
 from tests.exporters.cosivina.files import elements
 
 X = dd.Axis("x", 0, 20, samples=21)

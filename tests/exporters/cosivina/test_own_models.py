@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.exporters.cosivina import write
-from deodar.importers.cosivina import read
+from deodar_interop.exporters.cosivina import write
+from deodar_interop.importers.cosivina import read
 from tests.exporters.cosivina.files import elements, largest_difference
 from tests.importers.cosivina.oracle import Sim
 

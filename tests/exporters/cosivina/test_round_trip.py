@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from deodar.exporters.cosivina import write
-from deodar.importers.cosivina import read
-from deodar.importers.cosivina.classes import CLASSES
 from deodar.model.document import Document
+from deodar_interop.exporters.cosivina import write
+from deodar_interop.importers.cosivina import read
+from deodar_interop.importers.cosivina.classes import CLASSES
 from tests.exporters.cosivina.files import elements
 from tests.importers.cosivina import test_classes, test_random_models
 from tests.importers.cosivina.files import SAMPLES, element, text

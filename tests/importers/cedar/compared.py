@@ -6,10 +6,10 @@ import numpy as np
 
 import deodar as dd
 from deodar.elements.field import Field
-from deodar.importers.cedar import file, translate
-from deodar.importers.cedar.side_file import SideFile
 from deodar.model import edit
 from deodar.model.paths import display
+from deodar_interop.importers.cedar import file, translate
+from deodar_interop.importers.cedar.side_file import SideFile
 
 
 def silent(doc):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.importers.cedar import translate
+from deodar_interop.importers.cedar import translate
 from tests.importers.cedar import oracle
 from tests.importers.cedar.models import DROP, TYPES, Model, between, every_type, gauss, written
 from tests.importers.cedar.test_oracle import invalid

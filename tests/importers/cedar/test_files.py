@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.importers.cedar.classes import CLASSES
-from deodar.importers.cedar.classes.missing import UNDOCUMENTED, WORLDS
 from deodar.importers.opening import read, tool_of
+from deodar_interop.importers.cedar.classes import CLASSES
+from deodar_interop.importers.cedar.classes.missing import UNDOCUMENTED, WORLDS
 from tests.importers.cedar.models import Many, written
 
 DATA = Path(__file__).parent / "data"

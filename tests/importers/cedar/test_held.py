@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from deodar.importers.cedar import file, translate
-from deodar.importers.cedar.held import held
-from deodar.importers.cedar.links import linked
-from deodar.importers.cedar.trial_values import TrialParameters
 from deodar.model.document import Document
+from deodar_interop.importers.cedar import file, translate
+from deodar_interop.importers.cedar.held import held
+from deodar_interop.importers.cedar.links import linked
+from deodar_interop.importers.cedar.trial_values import TrialParameters
 from tests.importers.cedar.models import Many, Model, gauss
 
 DIRECT = "cedar.aux.DirectParameterLink"

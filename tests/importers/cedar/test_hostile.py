@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from deodar.errors import DocumentError
-from deodar.importers.cedar import file
 from deodar.importers.opening import Imported, read
+from deodar_interop.importers.cedar import file
 from tests.importers import hostile
 from tests.importers.cedar.models import every_type
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.importers.cedar import translate
+from deodar_interop.importers.cedar import translate
 from tests.importers.cedar import models, oracle
 from tests.importers.cedar.compared import run
 

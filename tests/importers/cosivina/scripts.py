@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from deodar.importers._beside import in_folder
-from deodar.importers.cosivina import read
-from deodar.importers.cosivina.launchers.launcher import plain, simulator_file
-from deodar.importers.cosivina.launchers.objects import BuiltSimulator
-from deodar.importers.cosivina.launchers.running import ScriptReader
 from deodar.importers.imported import Imported
+from deodar_interop.importers.cosivina import read
+from deodar_interop.importers.cosivina.launchers.launcher import plain, simulator_file
+from deodar_interop.importers.cosivina.launchers.objects import BuiltSimulator
+from deodar_interop.importers.cosivina.launchers.running import ScriptReader
 
 PAIR = """% two nodes that watch a line
 n = 60;

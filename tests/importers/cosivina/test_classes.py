@@ -9,10 +9,10 @@ import pytest
 
 import deodar as dd
 from deodar.elements.placeholder import Placeholder
-from deodar.importers.cosivina.classes import CLASSES
-from deodar.importers.cosivina.classes.missing import MISSING
 from deodar.importers.opening import read
 from deodar.model.check import problems
+from deodar_interop.importers.cosivina.classes import CLASSES
+from deodar_interop.importers.cosivina.classes.missing import MISSING
 from tests.importers.cosivina.files import element, written
 from tests.importers.cosivina.oracle import Sim
 

@@ -9,9 +9,9 @@ import pytest
 
 import deodar as dd
 from deodar.elements.placeholder import Placeholder
-from deodar.importers.cosivina.components import COMPONENTS, components
 from deodar.importers.opening import read
 from deodar.model import find
+from deodar_interop.importers.cosivina.components import COMPONENTS, components
 from tests.importers.cosivina.files import element, written
 from tests.importers.cosivina.oracle import Sim
 

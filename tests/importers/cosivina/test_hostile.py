@@ -10,9 +10,9 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
-from deodar.importers.cosivina import file
 from deodar.importers.opening import Imported, read, tools
 from deodar.model.check import problems
+from deodar_interop.importers.cosivina import file
 from tests.importers import hostile
 from tests.importers.cosivina.files import SAMPLES, element, text, written
 

@@ -11,11 +11,11 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
-from deodar.importers import cosivina
-from deodar.importers.cosivina import read
-from deodar.importers.cosivina.launchers import evaluate
-from deodar.importers.cosivina.launchers.launcher import is_launcher
 from deodar.model.kept_presets import kept_presets
+from deodar_interop.importers import cosivina
+from deodar_interop.importers.cosivina import read
+from deodar_interop.importers.cosivina.launchers import evaluate
+from deodar_interop.importers.cosivina.launchers.launcher import is_launcher
 from tests.importers import hostile
 from tests.importers.cosivina.scripts import PAIR, built, imported, launcher, parameters
 

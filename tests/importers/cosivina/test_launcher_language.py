@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from deodar.importers.cosivina.launchers.launcher import plain
+from deodar_interop.importers.cosivina.launchers.launcher import plain
 from tests.importers.cosivina.scripts import built, values
 
 

@@ -8,9 +8,9 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError
 from deodar.importers import opening
-from deodar.importers.cosivina import read as read_file
-from deodar.importers.cosivina.launchers.launcher import is_launcher
 from deodar.model.kept_presets import kept_preset, kept_presets, take_preset
+from deodar_interop.importers.cosivina import read as read_file
+from deodar_interop.importers.cosivina.launchers.launcher import is_launcher
 from tests.importers.cosivina.scripts import PAIR, built, imported, launcher, parameters, pins, told
 
 SLIDER = "ParameterSlider('h', 'line', 'h', [-10, 0], '%0.1f', 1, 'resting level')"

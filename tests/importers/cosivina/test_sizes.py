@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from deodar.importers.cosivina import file
-from deodar.importers.cosivina.sizes import output_size
+from deodar_interop.importers.cosivina import file
+from deodar_interop.importers.cosivina.sizes import output_size
 from tests.importers.cosivina.files import element, text
 
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.importers.dnf_composer.classes import CLASSES
 from deodar.importers.opening import read
 from deodar.model.check import problems
+from deodar_interop.importers.dnf_composer.classes import CLASSES
 from tests.importers.dnf_composer.files import BELL, FIELD, KERNEL, element, plane, written
 from tests.importers.dnf_composer.oracle import Simulation
 
@@ -265,7 +265,7 @@ def test_weights_are_read_from_the_file_beside(scalar, tmp_path):
 
 
 def test_a_plane_too_large_for_one_matrix_is_resampled_along_each_axis(tmp_path, monkeypatch):
-    from deodar.importers.dnf_composer.classes import shapes
+    from deodar_interop.importers.dnf_composer.classes import shapes
 
     monkeypatch.setattr(shapes, "DENSE", 10)
     for method in range(3):

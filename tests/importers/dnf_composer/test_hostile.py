@@ -13,10 +13,10 @@ import pytest
 import deodar as dd
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DocumentError
-from deodar.importers.dnf_composer import element as elements
-from deodar.importers.dnf_composer import file
 from deodar.importers.opening import Imported, read, tools
 from deodar.model.check import problems
+from deodar_interop.importers.dnf_composer import element as elements
+from deodar_interop.importers.dnf_composer import file
 from tests.importers import hostile
 from tests.importers.dnf_composer.files import BELL, FIELD, HERE, KERNEL, SAMPLES, element, text, written
 

@@ -1,0 +1,1 @@
+"""Conversion of models and records to files of other tools."""

@@ -1,0 +1,113 @@
+"""Sums, products, factors and functions of each sample, and the register."""
+
+from __future__ import annotations
+
+from deodar.couplings.delay import Delay
+from deodar.couplings.diagonal_sum import DiagonalSum
+from deodar.couplings.gain import Gain
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.couplings.sigmoid import Sigmoid
+from deodar.couplings.sum import Sum
+from deodar.elements.boost import Boost
+from deodar.elements.pattern import Pattern
+from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids.semilinear import SemiLinear
+from deodar.numerics.sigmoids.step import Step
+from deodar_interop.exporters.cosivina.classes.kernels import shift_input
+from deodar_interop.exporters.cosivina.classes.shapes import diagonal_sum, sum_dimension
+from deodar_interop.exporters.cosivina.classes.sigmoids import logistic
+from deodar_interop.exporters.cosivina.classes.stimuli import periods, timed_boosts
+from deodar_interop.exporters.cosivina.draft import Given, Unwritable
+
+
+def gain(b: Given) -> None:
+    """Write ScaleInput; with the sum before it, SumDimension or DiagonalSum."""
+    element = b.element
+    assert isinstance(element, Gain)
+    factor = element.factor
+    for before in b.draft.followers(b.id, "sum"):
+        wires = b.draft.wires.into.get((b.id, "input"), [])
+        if [c.source for c in wires] == [before.id] and b.draft.readers(before.id) == 1:
+            if isinstance(before.element, Project) and before.element.reduce == "sum":
+                return sum_dimension(b, before, factor)
+            if isinstance(before.element, DiagonalSum):
+                return diagonal_sum(b, before, factor)
+    part = b.sized("ScaleInput", {"amplitude": factor})
+    b.take(part)
+    b.show(part)
+
+
+def total(b: Given) -> None:
+    """Write SumInputs; a sum of timed boosts, or of a shifted input and its border, is one element."""
+    sources = [c.source for c in b.draft.wires.into.get((b.id, "input"), [])]
+    boosts = [e for e in b.draft.followers(b.id, "period") if isinstance(e.element, Boost)]
+    if sources and sources == [e.id for e in boosts]:
+        return timed_boosts(b, boosts)
+    moved, border = b.draft.followers(b.id, "moved"), b.draft.followers(b.id, "border")
+    if (
+        len(moved) == len(border) == 1
+        and sources == [moved[0].id, border[0].id]
+        and isinstance(border[0].element, Pattern)
+    ):
+        return shift_input(b, moved[0], border[0])
+    part = b.sized("SumInputs", {}, sums=True)
+    b.take(part)
+    b.show(part)
+
+
+def product(b: Given) -> None:
+    """Write PointwiseProduct; with a gate that opens at times, TimedSwitch."""
+    wires = b.draft.wires.into.get((b.id, "factor"), [])
+    for gate in b.draft.followers(b.id, "on"):
+        element = gate.element
+        if (
+            isinstance(element, Boost)
+            and element.amplitude == 1
+            and element.windows
+            and [c.source for c in wires] == [gate.id]
+            and b.draft.readers(gate.id) == 1
+        ):
+            b.claim([gate])
+            part = b.sized("TimedSwitch", {"onTimes": periods(b, element.windows)})
+            b.take(part)
+            b.show(part)
+            return
+    part = b.sized("PointwiseProduct", {})
+    ports = [c.target_port for c in b.draft.doc.connections if c.target == b.id]
+    swapped = bool(ports) and ports[0] == "factor"  # the connections state the order of the inputs
+    b.take(part, "input", int(swapped))
+    b.take(part, "factor", int(not swapped))
+    b.show(part)
+
+
+def sigmoid(b: Given) -> None:
+    """Write Sigmoid or HalfWaveRectification."""
+    element = b.element
+    assert isinstance(element, Sigmoid)
+    found = element.sigmoid
+    if found == SemiLinear(1.0, 0.0):
+        part = b.sized("HalfWaveRectification", {})
+    elif isinstance(found, (Logistic, Absolute, Step)):
+        beta, threshold = logistic(b, found)
+        part = b.sized("Sigmoid", {"beta": beta, "threshold": threshold})
+    else:
+        raise Unwritable(f"cosivina has no {type(found).__name__} of an input; it has the Logistic")
+    b.take(part)
+    b.show(part)
+
+
+def delay(b: Given) -> None:
+    """Write a register: an element that passes its input on is read a step later by those before it."""
+    element = b.element
+    assert isinstance(element, Delay)
+    part = b.sized("SumInputs", {}, sums=True)
+    if element.initial:
+        b.say("initial", "dropped", "cosivina begins with 0")
+        b.approximate(f"it begins with 0, not with {element.initial:g}")
+    b.take(part)
+    b.show(part)
+
+
+KINDS = {Gain: gain, Sum: total, Product: product, Sigmoid: sigmoid, Delay: delay}

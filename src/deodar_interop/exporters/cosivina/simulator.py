@@ -1,0 +1,204 @@
+"""Write a document as a file of cosivina: its elements, their inputs and order, and a report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+
+from deodar import codec
+from deodar.couplings.convolve import Convolve
+from deodar.elements.noise import Noise
+from deodar.errors import ModelError
+from deodar.exporters.exported import Exported
+from deodar.importers.report import ImportReport, Line
+from deodar.model.document import Connection, Document
+from deodar.model.model import Model
+from deodar.model.paths import display
+from deodar.model.resolve import resolve
+from deodar_interop.exporters.cosivina.classes import KINDS
+from deodar_interop.exporters.cosivina.conversion import NoConversion, conversion
+from deodar_interop.exporters.cosivina.draft import Draft, Given, Unwritable
+from deodar_interop.exporters.cosivina.layout import size
+from deodar_interop.exporters.cosivina.order import ordered
+from deodar_interop.exporters.cosivina.part import FilePart, PartInput, PartLink, PartOutput
+from deodar_interop.exporters.cosivina.tracing import Traced
+
+WORDS = {math.inf: "_Inf_", -math.inf: "-_Inf_"}
+"""Infinite numbers as JSONLab writes them."""
+
+
+def write(model: Model, name: str) -> Exported:
+    """Return the file of a model, and the report.
+
+    Args:
+        model: the model.
+        name: name of the file, for the report.
+
+    Raises:
+        ModelError: the model has problems; the error lists all.
+    """
+    doc = model.document
+    nodes, problems = resolve(doc)
+    if problems:
+        raise ModelError(problems)
+    draft = Draft(doc, {n.id: n for n in nodes})
+    for entry in doc.entries:
+        if entry.id in draft.claimed:
+            continue
+        b = Given(draft, entry)
+        writer = KINDS.get(type(entry.element))
+        if writer is None:
+            b.drop(f"cosivina has no {type(entry.element).__name__}")
+            continue
+        try:
+            writer(b)
+        except Unwritable as error:
+            b.drop(str(error))
+        else:
+            b.finish()
+    for c in doc.connections:
+        _connect(draft, c)
+    for part in list(draft.parts):
+        _add_up(draft, part)
+    draft.lines += _surroundings(doc)
+    parts = ordered(draft.parts, draft.names)
+    return Exported(_text(doc, parts), ImportReport("cosivina", name, draft.lines))
+
+
+def _surroundings(doc: Document) -> list[Line]:
+    """Report what a file of cosivina does not have: groups, shared parameters, templates, units."""
+    lines = [Line("", "file", "deltaT", "carried"), Line("", "file", "tZero", "carried")]
+    if doc.time_unit not in ("ms", "abstract"):
+        lines.append(Line("", "file", "time_unit", "dropped", f"times of the file are in {doc.time_unit}"))
+    lines += [
+        Line(display(g), "group", g[-1], "dropped", "the labels of its elements begin with its name")
+        for g in doc.groups
+    ]
+    lines += [
+        Line(p.name, "parameter", p.name, "dropped", "the elements have its value, and share it no more")
+        for p in doc.parameters
+    ]
+    return lines
+
+
+def _connect(draft: Draft, c: Connection) -> None:
+    """Add the inputs of a connection to the parts that take them, and report it."""
+    if c.target in draft.claimed and (c.target, c.target_port) not in draft.inlets:
+        return  # the parts of another element contain it
+    target = draft.doc.by_id()[c.target].path
+    if draft.claimed.get(c.source) and (c.source, c.source_port) not in draft.outlets:
+        return
+    found = draft.wires.trace(c)
+    if found is None:
+        return  # a zero where a file has no input
+    source = draft.doc.by_id()[found.source].path
+    what = source if found.port == "output" else f"{source}.{found.port}"
+    outlet = draft.outlets.get((found.source, found.port))
+    inlets = draft.inlets.get((c.target, c.target_port), [])
+    if outlet is None or not inlets:
+        why = f"{what if outlet is None else f'the input {c.target_port}'} is not in the file"
+        draft.lines.append(Line(target, "connection", what, "dropped", why))
+        return
+    try:
+        for inlet in inlets:
+            _link(draft, outlet, inlet, found)
+    except NoConversion as error:
+        draft.lines.append(Line(target, "connection", what, "dropped", str(error)))
+        return
+    draft.lines.append(Line(target, "connection", what, "carried"))
+
+
+def _link(draft: Draft, outlet: PartOutput, inlet: PartInput, found: Traced) -> None:
+    """Connect an outlet to an inlet, through the elements that its dimensions need."""
+    part, component, dims, after = outlet.part, outlet.component, outlet.dims, _after(draft, outlet, found)
+    steps = [] if found.fits else conversion(dims, inlet.dims)
+    for kind, values, there in steps:
+        label = draft.names.new(f"{part.label} to {inlet.part.label}")
+        place = (inlet.part.place[0], inlet.part.place[1] - 1)
+        between = FilePart(label, kind, values, place, [PartLink(part, component, 0, after, dims)])
+        draft.parts.append(between)
+        part, component, dims, after = between, "output", there, False
+    inlet.part.links += [PartLink(part, component, inlet.slot, after, dims)] * found.count
+
+
+def _after(draft: Draft, outlet: PartOutput, found: Traced) -> bool | None:
+    """Return whether a source is listed after its reader; None if the order has no effect."""
+    if outlet.free or _noisy(draft, found.source):
+        return None
+    if found.delayed or found.reads == "delayed":
+        return True
+    return outlet.state and found.reads != "current"
+
+
+def _noisy(draft: Draft, ident: str) -> bool:
+    """Return whether an output is noise alone, of which one sample is as good as another."""
+    element = draft.doc.by_id()[ident].element
+    if isinstance(element, Noise):
+        return True
+    sources = draft.wires.into.get((ident, "input"), [])
+    return isinstance(element, Convolve) and bool(sources) and all(_noisy(draft, c.source) for c in sources)
+
+
+def _add_up(draft: Draft, part: FilePart) -> None:
+    """Put a sum before an input that takes one array, where several are connected."""
+    if part.sums:
+        return
+    for slot in {link.slot for link in part.links}:
+        several = [link for link in part.links if link.slot == slot]
+        if len(several) < 2:
+            continue
+        dims = max((link.dims for link in several), key=lambda d: math.prod(size(d)))
+        total = FilePart(
+            draft.names.new(f"inputs of {part.label}"),
+            "SumInputs",
+            {"size": size(dims)},
+            (part.place[0], part.place[1] - 1),
+            several,
+            sums=True,
+        )
+        draft.parts.append(total)
+        rest = [link for link in part.links if link.slot != slot]
+        part.links = [*rest, PartLink(total, "output", slot, False, dims)]
+
+
+def _text(doc: Document, parts: Sequence[FilePart]) -> bytes:
+    elements = [_entry(p) for p in parts]
+    body = {
+        "deltaT": _plain(doc.step),
+        "tZero": _plain(doc.t0),
+        "nElements": len(parts),
+        "elementLabels": [p.label for p in parts],
+        "elements": elements,
+    }
+    return codec.text({"simulator": body}).encode() + b"\n"
+
+
+def _entry(part: FilePart) -> dict[str, Any]:
+    links = sorted(part.links, key=lambda link: link.slot)
+    inputs = [{"label": link.part.label, "component": link.component} for link in links]
+    return {
+        "label": part.label,
+        "class": part.kind,
+        "param": {name: _plain(v) for name, v in part.values.items()},
+        "nInputs": len(inputs),
+        "input": inputs[0] if len(inputs) == 1 else inputs or None,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as cosivina's files have it: switches as 0 and 1, whole numbers without a point."""
+    if isinstance(value, (bool, np.bool_)):
+        return int(value)
+    if isinstance(value, (float, np.floating)):
+        number = float(value)
+        if number in WORDS:
+            return WORDS[number]
+        return int(number) if number.is_integer() and abs(number) < 1e15 else number
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in cast("list[Any]", value)]
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in cast("dict[str, Any]", value).items()}
+    return value

@@ -1,0 +1,217 @@
+"""HebbianConnection: weights that are learned, and read after they have changed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from deodar.couplings.adaptive_weights import AdaptiveWeights
+from deodar.couplings.reward_gate import RewardGate
+from deodar.elements.boost import Boost
+from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.sigmoids.linear import Linear
+from deodar.numerics.sigmoids.step import Step
+from deodar_interop.importers._piece import Unfit
+from deodar_interop.importers.cedar.composition import Composition, StepSignal
+from deodar_interop.importers.cedar.grid import Counts
+from deodar_interop.importers.cedar.piece import SourceStep, StepPiece
+from deodar_interop.importers.cedar.sigmoids import sigmoid
+from deodar_interop.importers.cedar.transfer import transferred
+
+MOST_WEIGHTS = 4_000_000
+
+LEARNS = 2
+"""Largest number of dimensions of source and target together with which cedar learns by Oja's rule."""
+
+BCM = (
+    "the size of the weights of its BCM rule, what they are read by, and the threshold at the start are not"
+    " documented"
+)
+
+
+def hebbian(b: SourceStep) -> StepPiece:
+    """Translate HebbianConnection with Oja's rule; w are the weights, F a factor of the time scales.
+
+    Source of one number: dw = F rate f(source) g(reward) (h(target) - w), output w f(source). Target of one
+    number: source and target exchanged, output sum w f(source). Two lines: dw = F rate (f(source) h(target) -
+    w) while rewarded, output sum w source. The weights are read after they have changed.
+    """
+    if b.values.word("learning rule", "Oja's Rule", ("Oja's Rule", "BCM Rule")) != "Oja's Rule":
+        raise Unfit(BCM)
+    source, target = _size(b, "source", 1), _size(b, "target", 2)
+    if math.prod((*source, *target)) > MOST_WEIGHTS:
+        raise Unfit(f"it has more than {MOST_WEIGHTS} weights")
+    if source and target and len((*source, *target)) > LEARNS:
+        raise Unfit(f"what it gives for {len(source)} by {len(target)} dimensions is not documented")
+    return _Connection(b, source, target).piece()
+
+
+def _size(b: SourceStep, what: str, dimensions: int) -> Counts:
+    count = b.values.whole(f"{what} dimension", dimensions, 0, 3)
+    return tuple(int(n) for n in b.values.numbers(f"{what} sizes", 50, count, 1, 1e6))
+
+
+class _Connection:
+    """The translation of one step: `AdaptiveWeights` over the axes of the source, then those of the target.
+
+    Its input is the activity of the side of one number, or 1 between lines, and its `post` is what the
+    weights relax towards.
+    """
+
+    def __init__(self, b: SourceStep, source: Counts, target: Counts) -> None:
+        self.b, self.c = b, Composition(b)
+        self.source, self.target = source, target
+        self.axes = b.axes((*source, *target))
+        self.doubts: list[str] = []
+
+    def piece(self) -> StepPiece:
+        """Return the translation."""
+        source = self.slot("source node", self.source)
+        f = self.activity("f", "source", source, Step(0.5))
+        h = self.activity("h", "target", self.slot("target field", self.target), Linear(1.0))
+        g = self.gate(self.activity("g", "reward", self.slot("reward signal", ()), Step(0.5)))
+        lines = bool(self.source and self.target)
+        if lines:
+            f, h = self.along(f, "f over all", 0), self.along(h, "h over all", 1)
+            side, goal = self.c.constant("one", 1.0), self.c.product("f times h", f, h)
+        elif self.source:
+            side, goal = h, f
+        else:
+            side, goal = f, h
+        rate, rise, fall = self.speeds()
+        initial, start = self.start()
+        weights = AdaptiveWeights(self.axes, rate, initial, gated=True, start=start, name=self.b.label)
+        old = StepSignal(self.b.label, "weights")
+        if rise != fall:
+            goal = self.slowed(goal, h, old, rise, fall)
+        self.c.add(weights, input=side, post=goal, gate=g)
+        new = StepSignal(self.b.label, "weights", "current")
+        seen = self.along(source, "source over all", 0) if lines else f
+        read = self.c.product("weighted", *((seen, new) if self.source else (new, seen)))
+        if self.source:
+            places = [None] * len(self.source) + list(self.b.axes(self.target))
+            read = self.c.projected("output", read, self.axes, self.b.axes(self.target), places)
+        self.c.outlet("learned output", read, self.target)
+        doubt = "what cedar gives here is not documented; the learned output is used"
+        self.c.outlet("weighted input", read, self.target, doubt=doubt)
+        why = "; ".join(("AdaptiveWeights, read after they have changed", *self.doubts))
+        return self.c.done(why, "approximated" if self.doubts else "carried")
+
+    def slot(self, name: str, dims: Counts) -> StepSignal:
+        """Return an input slot; 0 if nothing is connected to it."""
+        if name in self.b.ins:
+            return self.c.slot(name, dims, optional=True)
+        return self.c.add(Boost(self.b.named(f"no {name}"), self.b.axes(dims), 0.0))
+
+    def activity(self, letter: str, what: str, given: StepSignal, default: SigmoidFunction) -> StepSignal:
+        """Add a function of a side or of the reward."""
+        name = f"{letter} ({what} sigmoid)"
+        if letter == "g" and not isinstance(sigmoid(self.b.values, name, default), Step):
+            if self.source and self.target:
+                self.doubts.append("how a reward between 0 and 1 acts on two lines is not documented")
+            elif self.b.values.flag("fixed reward duration", False):
+                self.doubts.append("what begins the reward duration is documented for the Heaviside only")
+        return transferred(self.c, f"{letter} of {what}", name, default, given)
+
+    def along(self, signal: StepSignal, what: str, d: int) -> StepSignal:
+        """Add the value of one side at all weights."""
+        axis = self.b.axes((self.source, self.target)[d])
+        return self.c.projected(what, signal, axis, self.axes, [self.axes[d]])
+
+    def gate(self, reward: StepSignal) -> StepSignal:
+        """Return what opens the gate; with a fixed duration the reward's beginning counts as a step of it."""
+        duration = self.b.values.time("reward duration", 200.0)
+        if not self.b.values.flag("fixed reward duration", False):
+            if "reward duration" in self.b.values.body:
+                self.b.values.say("reward duration", "carried", "without effect")
+            return reward
+        steps = math.ceil(duration / self.b.dt - 1e-9) - 1
+        if steps < 1:
+            return self.c.constant("no reward window", 0.0)
+        return self.c.add(
+            RewardGate(0.5, steps * self.b.dt, name=self.b.named("reward window")), input=reward
+        )
+
+    def speeds(self) -> tuple[float, float, float]:
+        """Return the rate of the weights, and the shares of it where the target is 1 and where it is 0."""
+        values, dt = self.b.values, self.b.dt
+        rate = values.number("learning rate", 0.01, 0.0)
+        tau, decay = values.time("time scale", 0.0), values.time("time scale decay", 0.0)
+        missing = [s for s in ("source node", "target field", "reward signal") if s not in self.b.ins]
+        if missing:
+            if "source node" in missing:
+                self.doubts.append("what cedar gives without a source is not documented; it is 0 here")
+            values.say("learning rate", "carried", f"0: cedar learns nothing without {missing[0]!r}")
+            return 0.0, 1.0, 1.0
+        if len(self.axes) > LEARNS:
+            values.say("learning rate", "carried", f"0: cedar learns up to {LEARNS} dimensions")
+            return 0.0, 1.0, 1.0
+        if not self.source and not self.target:
+            self.doubts.append("which side gates learning between two numbers is not documented")
+        if not tau:
+            values.say(
+                "learning rate", "carried", f"divided by the step of {dt:g} ms, since cedar's is per step"
+            )
+            if decay:
+                values.say(
+                    "time scale decay", "carried", "without effect, since there is no other time scale"
+                )
+            return self.limited(rate / dt), 1.0, 1.0
+        if not decay:
+            return self.limited(rate / tau), 1.0, 1.0
+        if self.source and not self.target:
+            self.doubts.append("which side the two time scales follow is documented for the target only")
+        fastest = min(tau, decay)
+        return self.limited(rate / fastest), fastest / tau, fastest / decay
+
+    def limited(self, rate: float) -> float:
+        """Return a rate that is stable, with a report line."""
+        most = 1 / self.b.dt
+        if rate > most:
+            self.b.values.say(
+                "learning rate", "approximated", "weights change by all of the difference at most"
+            )
+        return min(rate, most)
+
+    def slowed(
+        self, goal: StepSignal, h: StepSignal, old: StepSignal, rise: float, fall: float
+    ) -> StepSignal:
+        """Return a goal towards which the weights change as they do with two time scales: w + share (goal -
+        w), share = rise h + fall (1 - h).
+        """
+        c = self.c
+        share = c.total("share", c.gain("share of h", rise - fall, h), c.constant("share of the rest", fall))
+        away = c.total("to go", goal, c.gain("minus weights", -1.0, old))
+        return c.total("slowed goal", old, c.product("part of the way", away, share))
+
+    def start(self) -> tuple[float, np.ndarray | None]:
+        """Return all weights at the start, or each of them, source samples first."""
+        values, shape = self.b.values, (*self.source, *self.target)
+        kept = self.b.stored("weights", shape)
+        if kept is not None:
+            for name in values.body:
+                if name.startswith(("weight ", "manual ")):
+                    values.say(name, "carried", "without effect beside weights that are stored")
+            return 0.0, kept
+        if values.flag("manual weights", False):
+            for name in ("weight init value", "weight init noise"):
+                if name in values.body:
+                    values.say(name, "carried", "without effect beside weights that are given")
+            count = len(shape)
+            centers = values.numbers("weight centers", 3.0, count)
+            sigmas = values.numbers("weight sigmas", 3.0, count, 1e-6)
+            out = np.full(shape, values.number("weight amplitude", 6.0))
+            for d, (n, c, s) in enumerate(zip(shape, centers, sigmas, strict=True)):
+                away = abs(np.arange(n) - c)
+                part = np.exp(-0.5 * (np.minimum(away, n - away) / s) ** 2)
+                out = out * part.reshape([-1 if k == d else 1 for k in range(count)])
+            return (0.0, out) if shape else (float(out), None)
+        level, noise = values.number("weight init value", 0.0), values.number("weight init noise", 0.001)
+        if noise != level and noise:
+            why = "weights begin at the initial value, without noise"
+            values.say("weight init noise", "approximated", why)
+        return level, None
+
+
+CLASSES = {"cedar.dynamics.HebbianConnection": hebbian}

@@ -1,0 +1,71 @@
+"""Experiments of cedar: sequences of actions, each with a condition, as an `Experiment` of a model."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from pathlib import Path
+
+from deodar import codec
+from deodar.errors import DocumentError
+from deodar.experiments.experiment import Experiment
+from deodar.importers._beside import in_folder
+from deodar.importers.opening import require
+from deodar.importers.report import ImportReport
+from deodar.model.files import MOST_BYTES
+from deodar.model.model import Model
+from deodar_interop.importers.cedar import translate
+from deodar_interop.importers.cedar.experiment_reading import ExperimentReading
+from deodar_interop.importers.cedar.file import members, text
+
+
+@dc.dataclass(frozen=True)
+class ImportedExperiment:
+    """An experiment made from a file of cedar, and the report of the conversion."""
+
+    experiment: Experiment
+    report: ImportReport
+
+
+def load_cedar_experiment(path: str | Path, architecture: str | Path) -> ImportedExperiment:
+    """Read an experiment of cedar for an architecture of cedar.
+
+    What changes a parameter at the start of trials becomes its value, or a factor with a level for each
+    trial. Later actions are carried out at their time, or when their event occurs; those of one trial in this
+    trial only. `EndTrial` ends the trial, and stored data become a snapshot. What cannot be carried over is
+    in the report.
+
+    Args:
+        path: the file of the experiment.
+        architecture: the file of the architecture.
+
+    Raises:
+        DocumentError: one of the files cannot be read, or the first is no experiment of cedar.
+    """
+    path, place = require(path), require(architecture)
+    body = members(codec.foreign(_content(path)))
+    if "ActionSequences" not in body:
+        raise DocumentError(
+            "is no experiment of cedar", where=str(path), fix='It is an object with "ActionSequences"'
+        )
+    parts, imported = translate.translated(_content(place), place.name, in_folder(place.parent))
+    reading = ExperimentReading(imported.model.document, parts, body)
+    experiment = Experiment(
+        text(body.get("name")) or path.stem,
+        Model(document=reading.doc),
+        limit=reading.limit,
+        trials=1 if reading.factors else reading.repetitions,
+        conditions=tuple(reading.events.values()),
+        actions=tuple(reading.actions),
+        factors=tuple(reading.factors),
+    )
+    return ImportedExperiment(experiment, ImportReport("cedar", path.name, reading.lines))
+
+
+def _content(path: Path) -> bytes:
+    """Return the content of a file of moderate size."""
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise DocumentError(f"is larger than {MOST_BYTES // 2**20} MiB", where=str(path))
+        return path.read_bytes()
+    except OSError as error:
+        raise DocumentError(f"cannot be read: {error.strerror}", where=str(path)) from None

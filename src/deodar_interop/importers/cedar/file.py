@@ -1,0 +1,300 @@
+"""The file of a cedar architecture as plain data: groups of steps with their connections and triggers.
+
+cedar's writer stores every scalar as text and lists as objects whose keys repeat, so that objects are read
+as pairs here.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Iterator, Mapping
+from typing import Any, cast
+
+from deodar import codec
+from deodar.codec import Ambiguous
+from deodar.errors import DocumentError
+from deodar.importers._beside import Beside, nothing
+from deodar.importers.report import Line
+from deodar.parameters import show
+from deodar_interop.importers.cedar.aliases import KINDS, renamed
+
+MOST_STEPS = 4000
+"""Largest number of steps; more are refused (a guess: many times the largest published)."""
+
+MOST_WIRES = 20_000
+"""Largest number of connections, by the same rule."""
+
+DEEPEST = 16
+"""Deepest nesting of groups (a guess, several times that of the deepest known file)."""
+
+TEMPLATES = ("fieldTemplates.json", "elementaryBehavior.json")
+"""Files of cedar's own templates of groups."""
+
+TRIGGER = "cedar.processing.LoopedTrigger"
+
+StepPath = tuple[str, ...]
+"""Names of the groups that contain an element, then its own name."""
+
+
+@dc.dataclass(frozen=True)
+class CedarStep:
+    """One step: its path, the id of its type, and its parameters unconverted."""
+
+    path: StepPath
+    kind: str
+    values: Mapping[str, Any]
+
+    @property
+    def label(self) -> str:
+        """The path as cedar writes it."""
+        return ".".join(self.path)
+
+    @property
+    def short(self) -> str:
+        """The last part of the id of the type."""
+        return self.kind.rpartition(".")[2]
+
+
+@dc.dataclass(frozen=True)
+class CedarWire:
+    """A connection inside a group: element and slot of the source, element and slot of the target."""
+
+    source: str
+    source_slot: str
+    target: str
+    target_slot: str
+
+    def __str__(self) -> str:
+        return f"{self.source}.{self.source_slot}"
+
+
+@dc.dataclass(frozen=True)
+class LoopedTrigger:
+    """A looped trigger: its name, the elements it calls in order, and its parameters."""
+
+    name: str
+    listeners: tuple[str, ...]
+    values: Mapping[str, Any]
+
+
+@dc.dataclass
+class CedarGroup:
+    """A group of the file; the root has the path ().
+
+    Attributes:
+        path: names of the groups down to this one.
+        steps: steps by name, in the order of the file.
+        groups: groups by name, in the order of the file.
+        wires: connections among them.
+        connectors: names of the connectors, and whether each is an input.
+        triggers: looped triggers.
+        links: entries of `parameter links`.
+        values: all keys of the group, for its own parameters.
+    """
+
+    path: StepPath
+    steps: dict[str, CedarStep] = dc.field(default_factory=dict[str, CedarStep])
+    groups: dict[str, CedarGroup] = dc.field(default_factory=dict[str, "CedarGroup"])
+    wires: list[CedarWire] = dc.field(default_factory=list[CedarWire])
+    connectors: dict[str, bool] = dc.field(default_factory=dict[str, bool])
+    triggers: list[LoopedTrigger] = dc.field(default_factory=list[LoopedTrigger])
+    links: list[Mapping[str, Any]] = dc.field(default_factory=list[Mapping[str, Any]])
+    values: Mapping[str, Any] = dc.field(default_factory=dict[str, Any])
+
+    def all_groups(self) -> Iterator[CedarGroup]:
+        """Yield this group and all groups inside it."""
+        yield self
+        for group in self.groups.values():
+            yield from group.all_groups()
+
+    def all_steps(self) -> Iterator[CedarStep]:
+        """Yield the steps of this group and of all groups inside it."""
+        for group in self.all_groups():
+            yield from group.steps.values()
+
+
+@dc.dataclass(frozen=True)
+class CedarFile:
+    """The content of a file: the root group, and the report lines of reading."""
+
+    root: CedarGroup
+    lines: tuple[Line, ...]
+
+
+def parse(content: bytes, beside: Beside = nothing) -> CedarFile:
+    """Parse the content of a file of an architecture; `beside` reads files whose groups it links.
+
+    Raises:
+        DocumentError: the content is not JSON, is nested too deeply, or does not describe an architecture.
+    """
+    data = codec.foreign(content)
+    body = members(data)
+    if not {"steps", "groups", "networks", "triggers"} & set(body):
+        raise DocumentError(
+            "holds no architecture of cedar", fix='It is an object {"steps": {...}, "connections": [...]}'
+        )
+    reader = _FileReader(beside)
+    root = reader.group((), body, 0)
+    plugins = body.get("required", members(body.get("meta")).get("required plugins"))
+    for plugin in items(plugins):
+        reader.lines.append(Line("", "file", text(plugin), "dropped", "it is a plugin of cedar"))
+    return CedarFile(root, tuple(reader.lines))
+
+
+def pairs(value: Any) -> list[tuple[str, Any]]:
+    """Return the keys and values of an object, repeated keys included; of anything else nothing."""
+    if isinstance(value, Ambiguous):
+        return value.pairs
+    return list(cast("dict[str, Any]", value).items()) if isinstance(value, dict) else []
+
+
+def members(value: Any) -> dict[str, Any]:
+    """Return an object, with the first value of a repeated key, as cedar reads it; else an empty one."""
+    found: dict[str, Any] = {}
+    for key, inside in pairs(value):
+        found.setdefault(key, inside)
+    return found
+
+
+def items(value: Any) -> list[Any]:
+    """Return the entries of a list; the empty list is written as empty text."""
+    return cast("list[Any]", value) if isinstance(value, list) else []
+
+
+def text(value: Any) -> str:
+    """Return a name as valid text: unpaired surrogates and control characters are replaced."""
+    if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+        return ""
+    found = str(value)[:500].encode("utf-8", "replace").decode()
+    return "".join(c if c.isprintable() else " " for c in found).strip()
+
+
+class _FileReader:
+    def __init__(self, beside: Beside) -> None:
+        self.beside = beside
+        self.lines: list[Line] = []
+        self.numbers: dict[tuple[StepPath, str], int] = {}
+        self.steps = 0
+        self.wires = 0
+
+    def group(self, path: StepPath, body: Mapping[str, Any], level: int) -> CedarGroup:
+        if level > DEEPEST:
+            raise DocumentError(f"holds groups nested deeper than {DEEPEST} levels")
+        body = self.whole(path, body)
+        found = CedarGroup(path, values=body)
+        for kind, values in pairs(body.get("steps")):
+            self.step(found, kind, values)
+        for key in ("groups", "networks"):
+            for name, inside in pairs(body.get(key)):
+                name = self.free(found, text(name) or "group", "group")
+                found.groups[name] = self.group((*path, name), members(inside), level + 1)
+        for entry in items(body.get("connections")):
+            self.wire(found, entry)
+        for name, way in pairs(body.get("connectors")):
+            found.connectors[text(name)] = text(way) == "true"
+        for kind, values in pairs(body.get("triggers")):
+            self.trigger(found, kind, members(values))
+        found.links += [members(entry) for entry in items(body.get("parameter links"))]
+        if not level:
+            for entry in items(body.get("scripts")):
+                self.lines.append(
+                    Line(
+                        "", "file", text(members(entry).get("type")) or "script", "dropped", "a script in C++"
+                    )
+                )
+        return found
+
+    def whole(self, path: StepPath, body: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return a group with the content that it links; cedar does not store it with the group."""
+        template, linked = text(body.get("linked group template")), body.get("linked file")
+        if not template and not linked:
+            return body
+        where, own = ".".join(path), text(body.get("linked group name")) or template
+        name = text(members(linked).get("path")) or text(linked)
+        name = name.replace("\\", "/").rpartition("/")[2]
+        for file in [name] if name else TEMPLATES:
+            try:
+                content = self.beside(file)
+            except DocumentError as error:
+                self.lines.append(Line(where, "element", own, "dropped", error.problems[0].what))
+                continue
+            listed = {} if content is None else members(members(codec.foreign(content)).get("groups"))
+            if own in listed:
+                self.lines.append(Line(where, "element", own, "carried", f"the group of {file}, as a copy"))
+                kept = {key: value for key, value in body.items() if key in ("ui generic", "name")}
+                return {**members(listed[own]), **kept}
+        wanted = name or " or ".join(TEMPLATES)
+        why = f"its content is in another file; put {wanted} beside this file"
+        self.lines.append(Line(where, "element", own or "group", "dropped", why))
+        return body
+
+    def step(self, group: CedarGroup, kind: str, values: Any) -> None:
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            raise DocumentError(f"holds more than {MOST_STEPS} steps")
+        body = members(values)
+        name = text(body.get("name"))
+        where = ".".join((*group.path, name))
+        if not isinstance(values, dict):
+            self.lines.append(Line(where, "element", show(values), "dropped", "it is not a step"))
+            return
+        if not name:
+            name = kind.rpartition(".")[2] or "step"
+            self.lines.append(
+                Line(name, "element", kind, "approximated", f"it has no name; it is called {name!r}")
+            )
+        name = self.free(group, name, kind)
+        present = KINDS.get(kind, kind)
+        group.steps[name] = CedarStep((*group.path, name), present, renamed(present, body))
+
+    def free(self, group: CedarGroup, name: str, kind: str) -> str:
+        """Return a name that is not taken in a group; names are the identity, so cedar refuses a second."""
+        if "." in name:
+            # a connection is split at its first dot
+            self.lines.append(
+                Line(
+                    ".".join((*group.path, name)),
+                    "element",
+                    kind,
+                    "approximated",
+                    "its name contains a dot, where cedar splits it: connections to it do not exist",
+                )
+            )
+        again, key = name, (group.path, name)
+        while again in group.steps or again in group.groups:
+            self.numbers[key] = self.numbers.get(key, 1) + 1
+            again = f"{name} ({self.numbers[key]})"
+        if again != name:
+            self.lines.append(
+                Line(
+                    ".".join((*group.path, again)),
+                    "element",
+                    kind,
+                    "approximated",
+                    f"a second element named {name!r}; connections lead to the first",
+                )
+            )
+        return again
+
+    def wire(self, group: CedarGroup, entry: Any) -> None:
+        self.wires += 1
+        if self.wires > MOST_WIRES:
+            raise DocumentError(f"holds more than {MOST_WIRES} connections")
+        body = members(entry)
+        ends = [text(body.get(key)).partition(".") for key in ("source", "target")]
+        if not all(name and slot for name, _, slot in ends):
+            self.lines.append(
+                Line(".".join(group.path), "connection", show(entry), "dropped", "it does not name two slots")
+            )
+            return
+        (source, _, out), (target, _, into) = ends
+        group.wires.append(CedarWire(source, out, target, into))
+
+    def trigger(self, group: CedarGroup, kind: str, body: Mapping[str, Any]) -> None:
+        name = text(body.get("name")) or "trigger"
+        where = ".".join((*group.path, name))
+        if kind != TRIGGER:
+            self.lines.append(Line(where, "element", kind, "dropped", "deodar has no such trigger"))
+            return
+        listeners = tuple(text(each) for each in items(body.get("listeners")))
+        group.triggers.append(LoopedTrigger(name, listeners, body))

@@ -1,0 +1,175 @@
+"""The translation of one step: deodar elements, the targets of its input slots, and the ports of its output
+slots.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from deodar.element import Element
+from deodar.importers.report import Verdict
+from deodar.numerics.axes import Axis
+from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers.cedar.file import CedarStep
+from deodar_interop.importers.cedar.grid import Counts, SampleGrid
+from deodar_interop.importers.cedar.side_file import SideFile
+from deodar_interop.importers.cedar.values import StepValues
+
+
+@dc.dataclass(frozen=True)
+class InputSlot:
+    """The target of an input slot: a deodar element and its port."""
+
+    name: str
+    port: str = "input"
+
+
+@dc.dataclass(frozen=True)
+class OutputSlot:
+    """The port of an output slot.
+
+    Attributes:
+        name: name of a deodar element.
+        dims: size of the port.
+        port: its output port.
+        state: whether cedar gives the value after the update, as deodar's port does at the end of a step;
+            otherwise the value is computed from the inputs or from the state before the update.
+        doubt: what is not documented of cedar's value; "" if nothing.
+    """
+
+    name: str
+    dims: Counts
+    port: str = "output"
+    state: bool = False
+    doubt: str = ""
+
+
+@dc.dataclass
+class StepPiece:
+    """The translation of one step.
+
+    Attributes:
+        elements: deodar elements; the first has the step's name.
+        inlets: for each input slot the targets of its connections, in their order; a slot of `sums` has one
+            entry for all.
+        outlets: ports by output slot.
+        inner: connections among `elements`, by name: source, target, and where they differ from `input`, ""
+            and `output` the target's port, what it reads, and the source's port.
+        sums: input slots that add up any number of connections.
+        wanted: size that an input slot requires, with one number allowed in its place if it is in `sums`.
+        needs: input slots without which cedar does not run the step.
+        stops: why cedar does not run the step, which then gives nothing; "" if it does.
+        fails: why the step ends with an exception when it runs, and gives 0; "" if it does not.
+        verdict, why: verdict and reason of the step itself in the report.
+    """
+
+    elements: list[Element] = dc.field(default_factory=list[Element])
+    inlets: dict[str, list[list[InputSlot]]] = dc.field(default_factory=dict[str, list[list[InputSlot]]])
+    outlets: dict[str, OutputSlot] = dc.field(default_factory=dict[str, OutputSlot])
+    inner: list[tuple[str, ...]] = dc.field(default_factory=list[tuple[str, ...]])
+    sums: frozenset[str] = frozenset()
+    wanted: dict[str, Counts] = dc.field(default_factory=dict[str, Counts])
+    needs: tuple[str, ...] = ()
+    stops: str = ""
+    fails: str = ""
+    verdict: Verdict = "carried"
+    why: str = ""
+
+
+class SourceStep:
+    """The context of the translation of one step: its parameters, the sizes that arrive, the axes, and names.
+
+    Attributes:
+        ins: sizes that arrive at each input slot, in the order of the connections; None of a step that cedar
+            does not run.
+        dt: step of the document, ms.
+    """
+
+    def __init__(
+        self,
+        step: CedarStep,
+        ins: Mapping[str, Sequence[Counts | None]],
+        grid: SampleGrid,
+        names: FreeNames,
+        dt: float,
+        stored: SideFile,
+    ) -> None:
+        self.step = step
+        self.label = step.path[-1]
+        self.values = StepValues(step.values, step.label)
+        self.ins = ins
+        self.grid = grid
+        self.dt = dt
+        self.met: list[str] = []
+        self._names = names
+        self._stored = stored
+
+    def stored(self, slot: str, shape: Counts) -> np.ndarray | None:
+        """Return what the file stores of a slot; None without it. Another size is reported."""
+        found = self._stored.of(self.step.label, slot, self.step.values)
+        if found is None:
+            return None
+        wanted = tuple(n for n in shape if n > 1)
+        if found.shape != wanted:
+            why = f"it has the size {list(found.shape)}, not {list(wanted)}"
+            self.values.say(f"stored {slot}", "dropped", why)
+            return None
+        self.values.say(f"stored {slot}", "carried", "as the value at the start")
+        return found.reshape(shape)
+
+    def axes(self, dims: Counts) -> tuple[Axis, ...]:
+        """Return the axes of a size."""
+        return self.grid.axes(dims)
+
+    def named(self, what: str) -> str:
+        """Return a name for a further deodar element: the label and what it is."""
+        return self._names.new(f"{self.label} {what}")
+
+    def first(self, slot: str) -> Counts:
+        """Return the size that arrives first at a slot.
+
+        Raises:
+            Refused: nothing arrives, or from a step that cedar does not run.
+        """
+        arriving = self.ins.get(slot, ())
+        if not arriving:
+            raise Refused(f"nothing is connected to {slot!r}")
+        if arriving[0] is None:
+            raise Refused(f"the step that feeds {slot!r} does not run")
+        return arriving[0]
+
+    def all(self, slot: str) -> list[Counts]:
+        """Return the sizes that arrive at a slot.
+
+        Raises:
+            Refused: nothing arrives, or from a step that cedar does not run.
+        """
+        arriving = self.ins.get(slot, ())
+        if not arriving:
+            raise Refused(f"nothing is connected to {slot!r}")
+        if any(dims is None for dims in arriving):
+            raise Refused(f"a step that feeds {slot!r} does not run")
+        return [dims for dims in arriving if dims is not None]
+
+    def bug(self, what: str) -> None:
+        """Note a known error of cedar that this step touches, and that is corrected here."""
+        self.met.append(f"{self.step.label}: {what}; corrected")
+
+
+class Refused(ValueError):
+    """Raised if cedar does not run a step; the message is cedar's reason."""
+
+
+def sizes(values: StepValues, default: int, most: int, name: str = "sizes") -> Counts:
+    """Return the size that `dimensionality` and `sizes` state together."""
+    count = values.whole("dimensionality", 2, 0, most)
+    if not count:
+        if name in values.body:
+            values.say(name, "carried", "none for one number")
+        return ()
+    dims = tuple(int(n) for n in values.numbers(name, default, count, 1, 1e6))
+    # a matrix with one row or one column has one dimension in cedar, and one with both none
+    return tuple(n for n in dims if n > 1) if count <= 2 else dims

@@ -1,0 +1,221 @@
+"""Fields, nodes and traces."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.field import Field
+from deodar.elements.history import History
+from deodar.elements.integrator import Integrator
+from deodar.elements.memory_trace import MemoryTrace
+from deodar.elements.rate_node import RateNode
+from deodar.elements.sampled_history import SampledHistory
+from deodar.model.paths import display
+from deodar.numerics.axes import Axis, shape
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.windows import FOR_EVER
+from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes
+from deodar_interop.importers.cosivina.components import PHASE_PLOT
+from deodar_interop.importers.cosivina.element import SourceElement
+
+STEEPEST = 1e6
+
+MOST_COUNTED = 1_000_000
+"""Number of steps up to which cosivina's counting of time is reproduced, with its rounding."""
+
+
+def neural_field(b: SourceElement) -> Piece:
+    """Translate NeuralField: kernels and noise remain separate elements, as in the file."""
+    b.values.size()
+    dims = b.dims()
+    sigmoid = Logistic(b.values.number("beta", 4, 1e-6, STEEPEST))
+    field = Field(
+        b.label, axes(dims), tau=_tau(b, "tau", 10), resting_level=b.values.number("h", -5), sigmoid=sigmoid
+    )
+    outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
+    elements: list[Element] = [field]
+    if "h" in b.asked:  # plots of cosivina add it to what they show
+        level = Boost(b.named("h"), (), field.resting_level)
+        elements.append(level)
+        outlets["h"] = Outlet(level.name, (None, None), still=True)
+    return Piece(
+        elements, [[Inlet(b.label, dims)]], outlets, elsewhere={"h": _level(b)}, sums=True, why="Field"
+    )
+
+
+def single_node(b: SourceElement) -> Piece:
+    """Translate SingleNodeDynamics, without the samples of its phase plot."""
+    for name in ("range", "resolution"):
+        if name in b.element.values:
+            b.values.say(name, "carried", "of the phase plot only: dd.phase takes its own")
+    node = RateNode(
+        b.label,
+        tau=_tau(b, "tau", 10),
+        resting_level=b.values.number("h", -5),
+        sigmoid=Logistic(b.values.number("beta", 4, 1e-6, STEEPEST)),
+        self_excitation=b.values.number("selfExcitation", 0),
+        noise=b.values.number("noiseLevel", 0, 0),
+    )
+    ports = {"output": "output", "activation": "activation", "rateOfChange": "rate"}
+    elsewhere = {"h": _level(b), "input": f"read {display((b.label, 'input'))}"}
+    elsewhere |= dict.fromkeys(PHASE_PLOT, "of the phase plot only: dd.phase computes it")
+    outlets = {c: Outlet(b.label, (None, None), port, state=True) for c, port in ports.items()}
+    return Piece(
+        [node], [[Inlet(b.label, (None, None))]], outlets, elsewhere=elsewhere, sums=True, why="RateNode"
+    )
+
+
+def _level(b: SourceElement) -> str:
+    return f"the parameter {display((b.label, 'resting_level'))}"
+
+
+def memory_trace(b: SourceElement) -> Piece:
+    """Translate MemoryTrace.
+
+    Its rates are per step for any step, so that time constants are those of the file times its step.
+    """
+    b.values.size()
+    dims = b.dims()
+    build = _per_step(b, "tauBuild", 100)
+    decay = _per_step(b, "tauDecay", b.values.number("tauBuild", 100, 1e-6))
+    trace = MemoryTrace(
+        b.label, axes(dims), tau_build=build, tau_decay=decay, threshold=b.values.number("threshold", 0.5)
+    )
+    outlets = {
+        c: Outlet(b.label, dims, port, state=True)
+        for c, port in (("output", "output"), ("activeRegions", "active"))
+    }
+    return Piece([trace], [[Inlet(b.label, dims)]], outlets, needs=1, why="MemoryTrace")
+
+
+def dynamic_variable(b: SourceElement) -> Piece:
+    """Translate DynamicVariable, an integrator."""
+    b.values.size()
+    dims = b.dims()
+    tau = b.values.number("tau", 10)
+    if tau == 0:
+        tau = 10.0
+        b.values.say("tau", "approximated", "it is 0; cosivina's default 10 is used")
+    elif "tau" in b.element.values and b.values.lines["tau"].verdict == "carried":
+        b.values.say("tau", "carried", "as the rate 1 / tau")
+    given = b.values.matrix("initialState")
+    if given is not None and given.size not in (1, math.prod(shape(axes(dims)))):
+        raise Unfit("its initialState is not of its size")
+    level = given is not None and len({float(v) for v in given.reshape(-1)}) == 1
+    initial = float(given.reshape(-1)[0]) if given is not None and level else 0.0
+    start = given.reshape(shape(axes(dims))) if given is not None and not level else None
+    element = Integrator(b.label, axes(dims), 1 / tau, initial, start)
+    outlets = {"state": Outlet(b.label, dims, state=True)}
+    elsewhere = {
+        "initialState": f"the parameter {display((b.label, 'initial' if start is None else 'start'))}"
+    }
+    return Piece(
+        [element], [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Integrator"
+    )
+
+
+def running_history(b: SourceElement) -> Piece:
+    """Translate RunningHistory: the newest row first."""
+    dims = b.of(b.values.size())
+    slots, shown = _slots(b, dims, int(b.values.number("timeSlots", 1, 1, 100_000)))
+    history = History(b.label, axes(dims), slots, b.values.number("interval", 1, 1e-6), _empty(b))
+    return _stored(b, history, dims, shown)
+
+
+def history(b: SourceElement) -> Piece:
+    """Translate History: a row for each listed time."""
+    dims = b.of(b.values.size())
+    given = b.values.matrix("storingTimes")
+    if given is None:
+        raise Unfit("it lists no times at which to store")
+    times = given.reshape(-1)
+    slots, shown = _slots(b, dims, times.size)
+    return _stored(b, SampledHistory(b.label, axes(dims), slots, _moments(b, times), _empty(b)), dims, shown)
+
+
+def _moments(b: SourceElement, times: np.ndarray) -> np.ndarray:
+    """Return the times at which cosivina stores: those that a step reaches.
+
+    The others are replaced by a time that no run reaches.
+    """
+    start, step = b.simulator.start, b.step
+    ticks = np.round((times - start) / step)
+    reached = (ticks >= 1) & (abs((times - start) / step - ticks) <= 1e-6)
+    if reached.any() and ticks[reached].max() <= MOST_COUNTED:
+        # as cosivina counts, with the same rounding
+        counted = np.add.accumulate([start, *[step] * int(ticks[reached].max())])
+        exact = np.isin(times, counted)
+        missed = int((reached & ~exact).sum())
+        if missed and b.bug(
+            f"History compares times exactly, and misses {missed} of {times.size} by rounding"
+        ):
+            reached = reached & exact
+    lost = times.size - int(reached.sum())
+    if lost:
+        b.values.say(
+            "storingTimes",
+            "carried",
+            f"no step ends at {lost} of {times.size} of them; their rows stay empty, as in cosivina",
+        )
+    return np.where(reached, start + ticks * step, FOR_EVER)
+
+
+def _slots(b: SourceElement, dims: Dims, count: int) -> tuple[Axis, Dims]:
+    """The axis of what is stored, and the dimensions of the whole as cosivina has them."""
+    kept = b.dims()
+    slots = Axis("slot", 0, max(count - 1, 1), count, periodic=count == 1)
+    if b.asked:  # an element that reads it takes the times for rows
+        slots = kept[0 if dims[0] is None else -1] or slots
+    return slots, kept if count == 1 else (slots, dims[1]) if dims[0] is None else (*dims, slots)
+
+
+def _empty(b: SourceElement) -> str:
+    """Return what cosivina shows for a slot without a stored value.
+
+    Where elements read it, this value would make them undefined permanently.
+    """
+    return "zero" if b.asked else "nan"
+
+
+def _stored(b: SourceElement, element: History | SampledHistory, dims: Dims, shown: Dims) -> Piece:
+    why = type(element).__name__
+    if b.asked:
+        why += (
+            "; what is not stored yet is 0, since elements read it: NaN, as in cosivina, would make them"
+            " undefined permanently"
+        )
+    outlets = {"output": Outlet(b.label, shown, state=True)}
+    return Piece(
+        [element],
+        [[Inlet(b.label, dims)]],
+        outlets,
+        needs=1,
+        verdict="approximated" if b.asked else "carried",
+        why=why,
+    )
+
+
+def _tau(b: SourceElement, name: str, default: float) -> float:
+    """Return a time constant; one below the step diverges or is refused."""
+    return b.values.number(name, default, b.step)
+
+
+def _per_step(b: SourceElement, name: str, default: float) -> float:
+    value = b.values.number(name, default, 1e-6)
+    if name in b.element.values and b.step != 1 and b.values.lines[name].verdict == "carried":
+        b.values.say(name, "carried", f"times the step {b.step:g}, since cosivina's rate is per step")
+    return max(value * b.step, 1e-6)
+
+
+CLASSES = {
+    "NeuralField": neural_field,
+    "SingleNodeDynamics": single_node,
+    "DynamicVariable": dynamic_variable,
+    "MemoryTrace": memory_trace,
+    "RunningHistory": running_history,
+    "History": history,
+}

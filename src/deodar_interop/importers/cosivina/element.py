@@ -1,0 +1,73 @@
+"""The context in which one element of a file is translated."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from deodar_interop.importers._foreign import Foreign
+from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._piece import Dims
+from deodar_interop.importers.cosivina.file import Simulator
+from deodar_interop.importers.cosivina.sizes import Dimensions, output_size
+from deodar_interop.importers.cosivina.values import Values
+
+
+class SourceElement:
+    """The context of the translation of one element: its parameters, the axes, the step, its readers, and the
+    report lines so far.
+    """
+
+    def __init__(
+        self,
+        simulator: Simulator,
+        dims: Dimensions,
+        element: Foreign,
+        asked: set[str],
+        names: FreeNames,
+        bugs: bool,
+    ) -> None:
+        self.simulator = simulator
+        self.step = simulator.step
+        self.element = element
+        self.label = element.label
+        self.values = Values(element.values, element.label)
+        self.asked = asked
+        self.reproduce = bugs
+        self.met: list[str] = []
+        self._dims = dims
+        self._names = names
+
+    def dims(self, component: str = "") -> Dims:
+        """Return the dimensions of an output."""
+        return self._dims.of(output_size(self.element, component))
+
+    def of(self, counts: Sequence[int]) -> Dims:
+        """Return the dimensions of a size."""
+        return self._dims.of(counts)
+
+    def source(self, k: int) -> Dims | None:
+        """Return the dimensions of an input, as its source declares them; None without this input."""
+        if k >= len(self.element.sources):
+            return None
+        s = self.element.sources[k]
+        found = self.simulator.by_label.get(s.label)
+        passed: set[str] = set()
+        while (
+            found is not None
+            and found.kind == "HebbianConnection"
+            and len(found.sources) > 1
+            and found.label not in passed
+        ):
+            passed.add(found.label)  # its size is that of its second input, and is not in the file
+            s = found.sources[1]
+            found = self.simulator.by_label.get(s.label)
+        return None if found is None else self._dims.of(output_size(found, s.component))
+
+    def named(self, what: str) -> str:
+        """Return a name for a further deodar element: the label and what it is."""
+        return self._names.new(f"{self.label} {what}")
+
+    def bug(self, what: str) -> bool:
+        """Return whether to reproduce a known error of cosivina that this element touches."""
+        self.met.append(f"{self.label}: {what}; {'reproduced' if self.reproduce else 'corrected'}")
+        return self.reproduce

@@ -1,0 +1,305 @@
+"""The methods of simulators and windows that build a model: `addElement`, `addControl` and others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from deodar.importers.report import Line
+from deodar_interop.importers.cosivina.classes import CLASSES
+from deodar_interop.importers.cosivina.components import components
+from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS, OUTPUTS, parameters_of
+from deodar_interop.importers.cosivina.file import Simulator
+from deodar_interop.importers.cosivina.launchers import arrays
+from deodar_interop.importers.cosivina.launchers.expressions import NotRead
+from deodar_interop.importers.cosivina.launchers.objects import (
+    BuiltElement,
+    BuiltSimulator,
+    BuiltWindow,
+    ClassCall,
+    MissingValue,
+)
+
+ElementArguments = Sequence[Any]
+
+QUIET = frozenset(
+    (
+        *("init", "run", "step", "close", "tryInit", "tryStep", "runWithTimer", "stepWithTimer"),
+        *("saveSettings", "updateVisualizations", "checkAndUpdateControls", "delete"),
+    )
+)
+"""Methods that run a simulator or draw its window, and change nothing of the model."""
+
+
+class ElementBuilder(Protocol):
+    """What the methods need of the script."""
+
+    line: int
+    lines: list[Line]
+
+    def say(self, why: str) -> None:
+        """Report that something of the present statement is not read."""
+        ...
+
+    def file(self, name: str) -> Simulator:
+        """Return the simulator of a file beside the script."""
+        ...
+
+
+def simulator(script: ElementBuilder, arguments: ElementArguments) -> BuiltSimulator:
+    """Return the simulator of a call `Simulator(name, value, ...)`."""
+    built = BuiltSimulator()
+    for name, value in zip(arguments[::2], arguments[1::2], strict=False):
+        match arrays.string(known(name)):
+            case "file":
+                load(script, built, arrays.string(known(value)))
+            case "deltaT":
+                built.step = arrays.real(known(value))
+            case "tZero":
+                built.start = arrays.real(known(value))
+            case other:
+                script.say(f"the setting {other!r} of a simulator is not read")
+    return built
+
+
+def window(script: ElementBuilder, arguments: ElementArguments) -> BuiltWindow:
+    """Return the window of a call `StandardGUI(simulator, position, ...)`."""
+    first = arguments[0] if arguments else None
+    return BuiltWindow(first if isinstance(first, BuiltSimulator) else None)
+
+
+def known(value: Any) -> Any:
+    """Return a value that is known.
+
+    Raises:
+        NotRead: it is not known; the message says why.
+    """
+    if isinstance(value, MissingValue):
+        raise NotRead(value.why)
+    return value
+
+
+def argument(arguments: ElementArguments, k: int) -> Any:
+    """Return an argument, or an empty list if there are fewer."""
+    return known(arguments[k]) if k < len(arguments) else np.zeros((0, 0))
+
+
+# ------------------------------------------------------------------------------------------------- simulators
+
+
+def add_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
+    """Add an element, with its inputs and its targets."""
+    call = argument(arguments, 0)
+    if not isinstance(call, ClassCall):
+        raise NotRead(f"an element is expected, not {arrays.described(call)}")
+    label = arrays.string(argument(call.arguments, 0))
+    if not label.strip():
+        raise NotRead("the label of an element is empty")
+    if label in sim.elements:
+        raise NotRead(f"the label {label!r} is used already")
+    sim.elements[label] = built = element(script, call, label)
+    built.inputs += sources(script, sim, arguments, 1, label)
+    targets = _labels(arguments, 3)
+    given = _labels(arguments, 4)
+    for k, target in enumerate(targets):
+        component = given[k] if k < len(given) and given[k] else output(built.kind)
+        if target in sim.elements:
+            sim.elements[target].inputs.append((label, component))
+        else:
+            why = f"line {script.line}: no element has the label {target!r}"
+            script.lines.append(Line(label, "connection", target, "dropped", why))
+
+
+def element(script: ElementBuilder, call: ClassCall, label: str) -> BuiltElement:
+    """Return the element of a call of its class; an argument that is not known gets its default."""
+    given: list[Any] = []
+    names = list(CONSTRUCTORS.get(call.name, {"size": None}))
+    defaults = list(CONSTRUCTORS.get(call.name, {"size": None}).values())
+    for k, value in enumerate(call.arguments[1:]):
+        if isinstance(value, MissingValue):
+            name = names[k] if k < len(names) else f"argument {k + 2}"
+            why = f"line {call.line}: {value.why}"
+            why += "; its default is used" if k < len(names) else ""
+            script.lines.append(Line(label, "parameter", name, "approximated", why))
+            value = defaults[k] if k < len(names) else None
+        elif k >= len(names) and call.name in CONSTRUCTORS:
+            why = f"line {call.line}: {call.name} has {len(names)} arguments behind the label"
+            script.lines.append(Line(label, "parameter", f"argument {k + 2}", "dropped", why))
+        given.append(value)
+    if call.name not in CONSTRUCTORS and len(given) > 1:
+        why = f"line {call.line}: the arguments of an unknown class have no names"
+        script.lines.append(Line(label, "parameter", "arguments", "dropped", why))
+    return BuiltElement(label, call.name, parameters_of(call.name, given))
+
+
+def output(kind: str) -> str:
+    """Return the component that is read where none is named."""
+    return OUTPUTS.get(kind, "output")
+
+
+def sources(
+    script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments, first: int, target: str
+) -> list[tuple[str, str]]:
+    """Return label and component of inputs, from the arguments with labels and with components."""
+    labels = _labels(arguments, first)
+    given = _labels(arguments, first + 1)
+    if given and len(given) != len(labels):
+        script.say(f"{len(labels)} inputs and {len(given)} components do not fit together")
+    found: list[tuple[str, str]] = []
+    for k, label in enumerate(labels):
+        if label not in sim.elements:
+            why = f"line {script.line}: no element has the label {label!r}"
+            script.lines.append(Line(target, "connection", label, "dropped", why))
+            continue
+        kind = sim.elements[label].kind
+        component = given[k] if k < len(given) and given[k] else output(kind)
+        if kind in CLASSES and component not in components(kind):
+            has = ", ".join(components(kind))
+            script.say(f"{label!r} is a {kind} without a component {component!r}; it has {has}")
+        found.append((label, component))
+    return found
+
+
+def _labels(arguments: ElementArguments, k: int) -> list[str]:
+    return arrays.names_of(argument(arguments, k))
+
+
+def add_connection(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
+    """Connect elements that exist."""
+    target = arrays.string(argument(arguments, 2))
+    if target not in sim.elements:
+        raise NotRead(f"no element has the label {target!r}")
+    sim.elements[target].inputs += sources(script, sim, arguments, 0, target)
+
+
+def set_parameters(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
+    """Change parameters of elements."""
+    labels, names = _labels(arguments, 0), _labels(arguments, 1)
+    values = argument(arguments, 2)
+    listed = list(values.reshape(-1, order="F")) if arrays.is_cells(values) else [values]
+    if not arrays.is_cells(values) and len(names) > 1:
+        listed = [arrays.number(v) for v in arrays.numbers(values).reshape(-1)]
+    labels = labels * len(names) if len(labels) == 1 else labels
+    if not len(labels) == len(names) == len(listed):
+        raise NotRead(
+            f"{len(labels)} labels, {len(names)} names and {len(listed)} values do not fit together"
+        )
+    for label, name, value in zip(labels, names, listed, strict=True):
+        if label not in sim.elements:
+            script.say(f"no element has the label {label!r}")
+        else:
+            set_parameter(script, sim.elements[label], name, known(value))
+
+
+def set_parameter(script: ElementBuilder, built: BuiltElement, name: str, value: Any) -> None:
+    """Change one parameter of an element."""
+    if built.kind in CONSTRUCTORS and name not in built.values:
+        script.say(f"{built.label!r} is a {built.kind} without a parameter {name!r}")
+    else:
+        built.values[name] = value
+
+
+def load_settings(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
+    """Take over the parameters of a file; return that it was read."""
+    load(script, sim, arrays.string(argument(arguments, 0)))
+    return arrays.flag(True)
+
+
+def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
+    """Take over a file: all of it if the simulator has no elements, else the parameters of its elements."""
+    found = script.file(name)
+    sim.step, sim.start = found.step, found.start
+    if not sim.elements:
+        for e in found.elements:
+            inputs = [(s.label, s.component) for s in e.sources]
+            sim.elements[e.label] = BuiltElement(e.label, e.kind, dict(e.values), inputs)
+        return
+    there = found.by_label
+    for built in sim.elements.values():
+        other = there.get(built.label)
+        if other is None or other.kind != built.kind:
+            why = f"line {script.line}: it has no such {built.kind}, which keeps its values"
+            script.lines.append(Line(built.label, "preset", name, "dropped", why))
+            continue
+        built.values.update({n: v for n, v in other.values.items() if n in built.values})
+    for label in there:
+        if label not in sim.elements:
+            why = f"line {script.line}: it has this {there[label].kind}, the simulator does not"
+            script.lines.append(Line(label, "preset", name, "dropped", why))
+
+
+def get_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
+    """Return an element."""
+    label = arrays.string(argument(arguments, 0))
+    if label not in sim.elements:
+        raise NotRead(f"no element has the label {label!r}")
+    return sim.elements[label]
+
+
+def get_parameter(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
+    """Return the value of a parameter."""
+    built, name = get_element(script, sim, arguments), arrays.string(argument(arguments, 1))
+    return value_of(built, name)
+
+
+def value_of(built: BuiltElement, name: str) -> Any:
+    """Return a parameter of an element as a value of the script."""
+    if name == "label":
+        return arrays.text(built.label)
+    if name not in built.values:
+        raise NotRead(f"{built.label!r} is a {built.kind} without a parameter {name!r}")
+    value = built.values[name]
+    if isinstance(value, np.ndarray) and value.ndim >= 2:
+        return value
+    return arrays.text(value) if isinstance(value, str) else np.atleast_2d(np.asarray(value, dtype=float))
+
+
+def is_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
+    """Return whether an element has a label."""
+    return arrays.flag(arrays.string(argument(arguments, 0)) in sim.elements)
+
+
+# ---------------------------------------------------------------------------------------------------- windows
+
+
+def add_control(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
+    """Add a control."""
+    gui.controls.append(_call(arguments, "a control"))
+
+
+def add_plot(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
+    """Add a plot."""
+    gui.plots.append(_call(arguments, "a visualization"))
+
+
+def connect(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArguments) -> None:
+    """Connect a window with a simulator."""
+    found = argument(arguments, 0)
+    if isinstance(found, BuiltSimulator):
+        gui.simulator = found
+
+
+def _call(arguments: ElementArguments, what: str) -> ClassCall:
+    call = argument(arguments, 0)
+    if not isinstance(call, ClassCall):
+        raise NotRead(f"{what} is expected, not {arrays.described(call)}")
+    return call
+
+
+SIMULATOR_METHODS: Mapping[str, Callable[[ElementBuilder, BuiltSimulator, ElementArguments], Any]] = {
+    "addElement": add_element,
+    "addConnection": add_connection,
+    "setElementParameters": set_parameters,
+    "loadSettings": load_settings,
+    "loadFromFile": load_settings,
+    "getElement": get_element,
+    "getElementParameter": get_parameter,
+    "isElement": is_element,
+}
+WINDOW_METHODS: Mapping[str, Callable[[ElementBuilder, BuiltWindow, ElementArguments], Any]] = {
+    "addControl": add_control,
+    "addVisualization": add_plot,
+    "connect": connect,
+}

@@ -1,0 +1,136 @@
+"""Fields and memory traces."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, cast
+
+from deodar.element import Element
+from deodar.elements.boost import Boost
+from deodar.elements.field import Field
+from deodar.elements.memory_trace import MemoryTrace
+from deodar.model.paths import display
+from deodar.numerics.sigmoids._base import SigmoidFunction
+from deodar.numerics.sigmoids.absolute import Absolute
+from deodar.numerics.sigmoids.logistic import Logistic
+from deodar.numerics.sigmoids.step import Step
+from deodar_interop.importers._piece import Inlet, Outlet, Piece, axes
+from deodar_interop.importers.dnf_composer.element import StoredElement
+from deodar_interop.importers.dnf_composer.file import number
+
+STEEPEST, FLATTEST = 1e6, 1e-6
+
+STEEPNESS = 10.0
+"""Steepness of the sigmoid of a field whose file states none."""
+
+FUNCTIONS = {
+    "sigmoid": ("x_shift", "steepness"),
+    "heaviside": ("x_shift",),
+    "abs_sigmoid": ("x_shift", "beta"),
+}
+"""The parameters of each activation function."""
+
+USUAL = {"x_shift": 0.0, "steepness": STEEPNESS, "beta": 100.0}
+
+
+def neural_field(b: StoredElement) -> Piece:
+    """Translate `neural field` and its form over a plane; kernels and noise remain separate elements."""
+    dims = b.dims()
+    field = Field(
+        b.label,
+        axes(dims),
+        tau=_tau(b, "tau", 25),
+        resting_level=b.values.number("restingLevel", -5),
+        sigmoid=activation(b),
+    )
+    b.start = float(_at_rest(field.sigmoid, field.resting_level))
+    b.levels = {"activation": field.resting_level, "resting level": field.resting_level}
+    outlets = {c: Outlet(b.label, dims, c, state=True) for c in ("output", "activation")}
+    elements: list[Element] = [field]
+    if "resting level" in b.asked:
+        level = Boost(b.named("resting level"), axes(dims), field.resting_level)
+        elements.append(level)
+        outlets["resting level"] = Outlet(level.name, dims, still=True)
+    elsewhere = {"resting level": f"the parameter {display((b.label, 'resting_level'))}"}
+    return Piece(elements, [[Inlet(b.label, dims)]], outlets, elsewhere=elsewhere, sums=True, why="Field")
+
+
+def activation(b: StoredElement) -> SigmoidFunction:
+    """Return the activation function; without a known one dnf-composer takes a sigmoid."""
+    key = "activationFunction"
+    given = b.element.values.get(key)
+    body = cast("dict[str, Any]", given) if isinstance(given, dict) else {}
+    kind = body.get("type")
+    if not isinstance(kind, str) or kind not in FUNCTIONS:
+        what = "it is not in the file" if given is None else f"its type is {kind!r}"
+        why = f"{what}; a sigmoid at 0 with a steepness of {STEEPNESS:g} is used, as in dnf-composer"
+        b.values.say(key, "approximated", why)
+        return Logistic(STEEPNESS, 0.0)
+    found, replaced = dict(USUAL), list[str]()
+    for name in FUNCTIONS[kind]:
+        value = number(body.get(name))
+        if value is None or abs(value) > 1e30:
+            replaced.append(f"{name} {USUAL[name]:g} is used, which is not in the file")
+        elif name != "x_shift" and not FLATTEST <= value <= STEEPEST:
+            found[name] = min(max(value, FLATTEST), STEEPEST)
+            replaced.append(f"{name} is {value:g}, {found[name]:g} is used")
+        else:
+            found[name] = value
+    made = _function(kind, found)
+    if replaced:
+        b.values.say(key, "approximated", "; ".join(replaced))
+    else:
+        b.values.say(key, "carried", f"as {type(made).__name__}")
+    return made
+
+
+def _function(kind: str, values: dict[str, float]) -> SigmoidFunction:
+    match kind:
+        case "heaviside":
+            return Step(values["x_shift"])
+        case "abs_sigmoid":
+            return Absolute(values["beta"], values["x_shift"])
+        case _:
+            return Logistic(values["steepness"], values["x_shift"])
+
+
+def memory_trace(b: StoredElement) -> Piece:
+    """Translate `memory trace` and its form over a plane; it decays also while no sample is active."""
+    dims = b.dims()
+    trace = MemoryTrace(
+        b.label,
+        axes(dims),
+        tau_build=_tau(b, "tauBuild", 100),
+        tau_decay=_tau(b, "tauDecay", 1000),
+        threshold=b.values.number("threshold", 0.5),
+        fades=True,
+    )
+    outlets = {"output": Outlet(b.label, dims, state=True)}
+    return Piece([trace], [[Inlet(b.label, dims)]], outlets, sums=True, why="MemoryTrace")
+
+
+def _tau(b: StoredElement, name: str, default: float) -> float:
+    """Return a time constant; one below the step is refused by deodar."""
+    return b.values.number(name, max(default, b.step), b.step)
+
+
+def _at_rest(sigmoid: SigmoidFunction, u: float) -> float:
+    """Return the output for one activation, in double precision."""
+    match sigmoid:
+        case Step():
+            return float(u > sigmoid.threshold)
+        case Absolute():
+            d = sigmoid.beta * (u - sigmoid.threshold)
+            return 0.5 * (1 + d / (1 + abs(d)))
+        case Logistic():
+            return 1 / (1 + math.exp(min(max(-sigmoid.beta * (u - sigmoid.threshold), -88.0), 88.0)))
+        case _:
+            return 0.0
+
+
+CLASSES = {
+    "neural field": neural_field,
+    "neural field 2d": neural_field,
+    "memory trace": memory_trace,
+    "memory trace 2d": memory_trace,
+}

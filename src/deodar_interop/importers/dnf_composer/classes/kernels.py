@@ -1,0 +1,176 @@
+"""Kernels: convolutions of the input, plus its sum times a constant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from deodar.couplings.interaction import Interaction
+from deodar.element import Element
+from deodar.elements.pattern import Pattern
+from deodar.model.paths import display
+from deodar.numerics.axes import shape
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels.custom import Custom
+from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, axes
+from deodar_interop.importers.dnf_composer import taps
+from deodar_interop.importers.dnf_composer.classes.stimuli import boundary
+from deodar_interop.importers.dnf_composer.element import StoredElement
+from deodar_interop.importers.dnf_composer.taps import CUTOFF, Taps
+
+SLOWEST = 0.01
+"""Decay in place of one that is not above 0."""
+
+
+def gauss(b: StoredElement) -> Piece:
+    """Translate `gauss kernel` and its form over a plane."""
+    form = StoredKernel(b)
+    amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
+    return form.piece(
+        [form.truncated(amplitude, width)],
+        lambda: amplitude * outer([form.gaussian(d, width).weights for d in (0, 1)]),
+    )
+
+
+def mexican_hat(b: StoredElement) -> Piece:
+    """Translate `mexican hat kernel`: over a line both Gaussians have the reach of the wider one with an
+    amplitude, over a plane each has its own.
+    """
+    form = StoredKernel(b)
+    up, down = b.values.number("amplitudeExc", 11), b.values.number("amplitudeInh", 15)
+    narrow, wide = b.values.width("widthExc", 2.5), b.values.width("widthInh", 5)
+    common = 0.0 if b.plane else max((up != 0) * narrow, (down != 0) * wide)
+    least = CUTOFF * common
+
+    def shown() -> np.ndarray:
+        pairs = ((up, narrow), (-down, wide))
+        parts = [
+            amplitude * outer([form.gaussian(d, width, common or width).weights for d in (0, 1)])
+            for amplitude, width in pairs
+        ]
+        return parts[0] + parts[1] if parts[0].shape == parts[1].shape else parts[0]
+
+    return form.piece([form.truncated(up, narrow, least), form.truncated(-down, wide, least)], shown)
+
+
+def oscillatory(b: StoredElement) -> Piece:
+    """Translate `oscillatory kernel`; over a line its sum is divided out with its amplitude if normalized."""
+    form = StoredKernel(b)
+    amplitude = b.values.number("amplitude", 1)
+    decay, crossings = b.values.number("decay", 0.08), b.values.number("zeroCrossings", 0.3, 0, 1)
+    if decay <= 0:
+        b.values.say("decay", "carried", f"{SLOWEST:g} in place of {decay:g}, as in dnf-composer")
+        decay = SLOWEST
+    form.reserve(taps.oscillation_width(decay, crossings))
+    found = [taps.oscillation(decay, crossings, count, form.circular) for count in b.counts]
+    if form.normalized:
+        found = [taps.per_sum(part) for part in found]
+        if not b.plane and amplitude:
+            if "amplitude" in b.element.values:
+                b.values.say(
+                    "amplitude", "carried", "without effect in a normalized kernel, as in dnf-composer"
+                )
+            amplitude = 1.0
+    return form.custom(amplitude, found)
+
+
+def asymmetric(b: StoredElement) -> Piece:
+    """Translate `asymmetric gauss kernel`: a Gaussian plus its derivative times `timeShift`."""
+    form = StoredKernel(b)
+    amplitude, width = b.values.number("amplitude", 3), b.values.width("width", 3)
+    names = ("timeShift_y", "timeShift_x") if b.plane else ("", "timeShift")
+    shifts = [b.values.number(name, 0) if name else 0.0 for name in names]
+    if form.normalized and not b.plane:
+        shifts = [v / abs(amplitude) if amplitude else 0.0 for v in shifts]  # the amplitude is applied below
+    form.reserve(width)
+    found = list[Taps]()
+    for d, amount in enumerate(shifts):
+        bell = form.gaussian(d, width)
+        turned = taps.shift(width, bell.left, bell.right, form.normalized)
+        found.append(Taps(bell.left, bell.right, bell.weights + amount * turned))
+    return form.custom(amplitude, found)
+
+
+class StoredKernel:
+    """The common properties of a kernel: dimensions, boundary, whether it is normalised, and the factor of
+    the sum of the input.
+
+    Without a value in the file they are those of the programs that did not write them.
+    """
+
+    def __init__(self, b: StoredElement) -> None:
+        self.b = b
+        self.dims: Dims = b.dims()
+        self.circular = b.values.flag("circular", True)
+        self.normalized = b.values.flag("normalized", True)
+        self.overall = b.values.number("amplitudeGlobal", 0.0)
+
+    def reserve(self, width: float) -> None:
+        """Count the values of a kernel that is stored as an array, before it is computed."""
+        found = (taps.reaches(width, count, self.circular) for count in self.b.counts)
+        self.b.budget.take(math.prod(2 * max(sides) + 1 for sides in found))
+
+    def gaussian(self, d: int, width: float, reaching: float = 0.0) -> Taps:
+        """Return the Gaussian of one dimension, with the reach of another width."""
+        left, right = taps.reaches(reaching or width, self.b.counts[d], self.circular)
+        return taps.gaussian(width, left, right, self.normalized)
+
+    def truncated(self, amplitude: float, width: float, least: float = 0.0) -> TruncatedGaussian:
+        """Return the Gaussian as a kernel."""
+        ends = boundary(axes(self.dims), self.circular)
+        return TruncatedGaussian(amplitude + 0.0, width, CUTOFF, least, self.normalized, boundary=ends)
+
+    def custom(self, amplitude: float, found: list[Taps]) -> Piece:
+        """Return a kernel of any shape, as the product of one array for each dimension."""
+        height = amplitude
+        own = [part for part, axis in zip(found, self.dims, strict=True) if axis is not None]
+        for part, axis in zip(found, self.dims, strict=True):
+            if axis is None:
+                amplitude *= float(part.weights[part.left])
+
+        def shown() -> np.ndarray:
+            return height * outer([part.weights for part in found])
+
+        ends = boundary(axes(self.dims), self.circular)
+        if not own:
+            return self.piece([TruncatedGaussian(amplitude, normalized=True)], shown)
+        arrays = [part.centred(mirrored=not self.circular) for part in own]
+        weights = arrays[0] if len(arrays) == 1 else np.outer(arrays[0], arrays[1])
+        return self.piece([Custom(weights, amplitude, boundary=ends)], shown)
+
+    def piece(self, kernels: Sequence[Kernel], shown: Callable[[], np.ndarray]) -> Piece:
+        """Return the translation of a kernel; `shown` computes its weights, for elements that read them."""
+        b, dims = self.b, self.dims
+        elements: list[Element] = [Interaction(kernels, -self.overall + 0.0, name=b.label)]
+        outlets = {"output": Outlet(b.label, dims)}
+        if "kernel" in b.asked:
+            count = math.prod(b.counts)
+            b.budget.take(count)
+            weights = shown()
+            if weights.size <= count:
+                values = np.pad(weights, (0, count - weights.size)).reshape(shape(axes(dims)))
+                elements.append(Pattern(b.named("kernel"), axes(dims), values))
+                outlets["kernel"] = Outlet(elements[-1].name, dims, still=True)
+        elsewhere = {"kernel": f"computed from the parameter {display((b.label, 'kernel'))}"}
+        inlet = Inlet(b.label, dims, whole=True)
+        return Piece(elements, [[inlet]], outlets, elsewhere=elsewhere, sums=True, needs=1, why="Interaction")
+
+
+def outer(factors: list[np.ndarray]) -> np.ndarray:
+    """Return the product of the weights of both dimensions, flat."""
+    return np.outer(factors[0], factors[1]).reshape(-1)
+
+
+CLASSES = {
+    "gauss kernel": gauss,
+    "gauss kernel 2d": gauss,
+    "mexican hat kernel": mexican_hat,
+    "mexican hat kernel 2d": mexican_hat,
+    "oscillatory kernel": oscillatory,
+    "oscillatory kernel 2d": oscillatory,
+    "asymmetric gauss kernel": asymmetric,
+    "asymmetric gauss kernel 2d": asymmetric,
+}

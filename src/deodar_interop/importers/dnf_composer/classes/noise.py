@@ -1,0 +1,77 @@
+"""Noise, white or correlated in space."""
+
+from __future__ import annotations
+
+import math
+
+from deodar.couplings.convolve import Convolve
+from deodar.element import Element
+from deodar.elements.noise import Noise
+from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.kernels.custom import Custom
+from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian
+from deodar_interop.importers._piece import Outlet, Piece, axes
+from deodar_interop.importers.dnf_composer import taps
+from deodar_interop.importers.dnf_composer.classes.stimuli import boundary
+from deodar_interop.importers.dnf_composer.element import StoredElement
+from deodar_interop.importers.dnf_composer.taps import CUTOFF
+
+NARROW = 0.001
+"""Width below which the reach of correlated noise does not shrink."""
+
+
+def normal_noise(b: StoredElement) -> Piece:
+    """Translate `normal noise` and its form over a plane: the same strength, since the step of axes is 1."""
+    dims = b.dims()
+    element = Noise(b.label, axes(dims), _strength(b, 0.2))
+    return Piece([element], [], {"output": Outlet(b.label, dims, noise=True)}, why="Noise")
+
+
+def correlated_noise(b: StoredElement) -> Piece:
+    """Translate `correlated normal noise` and its form over a plane: white noise, convolved."""
+    dims = b.dims()
+    strength, width = _strength(b, 0.05), b.values.width("width", 1)
+    circular = b.values.flag("circular", True)
+    white = b.named("white")
+    kernel: Kernel
+    if b.plane:
+        kernel = TruncatedGaussian(
+            1.0, width, CUTOFF, normalized=True, boundary=boundary(axes(dims), circular)
+        )
+    else:
+        half = max(1, int(min(CUTOFF * max(width, NARROW), 1e12)))
+        count = b.counts[1]
+        if circular and half > count:
+            b.values.say("width", "carried", "longer than the axis; the output is 0, as in dnf-composer")
+            strength = 0.0
+        kernel = _line(b, width, min(half, 2 * count), circular)
+        if not circular and half > 2 * count:
+            b.values.say("width", "approximated", "normalised over twice the length of the axis on each side")
+    elements: list[Element] = [Convolve([kernel], name=b.label), Noise(white, axes(dims), strength)]
+    outlet = Outlet(b.label, dims, noise=True)
+    return Piece(elements, [], {"output": outlet}, [(white, b.label)], why="Convolve and Noise")
+
+
+def _line(b: StoredElement, width: float, half: int, circular: bool) -> Kernel:
+    """Return the kernel of a line; it may be longer than the axis, and all its weights are normalised."""
+    own, count = axes(b.of(b.counts)), b.counts[1]
+    ends = boundary(own, circular)
+    if not own:
+        return TruncatedGaussian(1.0, width, normalized=True)
+    if half <= ((count - 1) // 2 if circular else count - 1):
+        return TruncatedGaussian(1.0, width, 0.0, float(half), normalized=True, boundary=ends)
+    b.budget.take(2 * half + 1)
+    return Custom(taps.gaussian(width, half, half, True).weights, boundary=ends)
+
+
+def _strength(b: StoredElement, default: float) -> float:
+    """Return the amplitude; its sign has no effect on noise."""
+    return math.fabs(b.values.number("amplitude", default))
+
+
+CLASSES = {
+    "normal noise": normal_noise,
+    "normal noise 2d": normal_noise,
+    "correlated normal noise": correlated_noise,
+    "correlated normal noise 2d": correlated_noise,
+}

@@ -1,0 +1,144 @@
+"""Changes of size and dimension. The size of the input is that of the source, not of the parameters."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from deodar.couplings.product import Product
+from deodar.couplings.project import Project
+from deodar.couplings.weights import Weights
+from deodar.element import Element
+from deodar.elements.pattern import Pattern
+from deodar.numerics.axes import Axis, shape
+from deodar_interop.importers._piece import Dims, Inlet, Outlet, Piece, Unfit, axes, projection
+from deodar_interop.importers.dnf_composer.element import StoredElement
+from deodar_interop.importers.dnf_composer.interpolation import METHODS, matrix
+from deodar_interop.importers.dnf_composer.sizes import is_plane, size
+
+DENSE = 1_000_000
+"""Largest number of weights that resample a plane at once; beyond, each axis is resampled in turn."""
+
+COMPRESSIONS = {"sum": "sum", "average": "mean", "maximum": "max", "minimum": "min"}
+"""Reductions of `collapse`, and those of `Project`."""
+
+
+def resize(b: StoredElement) -> Piece:
+    """Translate `resize`: weights that interpolate."""
+    dims, method = b.dims(), b.values.choice("method", METHODS)
+    rows, came = _came(b, b.counts)
+    if rows != 1:
+        came *= rows  # a plane is taken as one line
+    b.budget.take(came * b.counts[1])
+    return _weights(b, b.of((1, came)), dims, matrix(method, came, b.counts[1]))
+
+
+def resize_2d(b: StoredElement) -> Piece:
+    """Translate `resize 2d`: interpolation along x, then along y."""
+    dims, method = b.dims(), b.values.choice("method", METHODS)
+    counts = _came(b, b.counts)
+    came = b.of(counts)
+    factors = [matrix(method, n, m) for n, m in zip(counts, b.counts, strict=True)]
+    if math.prod(f.size for f in factors) <= DENSE:
+        b.budget.take(math.prod(f.size for f in factors))
+        return _weights(b, came, dims, np.kron(factors[0], factors[1]))
+    pairs = [(d, a, z) for d in (1, 0) if (a := came[d]) != (z := dims[d])]
+    if None in came or None in dims or not pairs:
+        raise Unfit(f"it resamples {list(counts)} to {list(b.counts)} samples, which has no counterpart")
+    elements, inner = list[Element](), list[tuple[str, ...]]()
+    here = list(axes(came))
+    for stage, (d, old, new) in enumerate(pairs):
+        assert old is not None and new is not None
+        b.budget.take(factors[d].size)
+        wide = (*here, new)
+        here[d] = new
+        last = stage == len(pairs) - 1
+        reach, weights = b.named(f"spread along {new.name}"), b.named(f"weights along {old.name}")
+        spread = b.named(f"products along {old.name}")
+        elements += [
+            Project(wide, name=reach),
+            Pattern(weights, (new, old), factors[d]),
+            Product(name=spread),
+            Project(here, "sum", name=b.label if last else b.named(f"along {old.name}")),
+        ]
+        entry = elements[-5].name if stage else ""
+        inner += [(entry, reach)] if entry else []
+        inner += [(reach, spread), (weights, spread, "factor"), (spread, elements[-1].name)]
+    first = next(e.name for e in elements)
+    ordered = [elements[-1], *elements[:-1]]
+    return Piece(
+        ordered,
+        [[Inlet(first, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        inner,
+        needs=1,
+        why="Project, Product and Pattern",
+    )
+
+
+def collapse(b: StoredElement) -> Piece:
+    """Translate `collapse`: a reduction over one axis of a plane."""
+    dims = b.dims()
+    how = COMPRESSIONS[b.values.choice("compression", tuple(COMPRESSIONS))]
+    kept = 1 if b.values.choice("keepAxis", ("x", "y")) == "x" else 0
+    fallback = (1, b.counts[1]) if kept else (b.counts[1], 1)
+    counts = _came(b, fallback)
+    source = b.source()
+    if source is not None and not is_plane(source):
+        raise Unfit("its source has one dimension")
+    if counts[kept] != b.counts[1]:
+        raise Unfit(f"its output has {b.counts[1]} samples, where its source has {counts[kept]}")
+    came = b.of(counts)
+    places = [dims[1] if d == kept else None for d, axis in enumerate(came) if axis is not None]
+    return _projected(b, came, dims, places, how)
+
+
+def expand(b: StoredElement) -> Piece:
+    """Translate `expand`: copies of a line along the other axis of a plane."""
+    dims = b.dims()
+    along = 1 if b.values.choice("broadcastProfileAxis", ("x", "y")) == "x" else 0
+    counts = _came(b, (1, b.counts[along]))
+    source = b.source()
+    if source is not None and is_plane(source):
+        raise Unfit("its source has two dimensions")
+    if counts[1] != b.counts[along]:
+        raise Unfit(f"its input has {counts[1]} samples, its output {b.counts[along]}")
+    came = b.of(counts)
+    return _projected(b, came, dims, [dims[along]] if came[1] is not None else [], "sum")
+
+
+# ----------------------------------------------------------------------------------------------------- inside
+
+
+def _came(b: StoredElement, fallback: tuple[int, int]) -> tuple[int, int]:
+    """Return the size of the source, and report the parameters that repeat it."""
+    for name in ("input_x_max", "input_d_x", "input_y_max", "input_d_y"):
+        if name in b.element.values:
+            b.values.say(name, "carried", "it follows from the source, as in dnf-composer")
+    source = b.source()
+    return fallback if source is None else size(source)
+
+
+def _weights(b: StoredElement, came: Dims, dims: Dims, weights: np.ndarray) -> Piece:
+    ours = weights.reshape(shape(axes(dims)) + shape(axes(came)))
+    return Piece(
+        [Weights(ours, axes(dims), name=b.label)],
+        [[Inlet(b.label, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Weights",
+    )
+
+
+def _projected(b: StoredElement, came: Dims, dims: Dims, places: list[Axis | None], how: str) -> Piece:
+    return Piece(
+        [projection(b.label, axes(came), dims, places, how)],
+        [[Inlet(b.label, came, whole=True)]],
+        {"output": Outlet(b.label, dims)},
+        needs=1,
+        why="Project",
+    )
+
+
+CLASSES = {"resize": resize, "resize 2d": resize_2d, "collapse": collapse, "expand": expand}

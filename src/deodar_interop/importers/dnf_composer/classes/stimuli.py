@@ -1,0 +1,190 @@
+"""Stimuli, timed or not."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import math
+
+import numpy as np
+
+from deodar.couplings.delay import Delay
+from deodar.elements.boost import Boost
+from deodar.elements.gaussian_stimulus import GaussianStimulus
+from deodar.elements.pattern import Pattern
+from deodar.numerics.axes import Axis, shape
+from deodar.numerics.windows import Window
+from deodar_interop.importers._piece import Dims, Outlet, Piece, axes
+from deodar_interop.importers.dnf_composer import profile
+from deodar_interop.importers.dnf_composer.element import StoredElement
+from deodar_interop.importers.dnf_composer.file import number
+from deodar_interop.importers.dnf_composer.onsets import spans
+
+EXACT = 1e-12
+"""Largest difference, as a share, between the extent of an axis and its samples times its step."""
+
+NOTHING = 1e-12
+"""Sum of a pattern below which dnf-composer does not normalise it."""
+
+
+def gauss_stimulus(b: StoredElement) -> Piece:
+    """Translate `gauss stimulus`, whose width is in samples, and its timed form."""
+    dims = b.dims()
+    count = b.counts[1]
+    position = _position(b, "position", "x_max", 50) / b.spacing("d_x")
+    width, circular = b.values.width("width", 5), b.values.flag("circular", True)
+    amplitude, normalized = b.values.number("amplitude", 15), b.values.flag("normalized", False)
+
+    def pattern() -> np.ndarray:
+        factor = profile.line(count, position, width, circular)
+        total = factor.sum() if normalized else 1.0
+        return amplitude * (factor / total if total > 0 else factor)
+
+    b.start = pattern
+    if dims[1] is None:
+        return _stimulus(b, dims, Boost(b.label, axes(dims), float(pattern()[0])))
+    ends = boundary(axes(dims), circular)
+    bell = GaussianStimulus(
+        b.label, axes(dims), position, width, amplitude, normalized=normalized, boundary=ends
+    )
+    return _stimulus(b, dims, bell)
+
+
+def gauss_stimulus_2d(b: StoredElement) -> Piece:
+    """Translate `gauss stimulus 2d`, whose width is in units, and its timed form.
+
+    Where a circular axis is no whole number of steps, no stimulus of deodar has its distances, and the
+    pattern is stored.
+    """
+    dims = b.dims()
+    width, circular = b.values.width("width", 5), b.values.flag("circular", True)
+    amplitude, normalized = b.values.number("amplitude", 15), b.values.flag("normalized", False)
+    sides = [_side(b, letter, circular) for letter in "yx"]
+
+    def factors() -> list[np.ndarray]:
+        return [profile.along(side.points, side.period, side.position, width) for side in sides]
+
+    total = math.prod(float(factor.sum()) for factor in factors()) if normalized else 1.0
+    normalized = normalized and total > NOTHING
+
+    def pattern() -> np.ndarray:
+        return (amplitude / (total if normalized else 1.0) * np.outer(*factors())).reshape(-1)
+
+    b.start, own = pattern, axes(dims)
+    if not own:
+        return _stimulus(b, dims, Boost(b.label, own, float(pattern()[0])))
+    if len(own) < 2 or not all(side.whole for side in sides):
+        b.budget.take(math.prod(b.counts))
+        return _stimulus(b, dims, Pattern(b.label, own, pattern().reshape(shape(own))))
+    bell = GaussianStimulus(
+        b.label,
+        own,
+        center=[side.position / side.step for side in sides],
+        sigma=[width / side.step for side in sides],
+        amplitude=amplitude,
+        normalized=normalized,
+        boundary=boundary(own, circular),
+    )
+    return _stimulus(b, dims, bell)
+
+
+def boost(b: StoredElement) -> Piece:
+    """Translate `boost stimulus` and its form over a plane; one that is not active keeps its amplitude."""
+    dims = b.dims()
+    amplitude, active = b.values.number("amplitude", 5), b.values.flag("isActive", True)
+    b.start = amplitude if active else 0.0
+    element = Boost(b.label, axes(dims), amplitude, windows=() if active else [_never()])
+    if not active:
+        b.values.say("isActive", "carried", "as a window in which it is never on")
+    return Piece([element], [], {"output": Outlet(b.label, dims, still=True)}, why="Boost")
+
+
+# ----------------------------------------------------------------------------------------------------- inside
+
+
+@dc.dataclass(frozen=True)
+class Side:
+    """One axis of a plane, in units: samples, step, extent, the position of a peak, and whether it wraps."""
+
+    count: int
+    step: float
+    extent: float
+    position: float
+    circular: bool
+
+    @property
+    def points(self) -> np.ndarray:
+        """The positions of the samples."""
+        return np.arange(1.0, self.count + 1) * self.step
+
+    @property
+    def period(self) -> float | None:
+        """The extent after which it wraps; None if it does not."""
+        return self.extent if self.circular else None
+
+    @property
+    def whole(self) -> bool:
+        """Whether the samples fill the extent, so that deodar has the same distances."""
+        return not self.circular or abs(self.count * self.step - self.extent) <= EXACT * self.extent
+
+
+def _side(b: StoredElement, letter: str, circular: bool) -> Side:
+    extent = number(b.element.values.get(f"{letter}_max")) or 1.0
+    position = _position(b, f"position_{letter}", f"{letter}_max", 50)
+    return Side(b.counts["yx".index(letter)], b.spacing(f"d_{letter}"), extent, position, circular)
+
+
+def _position(b: StoredElement, name: str, extent: str, default: float) -> float:
+    value = b.values.number(name, default)
+    longest = number(b.element.values.get(extent, 1.0)) or 1.0
+    if name in b.element.values and not 0 <= value < longest:
+        b.values.say(
+            name, "approximated", f"{value:g} is outside 0..{longest:g}, where dnf-composer refuses the file"
+        )
+    return value
+
+
+def _stimulus(b: StoredElement, dims: Dims, element: GaussianStimulus | Pattern | Boost) -> Piece:
+    """Return a stimulus; one that is timed passes a register, so that its name shows at t what led to t."""
+    why = type(element).__name__
+    if not b.element.kind.startswith("timed"):
+        return Piece([element], [], {"output": Outlet(b.label, dims, still=True)}, why=why)
+    b.start = 0.0
+    element = dc.replace(element, name=b.named("stimulus"), windows=_windows(b))
+    outlet = Outlet(b.label, dims, state=True)
+    register = Delay(axes(dims), 0.0, name=b.label)
+    return Piece(
+        [register, element], [], {"output": outlet}, [(element.name, b.label)], why=f"{why} and Delay"
+    )
+
+
+def boundary(own: tuple[Axis, ...], circular: bool) -> list[str] | None:
+    """Return boundaries that differ from those of the axes, else None."""
+    ends = ["periodic" if circular else "zero"] * len(own)
+    return None if ends == ["periodic" if a.periodic else "zero" for a in own] else ends
+
+
+def _windows(b: StoredElement) -> list[Window]:
+    """Return the windows of a timed stimulus.
+
+    dnf-composer counts the time first, so that the value for t is used in the step that leads to t.
+    """
+    b.values.optional.add("onTimes")
+    periods = [(a, z) for a, z in b.values.rows("onTimes", 2)]
+    if periods and b.values.lines["onTimes"].verdict == "carried":
+        b.values.say("onTimes", "carried", "moved by one step, since dnf-composer counts the time first")
+    found = [Window((a - 1) * b.step, z * b.step) for a, z in spans(periods, b.step)]
+    return found or [_never()]
+
+
+def _never() -> Window:
+    return Window(-1.0, -1.0)
+
+
+CLASSES = {
+    "gauss stimulus": gauss_stimulus,
+    "gauss stimulus 2d": gauss_stimulus_2d,
+    "timed gauss stimulus": gauss_stimulus,
+    "timed gauss stimulus 2d": gauss_stimulus_2d,
+    "boost stimulus": boost,
+    "boost stimulus 2d": boost,
+}

@@ -1,0 +1,134 @@
+"""The context in which one element of a simulation is translated."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from deodar.importers._beside import Beside
+from deodar.importers.report import Line
+from deodar.parameters import show
+from deodar_interop.importers._foreign import Foreign
+from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._piece import Dims, Unfit
+from deodar_interop.importers.dnf_composer.file import StoredSimulation, number
+from deodar_interop.importers.dnf_composer.sizes import SampleAxes, is_plane, samples, size
+from deodar_interop.importers.dnf_composer.values import StoredValues
+
+MOST_VALUES = 20_000_000
+"""Largest number of array values in a model, of all elements together (a guess; they take 160 MB)."""
+
+
+class ValueBudget:
+    """The number of array values that a model may still have."""
+
+    def __init__(self) -> None:
+        self.left = MOST_VALUES
+
+    def take(self, count: int) -> None:
+        """Count the values of an array before it is computed.
+
+        Raises:
+            Unfit: the arrays of the file have too many values.
+        """
+        if count > self.left:
+            raise Unfit(f"its {count} weights exceed the {MOST_VALUES} that are read from a file")
+        self.left -= count
+
+
+class StoredElement:
+    """The context of the translation of one element.
+
+    Attributes:
+        simulation: the whole file.
+        step: the Euler step.
+        element, label: the element, and its name.
+        values: its parameters.
+        asked: components that other elements read.
+        beside: reads a file in the folder of the simulation.
+        budget: limits the arrays of the model.
+        start: output after the initialisation: one number, or a function that computes one for each sample.
+        levels: values of further components at that time.
+        extra: report lines that are not about a parameter.
+    """
+
+    def __init__(
+        self,
+        simulation: StoredSimulation,
+        axes: SampleAxes,
+        element: Foreign,
+        asked: set[str],
+        names: FreeNames,
+        budget: ValueBudget,
+        beside: Beside,
+    ) -> None:
+        self.simulation = simulation
+        self.step = simulation.step
+        self.element = element
+        self.label = element.label
+        self.values = StoredValues(element)
+        self.asked = asked
+        self.budget = budget
+        self.beside = beside
+        self.start: float | Callable[[], np.ndarray] = 0.0
+        self.levels: dict[str, float] = {}
+        self.extra: list[Line] = []
+        self._axes = axes
+        self._names = names
+
+    @property
+    def plane(self) -> bool:
+        """Whether the element has two dimensions."""
+        return is_plane(self.element)
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """The numbers of samples along y and x."""
+        return size(self.element)
+
+    def dims(self) -> Dims:
+        """Return the dimensions of the output, and report the parameters that state them.
+
+        Raises:
+            Unfit: the file states no valid extent.
+        """
+        for extent, step in (("x_max", "d_x"), ("y_max", "d_y")):
+            own = extent == "x_max" or self.plane
+            count = samples(self.element, extent, step)
+            if own and count is None:
+                given = [self.element.values.get(name) for name in (extent, step)]
+                raise Unfit(f"expected {extent} and {step} above 0, got {show(given)}")
+            self._say_extent(extent, step, count if own else None)
+        return self._axes.of(self.counts)
+
+    def of(self, counts: Sequence[int]) -> Dims:
+        """Return the dimensions of a size."""
+        return self._axes.of(counts)
+
+    def source(self) -> Foreign | None:
+        """Return the element that the first input reads; None without inputs."""
+        return self.simulation.by_label[self.element.sources[0].label] if self.element.sources else None
+
+    def spacing(self, name: str) -> float:
+        """Return `d_x` or `d_y`."""
+        return number(self.element.values.get(name, 1.0)) or 1.0
+
+    def named(self, what: str) -> str:
+        """Return a name for a further deodar element: the label and what it is."""
+        return self._names.new(f"{self.label} {what}")
+
+    def _say_extent(self, extent: str, step: str, count: int | None) -> None:
+        why = "of the second dimension, which a line has not" if count is None else f"as {count} samples"
+        length = number(self.element.values.get(extent))
+        for name in (extent, step):
+            if name not in self.element.values:
+                if extent == "x_max":
+                    self.values.say(name, "approximated", "it is not in the file; 1 is used")
+                continue
+            whole = name != extent or length is None or length == int(length)
+            self.values.say(
+                name,
+                "carried" if whole else "approximated",
+                why if whole else f"{why}; dnf-composer refuses an extent that is not whole",
+            )

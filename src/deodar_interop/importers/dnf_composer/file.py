@@ -1,0 +1,194 @@
+"""The file of a simulation of dnf-composer as plain data: names, labels, parameters and inputs."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import functools
+import math
+from collections.abc import Mapping
+from typing import Any, cast
+
+from deodar import codec
+from deodar.errors import DocumentError
+from deodar.importers.report import Line
+from deodar.parameters import show
+from deodar_interop.importers._foreign import Foreign, Source, plain_text
+from deodar_interop.importers._names import FreeNames
+from deodar_interop.importers._repeated import repeated_keys
+
+MOST_ELEMENTS = 4000
+"""Largest number of elements; more are refused (a guess: a hundred times the largest published)."""
+
+MOST_INPUTS = 20000
+"""Largest number of connections, by the same rule."""
+
+STEP = 1.0
+"""Euler step of a file that states none."""
+
+COMMON = ("uniqueName", "label", "inputs")
+"""Keys of an element that are not parameters."""
+
+
+@dc.dataclass(frozen=True)
+class StoredSimulation:
+    """The content of a file: the name, the step, the elements in order, and the report lines of reading."""
+
+    name: str
+    step: float
+    elements: tuple[Foreign, ...]
+    lines: tuple[Line, ...]
+
+    @functools.cached_property
+    def by_label(self) -> Mapping[str, Foreign]:
+        """Return the elements by their labels."""
+        return {e.label: e for e in self.elements}
+
+
+def parse(content: bytes) -> StoredSimulation:
+    """Parse the content of a file: an object with `elements`, or the bare list of elements of older versions.
+
+    Raises:
+        DocumentError: the content is not JSON, is nested too deeply, or does not describe a simulation.
+    """
+    data = codec.foreign(content, leading=True)
+    body: dict[str, Any] = (
+        {"elements": data}
+        if isinstance(data, list)
+        else cast("dict[str, Any]", data)
+        if isinstance(data, dict)
+        else {}
+    )
+    entries = body.get("elements")
+    if not isinstance(entries, list):
+        there = f"its elements are {show(entries)}" if "elements" in body else "it has no list of elements"
+        raise DocumentError(
+            f"holds no simulation of dnf-composer: {there}",
+            fix='It is an object {"identifier": ..., "deltaT": ..., "elements": [...]}, or the list alone',
+        )
+    found = cast("list[Any]", entries)
+    if len(found) > MOST_ELEMENTS:
+        raise DocumentError(f"holds {len(found)} elements; at most {MOST_ELEMENTS} are read")
+    if found and not any(isinstance(e, dict) and {"uniqueName", "label"} & set(cast(Any, e)) for e in found):
+        raise DocumentError("holds no simulation of dnf-composer: no entry of its list is an element")
+    lines = repeated_keys(data, _label)
+    name, step = _name(body, lines), _step(body, isinstance(data, list), lines)
+    lines += [
+        Line("", "file", plain_text(key) or "a key without a name", "dropped", "dnf-composer has no such key")
+        for key in body
+        if key not in ("identifier", "deltaT", "elements")
+    ]
+    return StoredSimulation(name, step, _elements(found, lines), tuple(lines))
+
+
+# ------------------------------------------------------------------------------------------ parts of the file
+
+
+def _label(entry: dict[str, Any]) -> str | None:
+    """Return the name of a JSON object that is an element, else None."""
+    return plain_text(entry.get("uniqueName")) if "uniqueName" in entry else None
+
+
+def _name(body: dict[str, Any], lines: list[Line]) -> str:
+    """Return the name of the simulation; "" if the file states none."""
+    if "identifier" not in body:
+        return ""
+    given = body["identifier"]
+    if not isinstance(given, str):
+        lines.append(Line("", "file", "identifier", "approximated", f"it is {show(given)}, not a name"))
+        return ""
+    lines.append(Line("", "file", "identifier", "carried"))
+    return plain_text(given)
+
+
+def _step(body: dict[str, Any], bare: bool, lines: list[Line]) -> float:
+    if "deltaT" not in body:
+        why = "the bare list of elements states none" if bare else "it is not in the file"
+        lines.append(
+            Line("", "file", "deltaT", "approximated", f"{why}; dnf-composer's default {STEP:g} is used")
+        )
+        return STEP
+    given = number(body["deltaT"])
+    if given is None or not 0 < given <= 1e12:
+        lines.append(
+            Line("", "file", "deltaT", "approximated", f"it is {show(body['deltaT'])}; {STEP:g} is used")
+        )
+        return STEP
+    lines.append(Line("", "file", "deltaT", "carried"))
+    return given
+
+
+def number(value: Any) -> float | None:
+    """Return a finite number; None for everything else, and for true and false."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return None
+    try:
+        found = float(value)
+    except OverflowError:
+        return None
+    return found if math.isfinite(found) else None
+
+
+def _elements(entries: list[Any], lines: list[Line]) -> tuple[Foreign, ...]:
+    """Return the elements with different labels; of several elements of one name the first is kept."""
+    labels: dict[str, str] = {}
+    names, kept = FreeNames(()), list[tuple[int, str, dict[str, Any]]]()
+    for place, entry in enumerate(entries):
+        if not isinstance(entry, dict):
+            lines.append(
+                Line(f"entry {place + 1}", "element", show(entry), "dropped", "it is not an element")
+            )
+            continue
+        body = cast("dict[str, Any]", entry)
+        given = body.get("uniqueName")
+        if isinstance(given, str) and given in labels:
+            why = "a second element of this name; dnf-composer keeps the first"
+            lines.append(Line(labels[given], "element", kind(body), "dropped", why))
+            continue
+        label = names.new(plain_text(given) or f"element {place + 1}")
+        if label != given:
+            why = f"this is not a name here; the element is called {label!r}"
+            lines.append(Line(label, "element", show(given), "approximated", why))
+        if isinstance(given, str):
+            labels[given] = label
+        kept.append((place, label, body))
+    found = tuple(
+        Foreign(
+            place,
+            label,
+            kind(body),
+            {plain_text(key): value for key, value in body.items() if key not in COMMON},
+            tuple(_sources(label, body, labels, lines)),
+        )
+        for place, label, body in kept
+    )
+    if sum(len(e.sources) for e in found) > MOST_INPUTS:
+        raise DocumentError(f"holds more than {MOST_INPUTS} connections")
+    return found
+
+
+def kind(body: dict[str, Any]) -> str:
+    """Return the text of a label; its number differs between versions and has no meaning."""
+    given = body.get("label")
+    pair = cast("list[Any]", given) if isinstance(given, list) else [given]
+    text = pair[-1] if len(pair) <= 2 and pair else None
+    return (plain_text(text) if isinstance(text, str) else "") or "unknown"
+
+
+def _sources(label: str, body: dict[str, Any], labels: Mapping[str, str], lines: list[Line]) -> list[Source]:
+    given = body.get("inputs")
+    if given is None or given == {}:
+        return []
+    if not isinstance(given, list):
+        lines.append(Line(label, "connection", "inputs", "dropped", f"it is {show(given)}, not a list"))
+        return []
+    out: list[Source] = []
+    for entry in cast("list[Any]", given):
+        pair = cast("list[Any]", entry) if isinstance(entry, list) else []
+        if len(pair) != 2 or not all(isinstance(part, str) for part in pair):
+            lines.append(Line(label, "connection", show(entry), "dropped", "it is not [name, component]"))
+        elif pair[0] not in labels:
+            what = f"{plain_text(pair[0])}.{plain_text(pair[1])}"
+            lines.append(Line(label, "connection", what, "dropped", "there is no such element"))
+        else:
+            out.append(Source(labels[pair[0]], plain_text(pair[1])))
+    return out
