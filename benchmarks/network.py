@@ -61,8 +61,8 @@ def screen(width: int, height: int, hz: float):  # type: ignore[no-untyped-def]
 
 def plant(at: str, size: tuple[int, int], hz: float, pipe: Any) -> None:
     """Serve pictures until the other end says so; send what was measured after each request."""
-    from deodar.worlds.zenoh.message import WireMessage
-    from deodar.worlds.zenoh.server import WorldServer
+    from deodar_robots.zenoh.message import WireMessage
+    from deodar_robots.zenoh.server import WorldServer
 
     world = screen(*size, hz)
     server = WorldServer(world, "plant", at, "live")
@@ -101,7 +101,7 @@ def echo(at: str, seconds: float, pipe: Any) -> None:
     import numpy as np
 
     from deodar.numerics.axes import Axis
-    from deodar.worlds.zenoh.zenoh import Zenoh
+    from deodar_robots.zenoh.zenoh import Zenoh
 
     world = Zenoh(at=at, patience=PATIENCE)
     axes = tuple(
@@ -160,7 +160,7 @@ def head(at: str, pipe: Any) -> None:
     import numpy as np
 
     import deodar as dd
-    from deodar.worlds.zenoh.server import WorldServer
+    from deodar_robots.zenoh.server import WorldServer
 
     errors: list[float] = []
 
@@ -211,7 +211,7 @@ def returning(at: str, pipe: Any) -> None:
     import numpy as np
 
     from deodar.errors import WorldError
-    from deodar.worlds.zenoh.zenoh import Zenoh
+    from deodar_robots.zenoh.zenoh import Zenoh
 
     world = Zenoh(at=at, patience=PATIENCE)
     pipe.send("ready")
@@ -250,7 +250,7 @@ def told(pipe: Any, request: str = "report") -> Any:
 
 def free() -> str:
     """Return an endpoint that is free now."""
-    from deodar.worlds.zenoh.served_world import free_endpoint
+    from deodar_robots.zenoh.served_world import free_endpoint
 
     return free_endpoint()
 
@@ -370,7 +370,7 @@ def step(periods: int = 1000) -> list[tuple[str, float, float]]:
     import numpy as np
 
     import deodar as dd
-    from deodar.worlds.zenoh.served_world import ServedWorld
+    from deodar_robots.zenoh.served_world import ServedWorld
 
     def model() -> dd.Model:
         found = dd.Model("avoiding", dt=16)

@@ -27,7 +27,7 @@ from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.papers.saliency.scenes import photographs
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.mujoco import MuJoCo
 
 ROOT = Path(__file__).parents[1]
 STEPS = 300

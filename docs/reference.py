@@ -505,7 +505,7 @@ def _unpacked(obj: Any, found: list[inspect.Parameter]) -> list[inspect.Paramete
 
 def robots(text: str) -> str:
     """Return the page of robot files with new tables of keys."""
-    file = importlib.import_module("deodar.worlds.robot.robot_file")
+    file = importlib.import_module("deodar_robots.robot.robot_file")
     for declared in (file.RobotFile, file.RobotSensor, file.RobotMotor, file.RobotPlace):
         begin, end = f"<!-- keys of {declared.__name__} -->\n", f"<!-- end of {declared.__name__} -->\n"
         before, rest = text.split(begin, 1)

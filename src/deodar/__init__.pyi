@@ -124,7 +124,6 @@ from deodar.elements.sensor import Sensor as Sensor
 from deodar.elements.soft_winner_take_all import SoftWinnerTakeAll as SoftWinnerTakeAll
 from deodar.elements.time_series import TimeSeries as TimeSeries
 from deodar.elements.transient_detector import TransientDetector as TransientDetector
-from deodar.environments.as_env import as_env as as_env
 from deodar.experiments.actions import Action as Action
 from deodar.experiments.actions import End as End
 from deodar.experiments.actions import Move as Move
@@ -211,20 +210,21 @@ from deodar.worlds._pure import PureWorld as PureWorld
 from deodar.worlds.arena.arena import Arena as Arena
 from deodar.worlds.camera import Camera as Camera
 from deodar.worlds.combined import Combined as Combined
-from deodar.worlds.event_file.event_file import EventFile as EventFile
-from deodar.worlds.eye.eye import Eye as Eye
-from deodar.worlds.gymnasium.gymnasium import Gymnasium as Gymnasium
-from deodar.worlds.mujoco.mujoco import MuJoCo as MuJoCo
 from deodar.worlds.picture import Picture as Picture
 from deodar.worlds.recording import Recording as Recording
-from deodar.worlds.robot.robot import Robot as Robot
-from deodar.worlds.ros2.ros2 import ROS2 as ROS2
-from deodar.worlds.ros_bag.ros_bag import ROSBag as ROSBag
 from deodar.worlds.video import Video as Video
-from deodar.worlds.zenoh.zenoh import Zenoh as Zenoh
 from deodar_interop.importers.cedar.experiment import load_cedar_experiment as load_cedar_experiment
 from deodar_interop.records.cedar import load_cedar as load_cedar
 from deodar_interop.records.mat import load_mat as load_mat
+from deodar_robots.environments.as_env import as_env as as_env
+from deodar_robots.event_file.event_file import EventFile as EventFile
+from deodar_robots.eye.eye import Eye as Eye
+from deodar_robots.gymnasium.gymnasium import Gymnasium as Gymnasium
+from deodar_robots.mujoco.mujoco import MuJoCo as MuJoCo
+from deodar_robots.robot.robot import Robot as Robot
+from deodar_robots.ros2.ros2 import ROS2 as ROS2
+from deodar_robots.ros_bag.ros_bag import ROSBag as ROSBag
+from deodar_robots.zenoh.zenoh import Zenoh as Zenoh
 from deodar_spikes.comparison import compare_spikes as compare_spikes
 from deodar_spikes.prepare import SpikingOptions as SpikingOptions
 

@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.architectures.looking import SAMPLES, looking, retina, shifts
 from deodar.errors import ParameterError
-from deodar.worlds.eye.optics import CENTRE, Optics
+from deodar_robots.eye.optics import CENTRE, Optics
 
 EYE = dd.Eye()
 

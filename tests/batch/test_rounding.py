@@ -19,7 +19,7 @@ HALVES = """
 import json, sys
 import deodar as dd
 from deodar.session.model_world import ModelWorld
-from deodar.worlds.zenoh.served_world import ServedWorld
+from deodar_robots.zenoh.served_world import ServedWorld
 from tests.session.test_model_world import halves, whole
 
 separate, remote = sys.argv[1] == "separate", sys.argv[2] == "remote"

@@ -14,7 +14,7 @@ import deodar as dd
 from deodar.analysis.peaks import peaks
 from deodar.papers.saliency.scenes import photographs
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.mujoco import MuJoCo
 from tests.docs.source import EXAMPLES, module
 
 make = module(EXAMPLES / "make.py")

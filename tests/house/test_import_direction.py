@@ -34,7 +34,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "batch live",
         "analysis",
         "experiments",
-        "environments importers architectures",
+        "importers architectures",
         "exporters",
         "figures",
         "papers",

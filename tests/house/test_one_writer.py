@@ -19,9 +19,9 @@ OTHERS = {
     "server.redirect_file": "a secret of mode 0600, in a temporary folder",
     "server.embodiment": "a file in a temporary folder",
     "deodar_spikes.norse": "the file for norse, in a temporary folder",
-    "worlds.event_file.event_file": "an example in a temporary folder",
-    "worlds.event_file.aedat4_process": "its output, a pipe",
-    "worlds.robot.schema": "the generated schema, in the package",
+    "deodar_robots.event_file.event_file": "an example in a temporary folder",
+    "deodar_robots.event_file.aedat4_process": "its output, a pipe",
+    "deodar_robots.robot.schema": "the generated schema, in the package",
     "batch.workers": "the board that processes map, in a temporary folder",
 }
 """Modules that write files themselves, with the reason."""

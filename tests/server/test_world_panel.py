@@ -15,7 +15,7 @@ import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.zenoh.served_world import ServedWorld
+from deodar_robots.zenoh.served_world import ServedWorld
 from tests.server.page import Page, page, play, studio
 
 LAYOUT: dict[str, Any] = {

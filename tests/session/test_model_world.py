@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.cli import main
 from deodar.errors import ModelError, WorldError
 from deodar.session.model_world import ModelWorld
-from deodar.worlds.zenoh.served_world import ServedWorld
+from deodar_robots.zenoh.served_world import ServedWorld
 
 LINE = [dd.Axis("x", 0, 30, 31)]
 

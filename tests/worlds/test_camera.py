@@ -22,7 +22,7 @@ from deodar.errors import DeodarError, WorldError
 from deodar.recording.opened import again
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
-from deodar.worlds.robot.robot import Robot
+from deodar_robots.robot.robot import Robot
 from tests.worlds.camera_peer import PeerServer, free_port, silent
 
 AXES = Camera.example_axes("picture")

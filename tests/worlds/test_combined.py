@@ -16,9 +16,9 @@ from deodar.recording.opened import again, named
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.camera import Camera
 from deodar.worlds.combined import Combined
-from deodar.worlds.mujoco.mujoco import MuJoCo
 from deodar.worlds.picture import Picture
 from deodar.worlds.video import Video
+from deodar_robots.mujoco.mujoco import MuJoCo
 
 AXES = (Axis("column", 0, 127, 128), Axis("row", 0, 95, 96), Axis("channel", 0, 2, 3))
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from deodar.worlds._base import Signal
-from deodar.worlds._motor_limiter import MotorLimiter
 from deodar.worlds._motor_rule import MotorRule
+from deodar_robots.motor_limiter import MotorLimiter
 
 MOTORS = {"fast": Signal("speed", ()), "slow": Signal("speed", (2,))}
 RULES = {"slow": MotorRule(limits=(-5.0, 5.0), slew=100.0)}

@@ -10,7 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import RunWarning, WorldError
-from deodar.worlds.event_file import aedat2
+from deodar_robots.event_file import aedat2
 
 HEADER = b"#!AER-DAT2.0\r\n# This is a raw AE data file - do not edit\r\n"
 

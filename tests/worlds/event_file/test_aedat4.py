@@ -13,7 +13,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import MissingExtra, RunWarning, WorldError
-from deodar.worlds.event_file import aedat4
+from deodar_robots.event_file import aedat4
 
 HERE = Path(__file__).parent
 

@@ -14,7 +14,7 @@ import pytest
 import deodar as dd
 from deodar.errors import RunWarning, WorldError
 from deodar.worlds import _capture
-from deodar.worlds.event_file import aedat2, aedat4
+from deodar_robots.event_file import aedat2, aedat4
 
 HERE = Path(__file__).parent
 NUMBERS = (b"\xff\xff\xff\xff", bytes(4), b"\xff\xff\xff\x7f", b"\x00\x00\x00\x80", b"\x00\x00\x00\x40")

@@ -15,8 +15,8 @@ from deodar.errors import WorldError
 from deodar.recording.opened import again, named
 from deodar.server.embodiment import Embodiment, preview
 from deodar.worlds import _capture
-from deodar.worlds.event_file import aedat2
-from deodar.worlds.eye.event_camera import EventCamera
+from deodar_robots.event_file import aedat2
+from deodar_robots.eye.event_camera import EventCamera
 
 HERE = Path(__file__).parent
 PIXELS = (dd.Axis("column", 0, 127, 128), dd.Axis("row", 0, 127, 128))

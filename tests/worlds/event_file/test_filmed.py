@@ -12,8 +12,8 @@ import pytest
 import deodar as dd
 from deodar.errors import WorldError
 from deodar.worlds import _capture
-from deodar.worlds.event_file.filmed import DARK
-from deodar.worlds.eye.event_camera import EventCamera
+from deodar_robots.event_file.filmed import DARK
+from deodar_robots.eye.event_camera import EventCamera
 
 QUIET = EventCamera(spread=0.0, leak=0.0, shot=0.0)
 WHOLE = (dd.Axis("column", 0, 63, 64), dd.Axis("row", 0, 47, 48))

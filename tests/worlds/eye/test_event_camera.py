@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from deodar.numerics.axes import Axis
-from deodar.worlds.eye.event_camera import EventCamera, rate
+from deodar_robots.eye.event_camera import EventCamera, rate
 
 SIZE = 128
 KEY = jnp.asarray([3, 7], jnp.uint32)

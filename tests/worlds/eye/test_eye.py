@@ -7,8 +7,8 @@ import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
-from deodar.worlds.eye.event_camera import EventCamera
-from deodar.worlds.eye.optics import CENTRE, Optics
+from deodar_robots.eye.event_camera import EventCamera
+from deodar_robots.eye.optics import CENTRE, Optics
 
 PLANE = dd.Eye.example_axes("events")
 PAIR = dd.Eye.example_axes("pose")

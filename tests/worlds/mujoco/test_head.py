@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from deodar.numerics.axes import Axis
-from deodar.worlds.robot.robot import Robot
+from deodar_robots.robot.robot import Robot
 
 PICTURE = (Axis("column", 0, 31, 32), Axis("row", 0, 15, 16), Axis("channel", 0, 2, 3))
 HALF = np.degrees(np.arctan(2 * np.tan(np.radians(15))))

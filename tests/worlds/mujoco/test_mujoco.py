@@ -14,7 +14,7 @@ import deodar as dd
 from deodar.errors import MissingExtra, UnknownName, WorldError
 from deodar.numerics import homography
 from deodar.numerics.axes import Axis
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.mujoco import MuJoCo
 
 FINE = Axis("column", 0, 159, 160), Axis("row", 0, 119, 120), Axis("channel", 0, 2, 3)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.mujoco import MuJoCo
 
 CORNERS = [(-0.35, 0.54), (0.35, 0.54), (0.35, 0.06), (-0.35, 0.06), (0.08, 0.06)]
 

@@ -10,8 +10,8 @@ import pytest
 
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
-from deodar.worlds.mujoco import rendering
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco import rendering
+from deodar_robots.mujoco.mujoco import MuJoCo
 
 AXES = (Axis("column", 0, 127, 128), Axis("row", 0, 95, 96), Axis("channel", 0, 2, 3))
 

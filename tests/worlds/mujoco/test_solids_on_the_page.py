@@ -12,7 +12,7 @@ import deodar as dd
 from deodar.elements.sensor import Sensor
 from deodar.numerics.axes import Axis
 from deodar.worlds._solids import POSE
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.mujoco import MuJoCo
 from tests.server.page import Page, page, play, studio
 
 

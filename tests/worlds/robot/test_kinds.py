@@ -14,9 +14,9 @@ import deodar as dd
 from deodar import registry
 from deodar.cli import main
 from deodar.numerics.axes import Axis, shape
-from deodar.worlds.robot.robot import NOT_DATA, Robot
-from deodar.worlds.ros2.example_node import MOTORS, SENSORS, ExampleNode
-from deodar.worlds.zenoh.served_world import ServedWorld
+from deodar_robots.robot.robot import NOT_DATA, Robot
+from deodar_robots.ros2.example_node import MOTORS, SENSORS, ExampleNode
+from deodar_robots.zenoh.served_world import ServedWorld
 
 PICTURES = {"picture": [Axis("x", 0, 7, 8), Axis("y", 0, 5, 6), Axis("channel", 0, 2, 3)]}
 

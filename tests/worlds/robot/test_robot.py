@@ -15,9 +15,9 @@ from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
 from deodar.recording.opened import again, named
 from deodar.worlds._motor_rule import MotorRule
-from deodar.worlds.robot import robot_file, schema
-from deodar.worlds.robot.robot import Robot
-from deodar.worlds.zenoh.served_world import ServedWorld
+from deodar_robots.robot import robot_file, schema
+from deodar_robots.robot.robot import Robot
+from deodar_robots.zenoh.served_world import ServedWorld
 
 EPUCK = {"robot": 1, "name": "mine", "kind": "arena", "settings": {"layout": "blocks", "unit": "cm"}}
 
@@ -54,7 +54,7 @@ def test_every_shipped_robot_is_valid_and_reads_its_sensors():
 
 def test_the_shipped_schema_is_up_to_date_and_refuses_what_is_refused():
     assert schema.SHIPPED.read_text(encoding="utf-8") == schema.text(), (
-        "write it again: python -m deodar.worlds.robot.schema"
+        "write it again: python -m deodar_robots.robot.schema"
     )
     validator = jsonschema.Draft202012Validator(json.loads(schema.SHIPPED.read_text()))
     for wrong in ({"robot": 2}, {"strange": 1}, {"motors": {"left": {"slew": 0}}}, {"period": -1}):

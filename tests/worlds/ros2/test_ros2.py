@@ -19,10 +19,10 @@ import pytest
 
 import deodar as dd
 from deodar.errors import MissingExtra, WorldError
-from deodar.worlds.ros2 import message_types
-from deodar.worlds.ros2.motor_types import MOTOR_TYPES
-from deodar.worlds.ros2.ros2 import ROS2
-from deodar.worlds.ros2.sensor_types import SENSOR_TYPES
+from deodar_robots.ros2 import message_types
+from deodar_robots.ros2.motor_types import MOTOR_TYPES
+from deodar_robots.ros2.ros2 import ROS2
+from deodar_robots.ros2.sensor_types import SENSOR_TYPES
 from tests.house.source import ROOT
 from tests.worlds.ros2.fake import GID, HASHES, Cdr, distance, key, scan
 
@@ -209,7 +209,7 @@ def test_a_topic_that_falls_silent_is_named(robot):
 
 
 def test_a_topic_without_a_publisher_is_named_with_the_nearest_one(robot, monkeypatch):
-    monkeypatch.setattr("deodar.worlds.ros2.ros2.FIRST", 0.5)
+    monkeypatch.setattr("deodar_robots.ros2.ros2.FIRST", 0.5)
     world = begun(robot, {"scan": {**SCAN, "topic": "/scam"}}, patience=0.2)
     with pytest.raises(WorldError, match=r"the topic /scam at .* has no message that was read.*/scan"):
         world.sense("scan", BEAMS, 0.0)
@@ -332,7 +332,7 @@ def test_messages_that_are_lost_are_counted(robot):
 
 
 def test_another_domain_hears_nothing(robot, monkeypatch):
-    monkeypatch.setattr("deodar.worlds.ros2.ros2.FIRST", 0.3)
+    monkeypatch.setattr("deodar_robots.ros2.ros2.FIRST", 0.3)
     world = begun(robot, {"scan": SCAN}, domain=7, patience=0.2)
     with pytest.raises(WorldError, match=r"No node publishes there\. Type: ros2 topic list"):
         world.sense("scan", BEAMS, 0.0)
@@ -340,7 +340,7 @@ def test_another_domain_hears_nothing(robot, monkeypatch):
 
 
 def test_a_router_that_is_missing_is_named(monkeypatch):
-    monkeypatch.setattr("deodar.worlds.ros2.ros2.FIRST", 0.2)
+    monkeypatch.setattr("deodar_robots.ros2.ros2.FIRST", 0.2)
     world = ROS2({"scan": SCAN}, at="tcp/127.0.0.1:1", patience=0.2)
     with pytest.raises(
         WorldError, match=r"no router of ROS 2 answers at .*ros2 run rmw_zenoh_cpp rmw_zenohd"

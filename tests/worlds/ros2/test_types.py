@@ -12,10 +12,10 @@ from PIL import Image
 
 import deodar as dd
 from deodar.errors import WorldError
-from deodar.worlds.ros2.message_types import Unreadable, from_bytes, to_bytes
-from deodar.worlds.ros2.motor_types import commands
-from deodar.worlds.ros2.sensor_types import SENSOR_TYPES, readings
-from deodar.worlds.ros2.topic_inbox import TopicInbox
+from deodar_robots.ros2.message_types import Unreadable, from_bytes, to_bytes
+from deodar_robots.ros2.motor_types import commands
+from deodar_robots.ros2.sensor_types import SENSOR_TYPES, readings
+from deodar_robots.ros2.topic_inbox import TopicInbox
 from tests.worlds.ros2.fake import Cdr, distance, scan
 
 COLOURS = np.arange(24, dtype=np.uint8).reshape(2, 4, 3) * 10

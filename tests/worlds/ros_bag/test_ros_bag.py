@@ -13,8 +13,8 @@ from rosbags.typesys import Stores, get_typestore
 import deodar as dd
 from deodar.cli import main
 from deodar.errors import RecordError, WorldError
-from deodar.recording import rosbag
-from deodar.worlds.ros_bag import bag_file
+from deodar_robots.ros_bag import bag_file
+from deodar_robots.ros_bag import records as rosbag
 from tests.worlds.ros2.fake import distance, scan
 
 TYPES = {

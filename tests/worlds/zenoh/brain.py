@@ -7,7 +7,7 @@ import time
 
 import deodar as dd
 from deodar.errors import WorldError
-from deodar.worlds.zenoh.zenoh import Zenoh
+from deodar_robots.zenoh.zenoh import Zenoh
 
 
 def say(text: str) -> None:

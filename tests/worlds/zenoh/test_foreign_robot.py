@@ -12,9 +12,9 @@ import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
-from deodar.worlds.zenoh import link
-from deodar.worlds.zenoh.about import About
-from deodar.worlds.zenoh.served_world import free_endpoint
+from deodar_robots.zenoh import link
+from deodar_robots.zenoh.about import About
+from deodar_robots.zenoh.served_world import free_endpoint
 
 HEADER = struct.Struct("<4sBBHQdQQQ")
 ABOUT = {

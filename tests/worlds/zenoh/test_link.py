@@ -10,8 +10,8 @@ import psutil
 import pytest
 
 from deodar.errors import WorldError
-from deodar.worlds.zenoh import link
-from deodar.worlds.zenoh.served_world import free_endpoint
+from deodar_robots.zenoh import link
+from deodar_robots.zenoh.served_world import free_endpoint
 
 
 @pytest.mark.parametrize("text", ["tcp/127.0.0.1:7461", "tcp/localhost:1", "tcp/[::1]:7461"])

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from deodar.worlds.zenoh.served_world import free_endpoint
+from deodar_robots.zenoh.served_world import free_endpoint
 from tests.house.source import ROOT
 
 STOPS_AFTER = 0.2

@@ -15,11 +15,11 @@ import deodar as dd
 from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.recording.opened import again
-from deodar.worlds.robot.robot import Robot
-from deodar.worlds.zenoh import link
-from deodar.worlds.zenoh.served_world import ServedWorld, free_endpoint
-from deodar.worlds.zenoh.tls_files import TlsFiles
-from deodar.worlds.zenoh.zenoh import Zenoh
+from deodar_robots.robot.robot import Robot
+from deodar_robots.zenoh import link
+from deodar_robots.zenoh.served_world import ServedWorld, free_endpoint
+from deodar_robots.zenoh.tls_files import TlsFiles
+from deodar_robots.zenoh.zenoh import Zenoh
 from tests.worlds.zenoh.wheel import Wheel
 
 FILES = Path(__file__).parent / "certificates"

@@ -15,11 +15,11 @@ from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.worlds._base import Signal
 from deodar.worlds._motor_rule import MotorRule
-from deodar.worlds.zenoh import link
-from deodar.worlds.zenoh.about import key
-from deodar.worlds.zenoh.message import WireMessage
-from deodar.worlds.zenoh.served_world import ServedWorld
-from deodar.worlds.zenoh.zenoh import Zenoh
+from deodar_robots.zenoh import link
+from deodar_robots.zenoh.about import key
+from deodar_robots.zenoh.message import WireMessage
+from deodar_robots.zenoh.served_world import ServedWorld
+from deodar_robots.zenoh.zenoh import Zenoh
 from tests.worlds.zenoh.wheel import Wheel
 
 

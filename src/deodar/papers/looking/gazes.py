@@ -21,8 +21,8 @@ from deodar.model.model import Model
 from deodar.numerics.axes import Axis
 from deodar.session.exchange import embodied
 from deodar.session.run import Run
-from deodar.worlds.eye.eye import Eye
-from deodar.worlds.eye.optics import CENTRE, PIXELS
+from deodar_robots.eye.eye import Eye
+from deodar_robots.eye.optics import CENTRE, PIXELS
 
 STEP = 10.0
 """Euler step and period of the world, ms."""

@@ -14,7 +14,7 @@ from deodar.architectures.looking import SAMPLES, looking
 from deodar.model.model import Model
 from deodar.papers.looking.gazes import NEAR, Learned, learn, observed, summary, test
 from deodar.papers.looking.targets import SOURCE
-from deodar.worlds.eye.eye import Eye
+from deodar_robots.eye.eye import Eye
 
 TESTS = 100
 """Single gazes that test a map."""

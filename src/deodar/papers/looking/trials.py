@@ -12,7 +12,7 @@ from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
 from deodar.papers.looking.conditions import AFTER, CHANGED, TESTS, LearningRun, after, conditions
 from deodar.papers.looking.gazes import STEP, Learned, learn, observed, summary, test
-from deodar.worlds.eye.eye import Eye
+from deodar_robots.eye.eye import Eye
 
 COST = 0.05
 """Approximate duration of a gaze, s."""

@@ -19,7 +19,7 @@ from deodar.session.port_reader import port_reader
 from deodar.session.session import Session
 from deodar.worlds._base import World
 from deodar.worlds.combined import Combined
-from deodar.worlds.mujoco.mujoco import MuJoCo
+from deodar_robots.mujoco.mujoco import MuJoCo
 
 CAMERA = "camera"
 PIXEL_NOISE, TOOL_NOISE = 0.03, 0.002

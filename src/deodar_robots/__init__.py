@@ -1,0 +1,1 @@
+"""Robots, simulators, networks and recordings as worlds, and closed loops as environments."""

@@ -1,0 +1,1 @@
+"""Commands of the command line: robots, and worlds in other processes."""

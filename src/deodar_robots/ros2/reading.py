@@ -1,0 +1,104 @@
+"""From a message to the reading of a sensor: the contract of all types."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from deodar.errors import WorldError, did_you_mean
+from deodar.numerics.axes import Axes
+from deodar.worlds._base import Signal
+from deodar_robots.ros2.message_types import Unreadable
+from deodar_robots.ros2.topic_sensor import TopicSensor
+
+
+class Reading:
+    """What a sensor reads of the messages of a topic.
+
+    Args:
+        entry: the setting of the sensor.
+        where: its place, for messages.
+
+    Attributes:
+        signal: signal of the sensor.
+    """
+
+    settings: Sequence[str] = ()
+    """Settings that the type uses, besides topic, type and period."""
+
+    def __init__(self, entry: TopicSensor, where: str) -> None:
+        for name in ("shape", "fields", "joints", "undefined"):
+            if getattr(entry, name) is not None and name not in self.settings:
+                raise WorldError(f"the type {entry.type} has no setting {name!r}", where)
+        self.entry, self.where = entry, where
+        self.signal = self.declared()
+
+    def declared(self) -> Signal:
+        """Return the signal of the sensor."""
+        raise NotImplementedError
+
+    def take(self, message: Any) -> np.ndarray:
+        """Return what a message says, with finite numbers.
+
+        Raises:
+            Unreadable: the message has another shape, or numbers that are not finite.
+        """
+        raise NotImplementedError
+
+    def sampled(self, taken: np.ndarray, axes: Axes, sensor: str) -> np.ndarray:
+        """Return the reading over axes, from what `take` returned."""
+        return taken
+
+    def shape_of(self, dimensions: int, example: str) -> tuple[int, ...]:
+        """Return the shape that the setting states, or raise WorldError."""
+        shape = self.entry.shape
+        if shape is None or len(shape) != dimensions:
+            raise WorldError(
+                f"a {self.entry.type} needs its shape", self.where, f'State it: "shape": {example}'
+            )
+        return tuple(shape)
+
+    def choice(self, known: Sequence[str]) -> str:
+        """Return the one of the known fields that the setting names, by default the first."""
+        field = self.entry.fields or known[0]
+        if not isinstance(field, str) or field not in known:
+            fix = did_you_mean(field, known) if isinstance(field, str) else f"Name one: {', '.join(known)}"
+            raise WorldError(f"there is no field {field!r}", self.where, fix)
+        return field
+
+
+def finite(values: Any, what: str) -> np.ndarray:
+    """Return numbers in float32.
+
+    Raises:
+        Unreadable: one of them is not finite.
+    """
+    with np.errstate(over="ignore"):  # what is too large for float32 is infinite
+        array = np.asarray(values, np.float32)
+    if not np.isfinite(array).all():
+        raise Unreadable(f"its {what} is not finite")
+    return array
+
+
+def chosen_fields(
+    fields: str | Sequence[str] | None, default: Sequence[str], units: Mapping[str, str], where: str
+) -> tuple[list[str], tuple[int, ...], str]:
+    """Return the names of the chosen fields, the shape of their vector, and their unit if it is one.
+
+    Args:
+        fields: the setting; a single name is one number.
+        default: the fields without a setting.
+        units: units of all fields by name.
+        where: place of the setting, for messages.
+    """
+    names = [fields] if isinstance(fields, str) else list(default if fields is None else fields)
+    for name in names:
+        if name not in units:
+            raise WorldError(f"there is no field {name!r}", where, did_you_mean(name, units))
+    if not names or len(set(names)) < len(names):
+        raise WorldError("names no field, or one twice", where)
+    shared = {units[name] for name in names}
+    shape = () if isinstance(fields, str) else (len(names),)
+    return names, shape, shared.pop() if len(shared) == 1 else ""

@@ -1,0 +1,402 @@
+"""A world of deodar as a robot on the network: it owns the motors and publishes the sensors."""
+
+from __future__ import annotations
+
+import math
+import os
+import queue
+import time
+import weakref
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
+from urllib.parse import unquote
+
+import jax
+import numpy as np
+
+from deodar import codec
+from deodar.errors import DeodarError, WorldError
+from deodar.numerics.axes import Axes, shape
+from deodar.parameters import real, show
+from deodar.worlds._base import Signal, World
+from deodar.worlds._failure import errors_of
+from deodar.worlds._pure import PureWorld
+from deodar_robots.motor_limiter import MotorLimiter
+from deodar_robots.zenoh import link
+from deodar_robots.zenoh.about import About, RobotClock, key, reading_keys, requests_from_data
+from deodar_robots.zenoh.command_inbox import CommandInbox
+from deodar_robots.zenoh.message import MOST_BYTES, BadMessage, WireMessage, bundle, unbundle
+from deodar_robots.zenoh.tls_files import TlsFiles
+
+MOST_WAITING = 64
+"""Most queries that wait for the world; more are refused, so that memory is bounded."""
+
+QUERIES = ("begin", "read", "keep", "put")
+
+
+class WorldServer:
+    """Serves a world of deodar to one commander at a time.
+
+    With the clock `step` the world advances by one period when all commands of the period are there. With
+    `live` it advances by the wall clock; a motor whose commands stay away goes to rest, and so do all motors
+    when the commander leaves and when the server closes.
+
+    Args:
+        world: the world.
+        name: name of the robot.
+        endpoint: where to listen.
+        clock: step, or live.
+        trusted: whether the network of another host is trusted.
+        files: certificate and private key for an endpoint with TLS. With an authority a commander needs a
+            certificate that it signed.
+
+    Attributes:
+        about: what the robot says of itself.
+        late: periods of a live world that began more than a period late.
+        endpoint: where the server listens.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        name: str,
+        endpoint: str = link.HERE,
+        clock: RobotClock = "step",
+        trusted: bool = False,
+        files: TlsFiles = link.NO_FILES,
+    ) -> None:
+        self.endpoint = link.require_endpoint(endpoint, trusted, files)
+        self.world = world
+        if clock == "live" and world.period is None:
+            raise WorldError(
+                f"the world {type(world).__name__} never changes, so that it has no live clock",
+                fix="Serve it with --clock step",
+            )
+        with errors_of(world, "reset"):
+            world.reset(0)
+        self.about = About.of_world(world, name, clock)
+        self.late = 0
+        self._events: queue.Queue[tuple[str, Any]] = queue.Queue()
+        events = self._events
+        self._inbox = CommandInbox(
+            world.motors, lambda *step: events.put(("step", step)) if clock == "step" else None
+        )
+        self._requests: list[tuple[str, Axes]] = []
+        self._readings: list[np.ndarray] | None = None
+        self._limiter = MotorLimiter(self.about.motors, self.about.rules)
+        self._driven: dict[str, np.ndarray] = {}
+        self._sequence, self._now = 0, 0.0
+        self._copies = 1
+        self._dtype = np.dtype(np.float32)
+        self._deferred: Any = None
+        self._who = ""
+        self._session = link.listen(self.endpoint, files)
+        self._publishers: dict[str, Any] = {}
+        self._close = weakref.finalize(self, self._session.close)
+        self._declare()
+
+    @property
+    def counts(self) -> Counter[str]:
+        """Messages by what became of them."""
+        return self._inbox.counts
+
+    def serve(self, stopped: Callable[[], bool] = lambda: False) -> None:
+        """Serve until `stopped` returns true; it is called at least every 0.1 s."""
+        if self.about.clock == "live":
+            self._serve_live(stopped)
+            return
+        while not stopped():
+            self._handle(0.1)
+
+    def close(self) -> None:
+        """Put the motors to rest, close the world, and leave the network."""
+        if not self._close.alive:
+            return
+        try:
+            if self.about.clock == "live":
+                self._rest()
+        finally:
+            self._close()
+            closes = getattr(self.world, "close", None)
+            if callable(closes):
+                closes()
+
+    # ------------------------------------------------------------------- what arrives, in threads of Zenoh
+
+    def _declare(self) -> None:
+        zenoh, robot = link.library(), self.about.name
+        inbox, events, text = self._inbox, self._events, self.about.to_text()
+
+        def command(sample: Any) -> None:
+            inbox.offer(unquote(str(sample.key_expr).rsplit("/", 1)[1]), bytes(sample.payload))
+
+        def end(sample: Any) -> None:
+            inbox.end(bytes(sample.payload))
+
+        def halt(sample: Any) -> None:
+            inbox.halt(bytes(sample.payload))
+
+        def query(kind: str) -> Callable[[Any], None]:
+            def put(asked: Any) -> None:
+                if events.qsize() < MOST_WAITING:
+                    events.put((kind, asked))
+                else:
+                    asked.reply_err("the robot is busy")
+
+            return put
+
+        def gone(sample: Any) -> None:
+            number = str(sample.key_expr).rsplit("/", 1)[1]
+            if sample.kind == zenoh.SampleKind.DELETE and number == f"{inbox.commander:x}":
+                inbox.begin(0)
+
+        session, about = self._session, key(robot, "about")
+        self._kept = [
+            session.declare_subscriber(key(robot, "motor") + "/*", link.callback(command)),
+            session.declare_subscriber(key(robot, "step"), link.callback(end)),
+            session.declare_subscriber(key(robot, "halt"), link.callback(halt)),
+            session.declare_queryable(about, link.callback(lambda asked: asked.reply(about, text))),
+            *(session.declare_queryable(key(robot, kind), link.callback(query(kind))) for kind in QUERIES),
+            session.liveliness().declare_subscriber(key(robot, "commander") + "/*", link.callback(gone)),
+            session.liveliness().declare_token(key(robot, "alive")),
+        ]
+
+    # ------------------------------------------------------------------------ what the world does, in turn
+
+    def _handle(self, seconds: float) -> None:
+        """Handle the next event, if one comes in time."""
+        try:
+            kind, given = self._events.get(timeout=max(0.0, seconds))
+        except queue.Empty:
+            return
+        if kind == "step":
+            self._step(*given)
+            return
+        try:
+            answer = getattr(self, f"_{kind}")(given)
+            if answer is not None:
+                given.reply(given.key_expr, answer)
+        except (DeodarError, BadMessage) as error:
+            given.reply_err(str(error))
+
+    def _begin(self, asked: Any) -> str:
+        """Accept a commander, and reset a world that waits for it."""
+        given = _object(asked)
+        number, who = given.get("commander"), given.get("who")
+        if type(number) is not int or not 0 < number < 2**64 or not isinstance(who, str):
+            raise WorldError("a commander states its number and who it is")
+        if self._inbox.commander not in (0, number):
+            raise WorldError(
+                f"the robot {self.about.name!r} is commanded by {self._who}, and by one commander at a time"
+            )
+        copies = 1
+        if self.about.clock == "step":
+            trials, seed, precision = (given.get(name) for name in ("trials", "seed", "precision"))
+            if not isinstance(trials, list) or not all(type(t) is int for t in trials) or not trials:
+                raise WorldError(f"trials is {show(trials)}; expected whole numbers")
+            if type(seed) is not int or precision not in ("float32", "float64"):
+                raise WorldError("a seed is a whole number, and a precision float32 or float64")
+            with errors_of(self.world, "reset"):
+                self.world.reset(seed, cast("list[int]", trials), precision)
+            copies = len(trials)
+            self._sequence = 0
+        self._who, self._copies = who[:80], copies
+        self._requests, self._readings, self._deferred = [], None, None
+        self._limiter.begin(copies)
+        self._inbox.begin(number, copies)
+        return codec.line({"clock": self.about.clock})
+
+    def _read(self, asked: Any) -> bytes | None:
+        """Return readings over any axes, and publish them from now on."""
+        given = _object(asked)
+        if given.get("commander") != self._inbox.commander:
+            raise WorldError("only the commander chooses what is read")
+        after = given.get("sequence", 0)
+        if self.about.clock == "step" and type(after) is int and after > self._sequence:
+            self._deferred = asked  # its step is on its way
+            return None
+        requests = requests_from_data(given.get("requests"), self.world.sensors)
+        if sum(8 * int(np.prod(shape(axes), dtype=float)) for _, axes in requests) > MOST_BYTES:
+            raise WorldError("more is read than a message carries")
+        time = real(given.get("time", 0.0))
+        if time is None or not math.isfinite(time):
+            raise WorldError(f"time is {show(given['time'])}; expected a finite number")
+        readings = self._sensed(requests, time)
+        if given.get("watch", True):
+            self._requests, self._readings = requests, readings
+        return bundle(self._messages(requests, readings, time))
+
+    def _keep(self, asked: Any) -> bytes:
+        """Return the state of the world."""
+        with errors_of(self.world, "keep"):
+            leaves = jax.tree.leaves([self.world.keep(), self._limiter.keep()])
+        return bundle([WireMessage(_numbers(leaf)) for leaf in leaves])
+
+    def _put(self, asked: Any) -> str:
+        """Restore a state that `_keep` returned."""
+        if self.about.clock != "step":
+            raise WorldError("the state of a live robot cannot be restored")
+        leaves = [message.array for message in unbundle(bytes(asked.payload or b""))]
+        with errors_of(self.world, "keep"):
+            structure = [self.world.keep(), self._limiter.keep()]
+        old, form = jax.tree.flatten(structure)
+        if len(old) != len(leaves) or not all(
+            isinstance(b, str) or np.shape(b) == a.shape for a, b in zip(leaves, old, strict=True)
+        ):
+            raise WorldError("is not a state of this robot")
+        kept = [_leaf(a, b) for a, b in zip(leaves, old, strict=True)]
+        with errors_of(self.world, "put"):
+            world, commands = jax.tree.unflatten(form, kept)
+            self.world.put(world)
+        self._limiter.put(commands)
+        self._readings = None
+        return ""
+
+    def _step(self, sequence: int, start: float) -> None:
+        """Advance by a period with the commands of the period, and publish what was asked for."""
+        if sequence != self._sequence + 1:
+            self._publish("error", f"period {sequence} follows period {self._sequence}".encode())
+            return
+        commands = {
+            motor: self._limiter.allowed(motor, command.value, self.about.period or 0.0)
+            for motor, command in self._inbox.commands(sequence).items()
+        }
+        after = start + (self.about.period or 0.0)
+        try:
+            readings = self._advanced(commands, start, after)
+        except DeodarError as error:
+            self._publish("error", str(error).encode())
+            return
+        self._sequence = sequence
+        self._publish_readings(readings, after)
+        if self._deferred is not None:
+            asked, self._deferred = self._deferred, None
+            self._events.put(("read", asked))
+
+    def _advanced(
+        self, commands: Mapping[str, np.ndarray], start: float, after: float
+    ) -> Sequence[np.ndarray]:
+        """Advance by a period and return the readings after it, as a session in the same process would."""
+        world, requests = self.world, self._requests
+        with errors_of(world, "act"):
+            if isinstance(world, PureWorld) and world.exchanges:
+                readings = world.exchange(commands, requests, self._readings)
+                self._readings = readings
+                return readings
+            world.act(commands, start)
+        return self._sensed(requests, after)
+
+    def _sensed(self, requests: Sequence[tuple[str, Axes]], time: float) -> list[np.ndarray]:
+        if not requests:
+            return []
+        with errors_of(self.world, "sense"):
+            return self.world.sense_all(requests, time)
+
+    # -------------------------------------------------------------------------------------- the live clock
+
+    def _serve_live(self, stopped: Callable[[], bool]) -> None:
+        period = (self.about.period or 0.0) / 1000
+        start, due = time.monotonic(), time.monotonic()
+        try:
+            while not stopped():
+                while (left := due - time.monotonic()) > 0:
+                    self._handle(min(left, 0.1))
+                self._live_period(1000 * (due - start))
+                due += period
+                behind = time.monotonic() - due
+                if behind > period:
+                    self.late += 1
+                    due += behind // period * period
+        except DeodarError as error:
+            self._publish("error", str(error).encode())
+            raise
+
+    def _live_period(self, now: float) -> None:
+        """Advance by a period with the newest commands; a motor without a fresh one is at rest.
+
+        A motor that was never commanded gets no command, as in a run in one process.
+        """
+        self._sequence += 1
+        commands: dict[str, np.ndarray] = {}
+        newest, clock = self._inbox.commands(), time.monotonic()
+        for motor in self.about.motors:
+            command, rule = newest.get(motor), self.about.rule(motor)
+            if command is not None and 1000 * (clock - command.arrived) <= rule.stops_after:
+                commands[motor] = self._limiter.allowed(motor, command.value, self.about.period or 0.0)
+                self._driven[motor] = command.value
+            elif motor in self._driven:
+                commands[motor] = rule.at_rest(self._driven[motor])
+                self._limiter.rest(motor)
+        self._now = after = now + (self.about.period or 0.0)
+        self._publish_readings(self._advanced(commands, now, after), after)
+
+    def _rest(self) -> None:
+        """Send the command at rest to all motors that were commanded."""
+        self._inbox.begin(0)
+        self._live_period(self._now)
+
+    # --------------------------------------------------------------------------------------- what is sent
+
+    def _publish_readings(self, readings: Sequence[np.ndarray], now: float) -> None:
+        keys = reading_keys(self.about.name, self._requests)
+        for where, message in zip(keys, self._messages(self._requests, readings, now), strict=True):
+            self._put_at(where, message.to_bytes())
+        done = WireMessage(np.zeros(()), self._sequence, now, time.monotonic_ns(), self._inbox.stamp)
+        self._publish("period", done.to_bytes())
+
+    def _messages(
+        self, requests: Sequence[tuple[str, Axes]], readings: Sequence[np.ndarray], now: float
+    ) -> list[WireMessage]:
+        """Return the messages of readings; without the axis of copies if there is one copy."""
+        stamp, parts = time.monotonic_ns(), len(requests)
+        found: list[WireMessage] = []
+        for (sensor, _), reading in zip(requests, readings, strict=True):
+            signal = self.world.sensors.get(sensor, Signal(sensor))
+            array = np.asarray(reading)
+            array = array[0] if signal.each and self._copies == 1 else array
+            found.append(WireMessage(array, self._sequence, now, stamp, self._inbox.stamp, parts=parts))
+        return found
+
+    def _publish(self, part: str, raw: bytes) -> None:
+        self._put_at(key(self.about.name, part), raw)
+
+    def _put_at(self, where: str, raw: bytes) -> None:
+        if where not in self._publishers:
+            control = link.library().CongestionControl
+            waits = self.about.clock == "step"
+            self._publishers[where] = self._session.declare_publisher(
+                where, congestion_control=control.BLOCK if waits else control.DROP
+            )
+        self._publishers[where].put(raw)
+
+
+def _numbers(leaf: Any) -> np.ndarray:
+    """Return a part of a state as an array; text as its bytes in UTF-8."""
+    return np.frombuffer(leaf.encode(), np.uint8) if isinstance(leaf, str) else np.asarray(leaf)
+
+
+def _leaf(numbers: np.ndarray, like: Any) -> Any:
+    """Return a part of a state from its array, of the type that it had."""
+    if isinstance(like, str):
+        try:
+            return numbers.astype(np.uint8).tobytes().decode()
+        except UnicodeDecodeError:
+            raise WorldError("is not a state of this robot") from None
+    return numbers if isinstance(like, (np.ndarray, np.generic, jax.Array)) else type(like)(numbers.item())
+
+
+def free_name(world: World) -> str:
+    """Return the name of a robot that states none: that of its file or model, else the kind of its world and
+    the number of this process.
+    """
+    stated = getattr(getattr(world, "file", world), "name", "")
+    return stated if isinstance(stated, str) and stated else f"{type(world).__name__.lower()}-{os.getpid()}"
+
+
+def _object(asked: Any) -> dict[str, Any]:
+    """Return the object that a query holds."""
+    given = codec.read(bytes(asked.payload or b""))
+    if not isinstance(given, dict):
+        raise WorldError("a query holds an object")
+    return cast("dict[str, Any]", given)
