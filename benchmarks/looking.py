@@ -13,7 +13,7 @@ import time
 
 import deodar as dd
 from deodar.architectures.looking import MECHANISMS
-from deodar.papers.looking.gazes import observed
+from deodar_papers.looking.gazes import observed
 
 REPEATS = 3
 

@@ -27,8 +27,8 @@ def main() -> int:
     args = parser.parse_args()
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
     # after the choice of the core
-    from deodar.papers.pointing.narrative import discs
-    from deodar.papers.pointing.table import Table
+    from deodar_papers.pointing.narrative import discs
+    from deodar_papers.pointing.table import Table
 
     at = Table(discs(), 0)
     at.session.step(50)

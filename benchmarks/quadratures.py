@@ -27,11 +27,11 @@ from deodar.architectures.serial_order import lesson, lesson_end, production_sta
 from deodar.architectures.spa import spa
 from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Within
-from deodar.papers.saliency.scenes import photographs, run_scene
-from deodar.papers.saliency.targets import totals
-from deodar.papers.spa import cases
-from deodar.papers.spa.pairs import pairs, reference
-from deodar.papers.spa.trials import LIMIT, POSE, RADIUS, STAY
+from deodar_papers.saliency.scenes import photographs, run_scene
+from deodar_papers.saliency.targets import totals
+from deodar_papers.spa import cases
+from deodar_papers.spa.pairs import pairs, reference
+from deodar_papers.spa.trials import LIMIT, POSE, RADIUS, STAY
 
 SEQUENCE = [30.0, 6.0, 6.0, 54.0, 30.0, 18.0, 42.0, 42.0, 42.0, 6.0]
 PLACES = (6.0, 18.0, 30.0, 42.0, 54.0)

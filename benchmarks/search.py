@@ -31,10 +31,10 @@ BATCHES = (1, 16, 128)
 def ratio(copies: int, device: str | None = None) -> float:
     """Simulated time of all copies of one process per wall time."""
     import deodar as dd
-    from deodar.papers.serial_order.arenas import random_arena
-    from deodar.papers.serial_order.runs import Settings, prepared
-    from deodar.papers.serial_order.teaching import lesson
-    from deodar.papers.serial_order.world import world
+    from deodar_papers.serial_order.arenas import random_arena
+    from deodar_papers.serial_order.runs import Settings, prepared
+    from deodar_papers.serial_order.teaching import lesson
+    from deodar_papers.serial_order.world import world
 
     arenas = [random_arena("RBGBY", (1, k), 1) for k in range(copies)]
     lessons = [lesson("RBGBY", k, 5.0) for k in range(copies)]

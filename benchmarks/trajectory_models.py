@@ -24,9 +24,9 @@ from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.importers import examples
 from deodar.numerics.kernels.mexican_hat import MexicanHat
-from deodar.papers.saliency.scenes import photographs
 from deodar.worlds._base import World
 from deodar.worlds.arena.arena import Arena
+from deodar_papers.saliency.scenes import photographs
 from deodar_robots.mujoco.mujoco import MuJoCo
 
 ROOT = Path(__file__).parents[1]

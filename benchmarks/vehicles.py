@@ -26,8 +26,8 @@ from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Within
 from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.rows import Rows
-from deodar.papers.spa.cases import LIMIT, RADIUS, STAY
-from deodar.papers.spa.pairs import pairs
+from deodar_papers.spa.cases import LIMIT, RADIUS, STAY
+from deodar_papers.spa.pairs import pairs
 
 SIZES = (1, 2, 4, 8)
 STEPS = {"z": 200, "large": 60}

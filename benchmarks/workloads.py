@@ -17,7 +17,7 @@ import deodar as dd
 from deodar.architectures.saliency import saliency
 from deodar.architectures.spa import maze, spa
 from deodar.couplings.convolve import Convolve
-from deodar.papers.saliency.scenes import photographs
+from deodar_papers.saliency.scenes import photographs
 
 NAMES = "xyz"
 

@@ -18,7 +18,7 @@ import numpy as np
 from PIL import Image
 
 import deodar as dd
-from deodar.figures import sequence, sequence_animation
+from deodar_papers.figures import sequence, sequence_animation
 
 PAPER = dd.papers.serial_order
 PICTURES = Path(__file__).parent / "pictures"

@@ -27,7 +27,7 @@ from pathlib import Path
 from typing import Any
 
 import deodar as dd
-from deodar import papers
+from deodar_papers import papers
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent

@@ -35,11 +35,8 @@ def _packages() -> Iterator[str]:
     """Yield the lines of the packages beside the engine."""
     for entry in importlib.metadata.distribution("deodar").entry_points:
         if entry.group in ("deodar.worlds", "deodar.names"):
-            yield (
-                f"from {entry.module} import {entry.attr} as {entry.name}"
-                if entry.attr
-                else f"import {entry.module} as {entry.name}"
-            )
+            home, attribute = (entry.module, entry.attr) if entry.attr else entry.module.rsplit(".", 1)
+            yield f"from {home} import {attribute} as {entry.name}"
 
 
 def _by_hand(text: str) -> Iterator[str]:
@@ -54,7 +51,7 @@ def _by_hand(text: str) -> Iterator[str]:
 def stub(text: str) -> str:
     """Return the whole stub, given its present text."""
     lines = {*_kinds(), *_packages(), *_by_hand(text)}
-    ordered = sorted(lines, key=lambda line: (line.startswith("from"), line.split()[1], line.split()[-1]))
+    ordered = sorted(lines, key=lambda line: (line.split()[1], line.split()[-1]))
     return HEAD + "\n".join(ordered) + "\n" + TAIL
 
 

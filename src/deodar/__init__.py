@@ -20,19 +20,15 @@ __version__ = "0.1.0"
 
 
 def _homes() -> dict[str, tuple[str, str]]:
-    """Return module and attribute of each public name, from the lines `from MODULE import NAME as NAME` and
-    `import MODULE as NAME` of the stub; the attribute of a module is "".
+    """Return module and attribute of each public name, from the lines `from MODULE import NAME as NAME` of
+    the stub; what is imported from the root of a package is a module.
 
     The lines of a package that is not beside this one are left out.
     """
     beside = set(os.listdir(os.path.dirname(__path__[0])))
     with open(os.path.join(__path__[0], "__init__.pyi"), encoding="utf-8") as stub:
-        lines = [line.split() for line in stub if line.startswith(("from ", "import "))]
-    return {
-        words[-1]: (words[1], words[3] if words[0] == "from" else "")
-        for words in lines
-        if words[1].partition(".")[0] in beside
-    }
+        lines = [line.split() for line in stub if line.startswith("from ")]
+    return {words[5]: (words[1], words[3]) for words in lines if words[1].partition(".")[0] in beside}
 
 
 _HOMES = _homes()
@@ -48,10 +44,11 @@ def __getattr__(name: str) -> Any:
             raise AttributeError(f"module 'deodar' has no attribute {name!r}", name=name, obj=None)
         return importlib.import_module("deodar.names").packaged(name, __all__)
     home, attribute = _HOMES[name]
-    if home == "deodar":
-        home, attribute = f"deodar.{attribute}", ""
-    module = importlib.import_module(home)
-    value = getattr(module, attribute) if attribute else module
+    value = (
+        getattr(importlib.import_module(home), attribute)
+        if "." in home
+        else importlib.import_module(f"{home}.{attribute}")
+    )
     globals()[name] = value
     return value
 

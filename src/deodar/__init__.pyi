@@ -6,7 +6,6 @@ from deodar import analysis as analysis
 from deodar import architectures as architectures
 from deodar import errors as errors
 from deodar import figures as figures
-from deodar import papers as papers
 from deodar import worlds as worlds
 from deodar.analysis.continuation.continuation import continuation as continuation
 from deodar.analysis.continuation.dynamics import dynamics as dynamics
@@ -216,6 +215,7 @@ from deodar.worlds.video import Video as Video
 from deodar_interop.importers.cedar.experiment import load_cedar_experiment as load_cedar_experiment
 from deodar_interop.records.cedar import load_cedar as load_cedar
 from deodar_interop.records.mat import load_mat as load_mat
+from deodar_papers import papers as papers
 from deodar_robots.environments.as_env import as_env as as_env
 from deodar_robots.event_file.event_file import EventFile as EventFile
 from deodar_robots.eye.eye import Eye as Eye

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from deodar import papers
 from deodar.cli import main
+from deodar_papers import papers
 
 
 @pytest.mark.parametrize(

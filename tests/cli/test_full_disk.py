@@ -16,10 +16,10 @@ import deodar as dd
 from deodar.analysis.claims import Claim
 from deodar.cli import main
 from deodar.model import output
-from deodar.papers import Demonstration
-from deodar.papers.spa import demo
 from deodar.recording import files
 from deodar.recording.growing import GrowingRecord
+from deodar_papers.papers import Demonstration
+from deodar_papers.spa import demo
 from tests.recording.models import model
 
 

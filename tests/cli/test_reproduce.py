@@ -11,12 +11,13 @@ import types
 import pytest
 from matplotlib.figure import Figure
 
-from deodar import cli, papers
+from deodar import cli
 from deodar.analysis.claims import Claim
 from deodar.cli._bar import lasting
 from deodar.experiments.jobs import Job
 from deodar.model import output
-from deodar.papers._report import Report
+from deodar_papers import papers
+from deodar_papers._report import Report
 from tests.experiments import decisions
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from deodar import papers
+from deodar_papers import papers
 from tests.docs.source import DOCS, ROOT, module
 from tests.papers.spa.rows import PATH, all_rows
 

@@ -12,8 +12,8 @@ import xarray
 
 import deodar as dd
 from deodar.analysis.peaks import peaks
-from deodar.papers.saliency.scenes import photographs
 from deodar.worlds.arena.arena import Arena
+from deodar_papers.saliency.scenes import photographs
 from deodar_robots.mujoco.mujoco import MuJoCo
 from tests.docs.source import EXAMPLES, module
 

@@ -9,8 +9,9 @@ import tomllib
 import pytest
 
 import deodar as dd
-from deodar import cli, papers, registry
+from deodar import cli, registry
 from deodar.importers import opening
+from deodar_papers import papers
 from tests.docs.source import DOCS, ROOT
 
 NAV = re.findall(r": ([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE)

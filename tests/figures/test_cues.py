@@ -13,8 +13,8 @@ from matplotlib.patches import Circle
 
 from deodar.architectures.saliency import CUE_AT
 from deodar.figures._style import COLORS
-from deodar.figures.cues import cues_figure
 from deodar.worlds.picture import Picture
+from deodar_papers.figures.cues import cues_figure
 
 X, HUE = np.arange(1.0, 80, 2), np.arange(0.0, 360, 15)
 TIME = np.arange(0.0, 2 * CUE_AT, CUE_AT / 10)

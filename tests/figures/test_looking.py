@@ -5,7 +5,7 @@ from __future__ import annotations
 import matplotlib.pyplot as plt
 import numpy as np
 
-from deodar.figures.looking import Course, LearnedMap, LearningCurve, looking_figure
+from deodar_papers.figures.looking import Course, LearnedMap, LearningCurve, looking_figure
 
 
 def test_names_of_curves_that_end_together_are_apart() -> None:

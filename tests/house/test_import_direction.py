@@ -37,7 +37,6 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "importers architectures",
         "exporters",
         "figures",
-        "papers",
         "server",
         "cli",
         "__main__",
@@ -46,7 +45,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
 
 # Only these modules import others by name at run time: the folder is the registry, the root is lazy, and
 # documents name functions of users.
-DYNAMIC = {"", "registry", "cli", "elements.function", "papers"}
+DYNAMIC = {"", "registry", "cli", "elements.function", "deodar_papers.papers"}
 
 
 def _floor(name: str) -> int:

@@ -7,8 +7,8 @@ import pickle
 
 import pytest
 
-from deodar import papers
 from deodar.errors import UnknownName
+from deodar_papers import papers
 
 
 @pytest.mark.parametrize("name", list(papers.PAPERS))

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.papers import looking
-from deodar.papers.looking import conditions, gazes, narrative, targets, trials
+from deodar_papers import looking
+from deodar_papers.looking import conditions, gazes, narrative, targets, trials
 from tests.architectures.test_looking import true_map
 
 SAMPLES = (32, 25)

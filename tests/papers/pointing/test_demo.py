@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from deodar.papers.pointing import narrative
+from deodar_papers.pointing import narrative
 
 
 def demo(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:

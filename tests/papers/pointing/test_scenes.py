@@ -6,8 +6,8 @@ import colorsys
 
 import pytest
 
-from deodar.papers.pointing import scenes
-from deodar.papers.pointing.scenes import BAND, BEYOND, SERVED, TEST, TUNING, Range, equal_pair, scene
+from deodar_papers.pointing import scenes
+from deodar_papers.pointing.scenes import BAND, BEYOND, SERVED, TEST, TUNING, Range, equal_pair, scene
 
 
 @pytest.mark.parametrize(("first", "served"), [(TUNING, SERVED), (TEST, SERVED), (BAND, BEYOND)])

@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from deodar.papers.pointing import targets
-from deodar.papers.pointing.cycle import EVENTS, PointingCycle
-from deodar.papers.pointing.sensitivity import changes
-from deodar.papers.pointing.targets import claims
-from deodar.papers.pointing.trials import CASES, VARIANTS
+from deodar_papers.pointing import targets
+from deodar_papers.pointing.cycle import EVENTS, PointingCycle
+from deodar_papers.pointing.sensitivity import changes
+from deodar_papers.pointing.targets import claims
+from deodar_papers.pointing.trials import CASES, VARIANTS
 
 DISC = {"name": "red 1", "colour": "red", "radius": 0.04}
 EVENT_TIMES = {name: float(k) for k, name in enumerate(EVENTS)}

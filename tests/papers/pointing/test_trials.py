@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 import deodar as dd
-from deodar.papers import pointing
-from deodar.papers.pointing import photographs, sensitivity, targets, trials
-from deodar.papers.pointing.scenes import TUNING, scene
-from deodar.papers.pointing.table import Table
+from deodar_papers import pointing
+from deodar_papers.pointing import photographs, sensitivity, targets, trials
+from deodar_papers.pointing.scenes import TUNING, scene
+from deodar_papers.pointing.table import Table
 
 
 def test_the_design_has_the_printed_counts_and_other_seeds_than_tuning():

@@ -13,11 +13,11 @@ from PIL import Image
 
 import deodar as dd
 from deodar.architectures.saliency import scene as scene_axes
-from deodar.papers.saliency import scenes
-from deodar.papers.saliency.scenes import Cue, filmed, own, photographs, run_scene, watched
-from deodar.papers.saliency.targets import claims, sentence
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
+from deodar_papers.saliency import scenes
+from deodar_papers.saliency.scenes import Cue, filmed, own, photographs, run_scene, watched
+from deodar_papers.saliency.targets import claims, sentence
 
 
 def test_every_claim_of_the_command_holds(tmp_path: Path) -> None:

@@ -8,10 +8,10 @@ from collections.abc import Callable
 import pytest
 import xarray
 
-from deodar import papers
 from deodar.experiments.rows import Row
-from deodar.papers.saliency import targets, trials
-from deodar.papers.saliency.scenes import CueScene, Outcome, SceneResult
+from deodar_papers import papers
+from deodar_papers.saliency import targets, trials
+from deodar_papers.saliency.scenes import CueScene, Outcome, SceneResult
 
 PAPER = papers.PAPERS["saliency"]
 

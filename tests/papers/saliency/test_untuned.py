@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from importlib import resources
 
-from deodar.papers.saliency.scenes import NEAR, Cue, photographs, run_scene
-from deodar.papers.saliency.targets import claims, totals
+from deodar_papers.saliency.scenes import NEAR, Cue, photographs, run_scene
+from deodar_papers.saliency.targets import claims, totals
 
-FOLDER = resources.files("deodar.papers.saliency") / "photographs"
+FOLDER = resources.files("deodar_papers.saliency") / "photographs"
 
 
 def test_each_photograph_has_a_present_and_an_absent_cue_and_marks_inside_the_picture() -> None:

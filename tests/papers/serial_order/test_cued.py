@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from deodar.experiments.trial import Trial
-from deodar.papers.serial_order import cued, runs, trials
-from deodar.papers.serial_order.arenas import ring
-from deodar.papers.serial_order.conditions import CuedCondition, conditions, mixed, second_begins, taught
-from deodar.papers.serial_order.cued import AFTER, NEVER, CuedRun
-from deodar.papers.serial_order.runs import COARSE, Settings
-from deodar.papers.serial_order.teaching import brief_lesson
+from deodar_papers.serial_order import cued, runs, trials
+from deodar_papers.serial_order.arenas import ring
+from deodar_papers.serial_order.conditions import CuedCondition, conditions, mixed, second_begins, taught
+from deodar_papers.serial_order.cued import AFTER, NEVER, CuedRun
+from deodar_papers.serial_order.runs import COARSE, Settings
+from deodar_papers.serial_order.teaching import brief_lesson
 
 KNOWN = {name: c for name, c in conditions(False).items() if isinstance(c, CuedCondition)}
 

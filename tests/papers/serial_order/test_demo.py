@@ -14,12 +14,12 @@ from PIL import Image
 
 from deodar.cli import main
 from deodar.experiments.trial import Trial
-from deodar.figures.sequence import sequence_figure
-from deodar.papers.serial_order import narrative
-from deodar.papers.serial_order.arenas import Block, SearchArena
-from deodar.papers.serial_order.colours import hue_of
-from deodar.papers.serial_order.runs import ABSENT, COARSE, TaughtRun
-from deodar.papers.serial_order.teaching import brief_lesson
+from deodar_papers.figures.sequence import sequence_figure
+from deodar_papers.serial_order import narrative
+from deodar_papers.serial_order.arenas import Block, SearchArena
+from deodar_papers.serial_order.colours import hue_of
+from deodar_papers.serial_order.runs import ABSENT, COARSE, TaughtRun
+from deodar_papers.serial_order.teaching import brief_lesson
 
 BEGINS = 2000.0
 SEARCH = 2000.0

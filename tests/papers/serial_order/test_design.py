@@ -6,11 +6,11 @@ import math
 
 import pytest
 
-from deodar import papers
 from deodar.architectures.color_search import color_search, hue_axis
 from deodar.errors import ParameterError, UnknownName
-from deodar.papers.serial_order import arenas, colours, conditions, parameters, teaching, trials, variations
-from deodar.papers.serial_order.arenas import random_arena
+from deodar_papers import papers
+from deodar_papers.serial_order import arenas, colours, conditions, parameters, teaching, trials, variations
+from deodar_papers.serial_order.arenas import random_arena
 
 
 @pytest.mark.parametrize("quick", [True, False])

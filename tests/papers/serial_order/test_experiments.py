@@ -10,9 +10,9 @@ import pytest
 import deodar as dd
 from deodar.cli import main
 from deodar.experiments.actions import Move, Place, Remove, Set
-from deodar.papers.serial_order import experiments
-from deodar.papers.serial_order.colours import away, hue_of
-from deodar.papers.serial_order.conditions import conditions
+from deodar_papers.serial_order import experiments
+from deodar_papers.serial_order.colours import away, hue_of
+from deodar_papers.serial_order.conditions import conditions
 
 
 @pytest.fixture(scope="module")

@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from deodar.cli import main
-from deodar.figures.ordinal_dynamics import OrdinalMoment, OrdinalTransition
-from deodar.figures.perception import ColourPerception
-from deodar.papers.serial_order import figures
+from deodar_papers.figures.ordinal_dynamics import OrdinalMoment, OrdinalTransition
+from deodar_papers.figures.perception import ColourPerception
+from deodar_papers.serial_order import figures
 from tests.papers.serial_order.test_demo import made
 
 

@@ -9,10 +9,10 @@ import pytest
 
 from deodar.experiments.rows import Row
 from deodar.figures._files import save_figure
-from deodar.papers import serial_order
-from deodar.papers._report import NOT_RUN
-from deodar.papers.serial_order import conditions, robustness, tables
-from deodar.papers.serial_order.variations import PARAMETERS
+from deodar_papers import serial_order
+from deodar_papers._report import NOT_RUN
+from deodar_papers.serial_order import conditions, robustness, tables
+from deodar_papers.serial_order.variations import PARAMETERS
 
 RUNS = 20
 

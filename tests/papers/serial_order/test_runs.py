@@ -11,11 +11,11 @@ import pytest
 from deodar.errors import ParameterError
 from deodar.experiments.rows import Row
 from deodar.experiments.trial import Trial
-from deodar.papers.serial_order import conditions, trials
-from deodar.papers.serial_order.arenas import Block, SearchArena
-from deodar.papers.serial_order.colours import hue_of
-from deodar.papers.serial_order.reasons import reason
-from deodar.papers.serial_order.runs import (
+from deodar_papers.serial_order import conditions, trials
+from deodar_papers.serial_order.arenas import Block, SearchArena
+from deodar_papers.serial_order.colours import hue_of
+from deodar_papers.serial_order.reasons import reason
+from deodar_papers.serial_order.runs import (
     ABSENT,
     FAR,
     Settings,
@@ -24,8 +24,8 @@ from deodar.papers.serial_order.runs import (
     read_weights,
     run_many,
 )
-from deodar.papers.serial_order.targets import in_order, ordered
-from deodar.papers.serial_order.teaching import lesson
+from deodar_papers.serial_order.targets import in_order, ordered
+from deodar_papers.serial_order.teaching import lesson
 
 RING = conditions.conditions(True)["ring"]
 

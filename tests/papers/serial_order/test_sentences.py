@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from deodar.papers.serial_order import conditions, sentences
-from deodar.papers.serial_order.targets import RowsOfConditions
+from deodar_papers.serial_order import conditions, sentences
+from deodar_papers.serial_order.targets import RowsOfConditions
 
 ORDERED = [-4.0, 28.0, 32.0, 44.0, 84.0, 88.0]
 LATE = [-8.0, 48.0, 32.0, 44.0, 84.0, 92.0]

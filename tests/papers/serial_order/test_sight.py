@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.papers.serial_order.arenas import Block, SearchArena
-from deodar.papers.serial_order.sight import chosen, distance, regions
+from deodar_papers.serial_order.arenas import Block, SearchArena
+from deodar_papers.serial_order.sight import chosen, distance, regions
 
 pytestmark = pytest.mark.fast
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from deodar.papers._report import NOT_RUN
-from deodar.papers.serial_order import conditions, parameters, tables
+from deodar_papers._report import NOT_RUN
+from deodar_papers.serial_order import conditions, parameters, tables
 from tests.papers.serial_order.test_robustness import found, rows
 
 

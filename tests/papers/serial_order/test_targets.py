@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from deodar.analysis.claims import Claim
-from deodar.papers.serial_order import conditions, tables, targets
-from deodar.papers.serial_order.targets import RowsOfConditions
+from deodar_papers.serial_order import conditions, tables, targets
+from deodar_papers.serial_order.targets import RowsOfConditions
 
 ORDERED = [-8.0, 28.0, 32.0, 44.0, 84.0, 88.0]
 LAST = [*ORDERED[:5], None]

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from deodar.papers.serial_order.arenas import random_arena
-from deodar.papers.serial_order.colours import rgb
-from deodar.papers.serial_order.runs import TaughtRun
-from deodar.papers.serial_order.teaching import BRIEF, brief_lesson
-from deodar.papers.serial_order.views import AT_ONCE, camera_views
+from deodar_papers.serial_order.arenas import random_arena
+from deodar_papers.serial_order.colours import rgb
+from deodar_papers.serial_order.runs import TaughtRun
+from deodar_papers.serial_order.teaching import BRIEF, brief_lesson
+from deodar_papers.serial_order.views import AT_ONCE, camera_views
 
 MIDDLE = (slice(40, 80), slice(70, 90))
 

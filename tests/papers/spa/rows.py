@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from deodar.papers.spa import cases
+from deodar_papers.spa import cases
 
 PATH = [[-45.0, 55 + 0.36 * k] for k in range(110)] + [[-50 - 0.15 * k, 95.0] for k in range(200)]
 """North, then west through the passage beside the partial obstacle."""

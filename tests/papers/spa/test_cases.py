@@ -10,8 +10,8 @@ import pytest
 from deodar.analysis.paths import clearance, path_length
 from deodar.analysis.shortest import shortest_path
 from deodar.architectures.spa import place
-from deodar.papers.spa import cases, pairs, trials
 from deodar.worlds.arena.arena import Arena
+from deodar_papers.spa import cases, pairs, trials
 
 
 def runs(name, quick=False):

@@ -14,8 +14,8 @@ from PIL import Image
 
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze
 from deodar.cli import main
-from deodar.figures import animation
-from deodar.papers.spa import narrative
+from deodar_papers.figures import animation
+from deodar_papers.spa import narrative
 
 INFERRED_WAVE = "the wave reaches location 2, in the motivation to go west, at step"
 

@@ -7,11 +7,11 @@ import json
 import pytest
 
 from deodar.analysis.claims import failed, results
-from deodar.papers import spa
-from deodar.papers.spa import sentences, targets, variations
-from deodar.papers.spa.runs import SOURCE, Runs
-from deodar.papers.spa.sentence import Sentence
-from deodar.papers.spa.targets import claims
+from deodar_papers import spa
+from deodar_papers.spa import sentences, targets, variations
+from deodar_papers.spa.runs import SOURCE, Runs
+from deodar_papers.spa.sentence import Sentence
+from deodar_papers.spa.targets import claims
 from tests.papers.spa.rows import all_rows
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from deodar.architectures.spa import place
-from deodar.papers.spa.route import covered, route, stillness
+from deodar_papers.spa.route import covered, route, stillness
 
 
 def through(*cells):

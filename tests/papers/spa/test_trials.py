@@ -11,8 +11,8 @@ import pytest
 
 import deodar as dd
 from deodar.analysis.paths import path_length
-from deodar.papers.spa import cases, trials
-from deodar.papers.spa.runs import Runs
+from deodar_papers.spa import cases, trials
+from deodar_papers.spa.runs import Runs
 from tests.house.source import ROOT
 
 

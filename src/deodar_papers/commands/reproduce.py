@@ -1,0 +1,205 @@
+"""The command `deodar reproduce PAPER`."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import shutil
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from deodar import codec
+from deodar.batch.on_cluster import ClusterPool
+from deodar.cli import _options, _rescue
+from deodar.cli._bar import Bar, lasting
+from deodar.codec import Json
+from deodar.errors import OutputError, UnknownName, WorkerError, did_you_mean
+from deodar.experiments.jobs import run_jobs
+from deodar.experiments.rows import Rows, claim
+from deodar.model import output
+from deodar.recording import places, writer_lock
+from deodar_papers import papers
+
+if TYPE_CHECKING:
+    from deodar.batch.cluster import Cluster
+    from deodar.experiments.jobs import Job
+    from deodar.experiments.rows import Rows
+    from deodar_papers._report import Report
+
+HELP = "run the experiments of a paper again, and check its claims"
+EPILOG = """\
+Results are written after each run: Ctrl-C or a power failure loses none. The same call with --out FOLDER
+resumes, with the same results as without the stop. A folder that has only some of the conditions is extended
+by the others."""
+
+ROWS = "runs.jsonl"
+RESULTS = "results.json"
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.epilog = EPILOG
+    parser.add_argument("paper", metavar="PAPER", help=f"which one: {', '.join(papers.PAPERS)}")
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="a part of the runs, at most 20 of each condition; a claim is false only where they exclude it",
+    )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="CONDITION",
+        help="only conditions whose names begin with this, for example z/carrot",
+    )
+    parser.add_argument(
+        "--out",
+        "-o",
+        type=Path,
+        metavar="DIR",
+        help="folder to write, or to resume (default: PAPER-001, PAPER-002, ... here)",
+    )
+    parser.add_argument(
+        "--workers",
+        type=_options.whole,
+        metavar="N",
+        help="share the runs among N processes of one core each",
+    )
+    _options.add_cluster(parser, "runs")
+    _options.add_json(parser)
+    parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Reproduce a paper; status 1 if a required claim is false, or if the runs were stopped."""
+    # start-up time: these bring JAX
+    from deodar.compiler.device import find
+    from deodar.recording.provenance import made_by
+
+    _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
+    paper = papers.PAPERS[args.paper]
+    jobs = _chosen(args, paper.jobs(args.quick))
+    out: Path = args.out or places.free(Path.cwd(), args.paper)
+    cluster = _options.cluster(args)
+    claim(out, ROWS, "a reproduction")
+    with writer_lock.locked(out), _workers(cluster) as pool:
+        made = made_by(find()) if pool is None else pool.made_by
+        rows = Rows(out / ROWS, {**paper.about(args.quick), "made_by": dict(made)}, paper.BY_CONDITION)
+        began, before = time.perf_counter(), len(rows.found)
+        if not _ran(args, out, jobs, rows, pool):
+            return 1
+    settings = {
+        "paper": args.paper,
+        "quick": args.quick,
+        "runs": len(rows.found),
+        "of": sum(len(j.keys) for j in paper.jobs(args.quick)),
+    }
+    took = f"{len(rows.found) - before} of them in {lasting(time.perf_counter() - began)} by this call"
+    return _write(args, out, paper.report(rows.found, args.quick), settings, took)
+
+
+def _workers(cluster: Cluster | None) -> contextlib.AbstractContextManager[ClusterPool | None]:
+    return contextlib.nullcontext() if cluster is None else ClusterPool(cluster)
+
+
+def _ran(
+    args: argparse.Namespace, out: Path, jobs: Sequence[Job], rows: Rows, pool: ClusterPool | None
+) -> bool:
+    """Run the jobs, and return whether they came to their end; otherwise say how to resume them."""
+    try:
+        with Bar(args.no_progress or args.json, "runs") as bar:
+            run_jobs(jobs, rows, bar.show, args.workers or None, cluster=pool)
+    except KeyboardInterrupt:
+        print(
+            f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",
+            file=sys.stderr,
+        )
+        return False
+    except (OutputError, WorkerError) as error:
+        why = _options.paragraph([str(error), f"{len(rows.found)} runs are kept"])
+        print(f"deodar reproduce: {why} Resume with: {_again(args, out)}", file=sys.stderr)
+        return False
+    return True
+
+
+def _again(args: argparse.Namespace, out: Path) -> str:
+    """Return the call that resumes this one."""
+    again = " ".join(
+        ["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)]
+    )
+    again = " ".join([again, *_options.cluster_again(args)])
+    return again + (f" --only {' '.join(args.only)}" if args.only else "")
+
+
+def _chosen(args: argparse.Namespace, jobs: Sequence[Job]) -> list[Job]:
+    """Return the jobs of the conditions in `--only`, or all jobs without it."""
+    conditions = sorted({key.rpartition("/")[0] for job in jobs for key in job.keys})
+    for name in args.only:
+        if not any(c.startswith(name) for c in conditions):
+            raise UnknownName(f"no condition begins with {name!r}", fix=did_you_mean(name, conditions))
+    return [job for job in jobs if not args.only or job.keys[0].startswith(tuple(args.only))]
+
+
+def _write(
+    args: argparse.Namespace, asked: Path, report: Report, settings: Mapping[str, Json], took: str
+) -> int:
+    """Write report and figures, and print the claims; `took` says how many runs this call computed, and in
+    what time.
+    """
+    # start-up time: these bring JAX
+    from deodar.analysis.claims import failed, results
+    from deodar.figures import _files
+
+    text = results(report.claims, settings)
+
+    def fill(folder: Path) -> None:
+        for name, figure in report.figures.items():
+            _files.save_figure(figure, folder / f"{name}.png", force=True)
+        for name, table in report.tables.items():
+            output.write(folder / f"{name}.md", table.encode())
+        output.write(folder / RESULTS, text.encode())
+
+    def fill_second(folder: Path) -> None:
+        shutil.copyfile(asked / ROWS, folder / ROWS)
+        fill(folder)
+
+    out, why = asked, ""
+    try:
+        fill(asked)
+    except OutputError as error:
+        out, why = _rescue.elsewhere(error, asked, fill_second, not args.json), str(error)
+    if args.json:
+        elsewhere = {"instead_of": str(asked)} if why else {}
+        print(codec.text({"out": str(out), **codec.parse(text), **elsewhere}))
+    else:
+        for c in report.claims:
+            mark = "?" if c.holds is None else "yes" if c.holds else "NO"
+            interval = "" if c.interval is None else f", 95 % interval {c.interval[0]:g} to {c.interval[1]:g}"
+            wanted = "no target" if c.origin == "none" else f"wanted {c.target}, {c.origin}"
+            inferred = f"; no evidence, it assumes {c.assumes}" if c.inferred else ""
+            print(
+                f"  {mark:4}{c.name} -> {'nothing yet' if c.value is None else c.value} ({wanted}; n"
+                f" {c.n}{interval}{inferred})"
+            )
+        names = ", ".join(
+            [ROWS, RESULTS, *(f"{n}.md" for n in report.tables), *(f"{n}.png" for n in report.figures)]
+        )
+        print(f"Written to {_options.shown(out)}: {names}.")
+        required = [c for c in report.claims if c.kind == "required"]
+        held, open_ = sum(c.holds is True for c in required), sum(c.holds is None for c in required)
+        print(
+            f"{settings['runs']} of {settings['of']} runs, {took}. Of {len(required)} required claims {held}"
+            f" hold, {open_} are undecided."
+        )
+    if why:
+        sentences = [why, f"The report and a copy of the runs are written to {_options.shown(out)} instead"]
+        print(
+            f"deodar reproduce: {_options.paragraph(sentences)} With room there, write it with:"
+            f" {_again(args, asked)}",
+            file=sys.stderr,
+        )
+    return 1 if why or failed(report.claims) else 0
