@@ -97,7 +97,8 @@ def test_every_page_is_in_the_table_of_contents() -> None:
     listed = set(
         re.findall(r": ([\w/-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE)
     )
-    assert listed == {p.relative_to(DOCS).as_posix() for p in DOCS.rglob("*.md")}
+    found = {p.relative_to(DOCS).as_posix() for p in DOCS.rglob("*.md")}
+    assert listed == {page for page in found if not page.startswith("decisions/")}
 
 
 def test_every_picture_is_shown_on_a_page() -> None:

@@ -37,7 +37,7 @@ simulation.
 QUADRATURE = "point"
 """Quadrature of all fields, as in the published simulator.
 
-With `cell` the robot reaches the same goals (`python benchmarks/quadratures.py spa`).
+With `cell` the robot reaches the same goals.
 """
 
 LATERAL = {

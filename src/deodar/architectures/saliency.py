@@ -38,7 +38,7 @@ CELLS, PIXELS, HUES = 40, 160, 30
 QUADRATURE = "point"
 """Quadrature of all fields; the parameters were found with `point`.
 
-With `cell` one colour less is selected on the untuned photographs (`python benchmarks/quadratures.py`).
+With `cell` one colour less is selected on the untuned photographs.
 """
 
 # The parameters were tuned on photographs with a separate prototype and scaled so that integrals include the

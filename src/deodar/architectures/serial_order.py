@@ -43,7 +43,7 @@ TAU, STEEP = 10.0, 100.0
 QUADRATURE = "point"
 """Quadrature of all fields: the strengths count active samples of a grid in steps of 1.
 
-With `cell` the model produces the same sequences (`python benchmarks/quadratures.py`).
+With `cell` the model produces the same sequences.
 """
 
 LEARN = 1 / 20.0
