@@ -168,12 +168,10 @@ def resting(part: Part) -> frozenset[str]:
     )
 
 
-def is_neutral(value: Any, neutral: float = 0.0) -> bool:
-    """Return whether a bound value is the plain neutral number, so that the program is compiled without
-    it.
-    """
+def is_neutral(value: Any) -> bool:
+    """Return whether a bound value is the plain number 0, so that the program is compiled without it."""
     values: tuple[Any, ...] = typing.cast(Any, value) if isinstance(value, tuple) else (value,)
-    return all(isinstance(v, float) and v == neutral for v in values)
+    return all(isinstance(v, float) and v == 0.0 for v in values)
 
 
 def per_axis(value: PerAxis, axes: Sized) -> tuple[float, ...]:

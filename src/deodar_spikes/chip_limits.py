@@ -24,7 +24,6 @@ class ChipLimits:
         sources_per_core: neurons whose spikes a core receives.
         synapse_bits_per_core: memory of a core for weights.
         weight_bits, bias_bits: bits of a weight and of a constant current, with the sign.
-        delay_steps: longest delay of a spike.
         mismatch: relative standard deviation between neurons, by parameter.
         sources: where each number comes from.
     """
@@ -38,7 +37,6 @@ class ChipLimits:
     synapse_bits_per_core: int | None = None
     weight_bits: int | None = None
     bias_bits: int | None = None
-    delay_steps: int | None = None
     mismatch: Mapping[str, float] = dc.field(default_factory=dict[str, float])
     sources: Mapping[str, str] = dc.field(default_factory=dict[str, str])
 

@@ -57,7 +57,6 @@ def translate(
     name: str = "",
     neurons: int = NEURONS,
     step: float | None = None,
-    membrane: float = MEMBRANE,
     tonic: bool = False,
 ) -> Translated:
     """Translate a model to a network of spiking neurons.
@@ -67,7 +66,6 @@ def translate(
         name: name of the file, for the report.
         neurons: neurons of a cell.
         step: dt in the document's time unit; none: the document's.
-        membrane: tau_mem in s.
         tonic: whether neurons that spike in every step give the resting levels, in place of constant
             currents, which mismatch spreads.
 
@@ -84,12 +82,12 @@ def translate(
         raise ParameterError(f"{neurons} neurons of a cell", fix="Give 1 or more: --neurons 20")
     unit = unit_seconds(doc.time_unit)
     dt = (doc.step if step is None else step) * unit
-    if not 0 < dt < membrane:
+    if not 0 < dt < MEMBRANE:
         raise TimeError(
-            f"the step {dt * 1e3:g} ms is not below the membrane's time constant {membrane * 1e3:g} ms",
-            fix=f"Give a shorter step, for example --step {membrane / 40 / unit:g}",
+            f"the step {dt * 1e3:g} ms is not below the membrane's time constant {MEMBRANE * 1e3:g} ms",
+            fix=f"Give a shorter step, for example --step {MEMBRANE / 40 / unit:g}",
         )
-    return _Translation(doc, nodes, TranslationSetup(neurons, dt, membrane, unit, tonic)).run(name)
+    return _Translation(doc, nodes, TranslationSetup(neurons, dt, MEMBRANE, unit, tonic)).run(name)
 
 
 class _Translation:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import jax.numpy as jnp
 import numpy as np
@@ -45,7 +45,6 @@ class PureStep:
         doc: Document,
         parameters: Sequence[Sequence[Leaf]],
         at: float = 0.0,
-        readings: Mapping[str, np.ndarray] | None = None,
     ) -> None:
         batch = Batch(sweep=tuple(tuple(leaves) for leaves in parameters))
         self.executable = found = executable(model, doc, PRECISION, batch)
@@ -55,7 +54,7 @@ class PureStep:
         self._base: ProgramValues = {**values, "swept": ()}
         self.start: ProgramState
         self.start, self._keys = found.init(values, 0, [0])
-        self._readings = {**found.blind(), **(readings or {})}
+        self._readings = found.blind()
         whole, real = packed({"period": 1, "start": at, "dt": self.dt}, found.program.dtype)
         with precision_context(PRECISION):
             self._clock = unpacked(jnp.asarray(whole), jnp.asarray(real))

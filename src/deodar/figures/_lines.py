@@ -88,11 +88,10 @@ def rows(v: xarray.DataArray, across: str) -> list[np.ndarray]:
     return out
 
 
-def level(ax: Axes, view: View, across: bool = True) -> None:
+def level(ax: Axes, view: View) -> None:
     """Draw a line at the threshold, if the variable has one and its values come near it."""
     if view.threshold is not None:
-        draw = ax.axhline if across else ax.axvline
-        draw(view.threshold, label=LEVEL, **_style.THRESHOLD_LINE)
+        ax.axhline(view.threshold, label=LEVEL, **_style.THRESHOLD_LINE)
 
 
 def limits(ax: Axes, view: View) -> None:

@@ -66,9 +66,9 @@ class Wiring:
         """The position of each declared element in the document, by id."""
         return {n.id: k for k, n in enumerate(self.declared)}
 
-    def arriving(self, node: Node, port: str = "input") -> Interval:
-        """Return bounds of the sum that arrives at an input port."""
-        return total(*(self.bounds[i].get(p, ANY) for i, p, _ in node.reads.get(port, ())))
+    def arriving(self, node: Node) -> Interval:
+        """Return bounds of the sum that arrives at the port `input`."""
+        return total(*(self.bounds[i].get(p, ANY) for i, p, _ in node.reads.get("input", ())))
 
     @functools.cached_property
     def bounds(self) -> dict[str, dict[str, Interval]]:

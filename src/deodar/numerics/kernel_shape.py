@@ -21,8 +21,8 @@ def lag_axis(axis: Axis) -> Axis:
     return Axis(f"lag in {axis.name}", -reach, reach, samples=max(2, count), unit=axis.unit)
 
 
-def kernel_shape(kernels: Sequence[Kernel], axes: Axes, most: int = 2) -> tuple[Axes, np.ndarray]:
-    r"""Return the sum of kernels over the lags, at lag 0 on axes after the first `most`.
+def kernel_shape(kernels: Sequence[Kernel], axes: Axes) -> tuple[Axes, np.ndarray]:
+    r"""Return the sum of kernels over the lags, at lag 0 on axes after the first two.
 
     Equation:
         k(d) = \sum_i k_i(d)
@@ -30,8 +30,8 @@ def kernel_shape(kernels: Sequence[Kernel], axes: Axes, most: int = 2) -> tuple[
     Returns:
         The axes of the lags, and the weights, one for each combination of lags, per unit of the axes.
     """
-    shown = tuple(lag_axis(a) for a in axes[:most])
-    lags = [a.points for a in shown] + [np.zeros(1)] * len(axes[most:])
+    shown = tuple(lag_axis(a) for a in axes[:2])
+    lags = [a.points for a in shown] + [np.zeros(1)] * len(axes[2:])
     total = np.zeros([len(lag) for lag in lags])
     for kernel in kernels:
         sampled = kernel.samples(axes, np.float32)

@@ -51,19 +51,6 @@ def coordinate(sizes: Mapping[str, int], reasons: Mapping[tuple[int, ...], str])
     return counted(data.assign_coords({_name(data): (list(sizes), texts.astype(str))}))
 
 
-def taken_apart(
-    data: xarray.Dataset, dimensions: Sequence[str]
-) -> tuple[xarray.Dataset, dict[tuple[int, ...], str]]:
-    """Return a record without its coordinate of copies that diverged, and the reasons by their indices."""
-    name = _name(data)
-    if name not in data.coords:
-        return data, {}
-    texts = data[name].transpose(*dimensions).values
-    reasons = {tuple(map(int, place)): str(texts[tuple(place)]) for place in np.argwhere(texts != "")}
-    rest = data.drop_vars(name)
-    return rest.assign_attrs({k: v for k, v in data.attrs.items() if k != REASON}), reasons
-
-
 def alike(records: Sequence[xarray.Dataset], dimensions: Sequence[str]) -> list[xarray.Dataset]:
     """Return records that all have the coordinate, if any has it."""
     if not any(_name(data) in data.coords for data in records):

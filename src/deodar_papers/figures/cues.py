@@ -21,7 +21,7 @@ from deodar.worlds.picture import Picture
 CuePlace = tuple[float, float]
 
 ROW = 1.75
-WIDTH = 9.6
+WIDTH, COLUMNS = 9.6, 4
 EXPLAINED = (
     "black line: threshold\narrow: cued hue\ncircle: peak\ndotted outlines: right\n  places, marked by a"
     " person\ndotted lines: spatial peak"
@@ -121,15 +121,15 @@ def cues_figure(result: DrawnResult) -> Figure:
     return out
 
 
-def overview(results: Sequence[DrawnScenes], columns: int = 4) -> Figure:
+def overview(results: Sequence[DrawnScenes]) -> Figure:
     """All photographs with the selections by cues of present colours: marked region, peaks, end of the motor
     variable.
     """
     shown = [(r, o) for r in results for o in r.outcomes if o.cue.expect != "absent"]
-    rows = -(-len(shown) // columns)
+    rows = -(-len(shown) // COLUMNS)
     with style():
         out = sheet(WIDTH, 2.1 * rows)
-        grid = out.subplots(rows, columns, squeeze=False)
+        grid = out.subplots(rows, COLUMNS, squeeze=False)
         for axes in grid.flat:
             axes.axis("off")
         for axes, (result, outcome) in zip(grid.flat, shown, strict=False):

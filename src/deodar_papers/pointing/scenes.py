@@ -16,7 +16,6 @@ from deodar.codec import JsonObject
 HUES = {"red": 0.0, "yellow": 55.0, "green": 120.0, "cyan": 180.0, "blue": 235.0, "magenta": 300.0}
 """Hues of the objects' colours, degrees. Two of them can be cued."""
 
-CUED = ("red", "green")
 SHARES = (0.3, 0.1, 0.3, 0.1, 0.1, 0.1)
 """How often each colour is drawn: cued colours more often, so that scenes have matches."""
 

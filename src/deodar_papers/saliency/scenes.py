@@ -234,18 +234,15 @@ def _cues(hues: Sequence[float]) -> tuple[Cue, ...]:
     return tuple(Cue(h) for h in hues or WHEEL)
 
 
-def run_scene(
-    scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda: None, model: Model | None = None
-) -> SceneResult:
+def run_scene(scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda: None) -> SceneResult:
     """Run all cues of a scene as one batch: half a second without a cue, then three seconds with it.
 
     Args:
         scene: the picture and its cues.
         seed: seed of the noise.
         step: called after each of two simulations.
-        model: the architecture; none: `saliency()`.
     """
-    model = model or saliency()
+    model = saliency()
     sweep = {"cue.center": [c.hue for c in scene.cues]}
     paths = ["seen.output", "colour.activation", "spatial.activation", "pan.output", "tilt.output"]
     world = scene.world or scene.picture

@@ -91,8 +91,9 @@ def random_arena(
     return SearchArena(side, blocks, (0.0, 0.0, float(rng.uniform(-math.pi, math.pi))))
 
 
-def ring(colours: Sequence[str] = "RYGBV") -> SearchArena:
-    """Return a ring of one block of each colour around the vehicle, which heads for the first one."""
+def ring() -> SearchArena:
+    """Return a ring of blocks of five colours around the vehicle, which heads for the first one."""
+    colours = "RYGBV"
     angles = [2 * math.pi * k / len(colours) for k in range(len(colours))]
     blocks = [
         Block(c, (RADIUS * math.cos(a), RADIUS * math.sin(a))) for c, a in zip(colours, angles, strict=True)

@@ -27,20 +27,20 @@ CLUTTERED = "GYB"
 """The sequence that is learned in clutter."""
 
 
-def random_sequences(count: int = 20, seed: int = 7) -> tuple[str, ...]:
-    """Draw sequences of 2 to 5 of the five colours; a colour may be repeated."""
-    rng = np.random.default_rng(seed)
-    return tuple("".join(rng.choice(list(FIVE), int(rng.integers(2, 6)))) for _ in range(count))
+def random_sequences() -> tuple[str, ...]:
+    """Draw twenty sequences of 2 to 5 of the five colours; a colour may be repeated."""
+    rng = np.random.default_rng(7)
+    return tuple("".join(rng.choice(list(FIVE), int(rng.integers(2, 6)))) for _ in range(20))
 
 
-def random_pairs(repeats: bool, count: int = 50, seed: int = 11) -> tuple[tuple[str, str], ...]:
-    """Draw pairs of sequences of 3 to 5 of the five colours, which have no colour at the same position.
+def random_pairs(repeats: bool) -> tuple[tuple[str, str], ...]:
+    """Draw fifty pairs of sequences of 3 to 5 of the five colours, which have no colour at the same position.
 
     Without `repeats` no colour follows itself in a sequence.
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(11)
     out: list[tuple[str, str]] = []
-    while len(out) < count:
+    while len(out) < 50:
         first, second = ("".join(rng.choice(list(FIVE), int(rng.integers(3, 6)))) for _ in range(2))
         again = any(a == b for s in (first, second) for a, b in itertools.pairwise(s))
         if all(a != b for a, b in zip(first, second, strict=False)) and (repeats or not again):

@@ -183,10 +183,10 @@ def changing(sequences: Sequence[str]) -> tuple[str, ...]:
     return tuple(s for s in sequences if s[0] != s[1])
 
 
-def ten_sequences(count: int = 10, seed: int = 10) -> tuple[str, ...]:
-    """Draw sequences of all ten hues, each in an order of its own."""
-    rng = np.random.default_rng(seed)
-    return tuple("".join(rng.permutation(list(TEN))) for _ in range(count))
+def ten_sequences() -> tuple[str, ...]:
+    """Draw ten sequences of all ten hues, each in an order of its own."""
+    rng = np.random.default_rng(10)
+    return tuple("".join(rng.permutation(list(TEN))) for _ in range(10))
 
 
 def design(quick: bool) -> JsonObject:

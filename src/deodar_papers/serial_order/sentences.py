@@ -269,10 +269,10 @@ def _colour_space() -> list[Claim]:
     return [_number(*value) for value in values]
 
 
-def _attraction(width: float, middle: float = 30.0) -> float:
-    """Return the force towards a peak over columns of a width around a middle: the sum of their offsets."""
+def _attraction(width: float) -> float:
+    """Return the force towards a peak over columns of a width around column 30: the sum of their offsets."""
     axis = column_axis()
-    inside = np.abs(np.asarray(axis.points) - middle) < width / 2
+    inside = np.abs(np.asarray(axis.points) - 30.0) < width / 2
     return float(np.asarray(axis.points)[inside].sum())
 
 

@@ -130,10 +130,10 @@ class Sentence:
         value, interval = statistics.share_difference(first, second)
         return self.larger(value, interval, min(first[1], second[1]), 0.0, by)
 
-    def as_often(self, first: tuple[int, int], second: tuple[int, int], margin: float = EFFECT) -> Claim:
+    def as_often(self, first: tuple[int, int], second: tuple[int, int]) -> Claim:
         """Return a claim that an equal share of the runs (hits, n) of both kinds have a property."""
         value, interval = statistics.share_difference(first, second)
-        return self.equal(value, interval, min(first[1], second[1]), -margin, margin)
+        return self.equal(value, interval, min(first[1], second[1]), -EFFECT, EFFECT)
 
     def equal(self, value: float | None, interval: Interval | None, n: int, low: float, high: float) -> Claim:
         """Return a claim that the interval of a difference or ratio lies inside a margin."""

@@ -52,7 +52,6 @@ SETTINGS = (
 """Numbers that an argument of the command line may state: `--world "eye:distractors=2, speed=50"`."""
 
 TARGET, RIVAL = "target", "rival"
-CAMERAS = {"pan": 0, "tilt": 1}
 EVENTS = {"events": ("on", "off"), "on": ("on",), "off": ("off",)}
 
 

@@ -56,11 +56,11 @@ def make(name: str, **fields: Any) -> Any:
     return store().types[name](**fields)
 
 
-def header(seconds: float = 0.0, frame: str = "") -> Any:
-    """Return the header of a message, with a time in s since 1970 and the name of a frame."""
+def header(seconds: float = 0.0) -> Any:
+    """Return the header of a message, with a time in s since 1970 and no frame."""
     whole = int(seconds)
     stamp = make("builtin_interfaces/msg/Time", sec=whole, nanosec=int((seconds - whole) * 1e9))
-    return make("std_msgs/msg/Header", stamp=stamp, frame_id=frame)
+    return make("std_msgs/msg/Header", stamp=stamp, frame_id="")
 
 
 def to_bytes(message: Any) -> bytes:

@@ -26,9 +26,6 @@ from deodar.model.document import Document, Entry
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
 
-RightHandSide = Callable[[Array, Array], Array]
-"""A function of the state and of the parameters."""
-
 
 @dataclass(frozen=True)
 class StatePart:

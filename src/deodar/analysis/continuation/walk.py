@@ -68,7 +68,6 @@ def walk(
     span: tuple[float, float],
     most: int,
     step: float = 0.1,
-    told: Callable[[float], object] = lambda value: None,
 ) -> Walk:
     """Follow a branch from a point until it leaves the span, closes, or has `most` points."""
     found, size = Walk([start]), step
@@ -84,7 +83,6 @@ def walk(
         after, effort = ahead
         found.bifurcations += _between(line, now, after, size, len(found.points) - 1)
         found.points.append(after)
-        told(line.value(after.z))
         if not span[0] <= line.value(after.z) <= span[1]:
             found.points[-1] = _at_end(line, now, after, span)
             found.bifurcations = [b for b in found.bifurcations if span[0] <= b.value <= span[1]]

@@ -100,17 +100,16 @@ class RegionSize:
     points: int
 
 
-def region_size(judge: CandidateJudge, values: np.ndarray, points: int = CERTAIN) -> RegionSize:
+def region_size(judge: CandidateJudge, values: np.ndarray) -> RegionSize:
     """Return the size of the region around values that meet all requirements.
 
     Args:
         judge: measures candidates.
         values: the values.
-        points: random points, of which all that lie inside meet all.
     """
     alone = _alone(judge, values)
     half = min(min(pair) for pair in alone)
-    return RegionSize(together(judge, values, half, points), alone, points)
+    return RegionSize(together(judge, values, half, CERTAIN), alone, CERTAIN)
 
 
 def together(judge: CandidateJudge, values: np.ndarray, half: float, points: int) -> float:

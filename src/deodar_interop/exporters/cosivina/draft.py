@@ -165,13 +165,11 @@ class Given:
         part: FilePart,
         source: FilePart,
         *,
-        component: str = "output",
-        slot: int = 0,
         after: bool | None = False,
         dims: Dims | None = None,
     ) -> None:
         """Connect two parts of this entry."""
-        part.links.append(PartLink(source, component, slot, after, self.dims() if dims is None else dims))
+        part.links.append(PartLink(source, "output", 0, after, self.dims() if dims is None else dims))
 
     def claim(self, others: Sequence[Entry]) -> None:
         """State that other entries are contained in the parts of this one."""

@@ -65,9 +65,6 @@ class ActionSequence:
 ParameterPath = tuple[StepPath, str]
 """A parameter: the path of a step, and the name."""
 
-MakeAction = Callable[[float | Sequence[float], str], Action]
-"""Return an action for its time, or one for each trial, and the event after which it is carried out."""
-
 StartChange = tuple[ActionSequence, ChangedParameter, float, bool]
 """A change at the start of trials: its sequence, the parameter, the number, and whether it is added."""
 

@@ -163,13 +163,13 @@ class Refused(ValueError):
     """Raised if cedar does not run a step; the message is cedar's reason."""
 
 
-def sizes(values: StepValues, default: int, most: int, name: str = "sizes") -> Counts:
+def sizes(values: StepValues, default: int, most: int) -> Counts:
     """Return the size that `dimensionality` and `sizes` state together."""
     count = values.whole("dimensionality", 2, 0, most)
     if not count:
-        if name in values.body:
-            values.say(name, "carried", "none for one number")
+        if "sizes" in values.body:
+            values.say("sizes", "carried", "none for one number")
         return ()
-    dims = tuple(int(n) for n in values.numbers(name, default, count, 1, 1e6))
+    dims = tuple(int(n) for n in values.numbers("sizes", default, count, 1, 1e6))
     # a matrix with one row or one column has one dimension in cedar, and one with both none
     return tuple(n for n in dims if n > 1) if count <= 2 else dims

@@ -47,16 +47,16 @@ class StepValues(ForeignValues):
         found = members(self.body.get(name) if body is None else body)
         return StepValues(found, self.where, f"{self.prefix}{name}.", self.lines)
 
-    def time(self, name: str, default: float, lower: float = 0.0) -> float:
+    def time(self, name: str, default: float) -> float:
         """Return a time in ms; a number without a unit is in ms."""
         if name not in self.body:
             return default
         value = milliseconds(self.body[name])
         if value is None:
             return self.instead(name, default)
-        if value < lower:
-            self.say(name, "approximated", f"{value:g} ms is out of range; {lower:g} is used")
-            return lower
+        if value < 0:
+            self.say(name, "approximated", f"{value:g} ms is out of range; 0 is used")
+            return 0.0
         self.say(name)
         return value
 
