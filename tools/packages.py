@@ -138,11 +138,14 @@ def _docstrings(module: ast.Module) -> set[int]:
 
 
 def _texts(module: ast.Module) -> Iterator[tuple[int, str]]:
-    """Yield line and text of each name and string in the code of a module."""
+    """Yield line and text of each name and one-word string in the code of a module.
+
+    Sentences are left out: a message says what to do in a script, in the shell and in the studio.
+    """
     docstrings = _docstrings(module)
     for node in ast.walk(module):
         match node:
-            case ast.Constant(value=str(text)) if id(node) not in docstrings:
+            case ast.Constant(value=str(text)) if id(node) not in docstrings and " " not in text:
                 yield node.lineno, text
             case ast.Name(id=text) | ast.Attribute(attr=text) | ast.arg(arg=text):
                 yield node.lineno, text

@@ -10,7 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar import cli, registry
-from deodar.importers import opening
+from deodar.importers.tools import IMPORTERS
 from deodar_papers import papers
 from tests.docs.source import DOCS, ROOT
 
@@ -40,7 +40,7 @@ LISTS = {
     "Worlds": sorted(registry.kinds("worlds")),
     "Published models": _models(),
     "Reproduced papers": list(papers.PAPERS.first_party()),
-    "Importers": list(opening.IMPORTERS.first_party()),
+    "Importers": list(IMPORTERS.first_party()),
     "Commands": list(cli.COMMANDS.first_party()),
 }
 """The rows of the table of features in README.md, and the existing names."""

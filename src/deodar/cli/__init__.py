@@ -37,11 +37,9 @@ COMMANDS: Extensions[ModuleType] = Extensions("commands", "command", _own, _prob
 
 
 def _needed(given: Sequence[str]) -> dict[str, ModuleType]:
-    """Return the commands that a call needs: the one it names, or all for the list of commands."""
-    named = next((word for word in given if not word.startswith("-")), None)
-    if named is None:
-        return dict(sorted(COMMANDS.items()))
-    return {named: COMMANDS[named]} if named in COMMANDS else {}
+    """Return the commands that a call may name: its words that are commands, or all if there are none."""
+    named = {word: COMMANDS[word] for word in given if word in COMMANDS}
+    return named or dict(sorted(COMMANDS.items()))
 
 
 class _Parser(argparse.ArgumentParser):

@@ -202,14 +202,15 @@ def _plugins() -> list[dict[str, str]]:
     from deodar.experiments.measures import MEASURES
     from deodar.exporters.tools import EXPORTERS
     from deodar.figures import _panels
-    from deodar.importers import examples, opening
+    from deodar.importers import examples
+    from deodar.importers.tools import IMPORTERS
 
     registry.kinds()  # names in deodar
     names = plugins.found("names", vars(deodar)["__all__"])
     groups = plugins.found("groups", plugins.GROUPS)
     defined = [group.load()[0] for group in groups if not group.load()[1]]
     listed = [(p, registry.take(p)) for p in registry.packaged()]
-    for group in (MEASURES, _panels.KINDS, *defined, opening.IMPORTERS, EXPORTERS, cli.COMMANDS):
+    for group in (MEASURES, _panels.KINDS, *defined, IMPORTERS, EXPORTERS, cli.COMMANDS):
         listed += [(p, group.problem(p)) for p in group.packaged()]
     listed += [(p, p.load()[1]) for p in (*examples.packaged(), *names, *groups)]
     return [

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from deodar import codec
 from deodar.cli import _options
+from deodar.errors import UnknownName
 from deodar.importers import examples
 from deodar.model import output
 
@@ -112,8 +113,12 @@ def _copy(args: argparse.Namespace) -> int:
 
 
 def _open(args: argparse.Namespace) -> int:
-    # start-up time: these bring JAX
-    from deodar.cli import main
+    # start-up time: this imports the commands
+    from deodar.cli import COMMANDS
 
-    examples.named(f"{examples.PREFIX}{args.name}")
-    return main(["studio", f"{examples.PREFIX}{args.name}"])
+    path = f"{examples.PREFIX}{args.name}"
+    examples.named(path)
+    opening = [command for command in COMMANDS.values() if hasattr(command, "open_document")]
+    if not opening:
+        raise UnknownName("no command of the installed packages opens a document", fix="Type: deodar doctor")
+    return opening[0].open_document(path)

@@ -22,8 +22,8 @@ netcdf, csv and zarr hold the values.
 gif, mp4 (extra video) and png (a folder of numbered files) show what deodar plot draws, frame by frame: a
 line moves over panels of time, and snapshots, projections and paths show each time. Formats of other tools:
 {records}. These formats take a model instead of a record, with a report of what was carried, approximated
-or dropped: {models}. `deodar export cosivina MODEL` means `deodar export MODEL --to cosivina`. Status 1
-with --strict if anything was not carried."""
+or dropped: {models}. `deodar export TOOL MODEL` means `deodar export MODEL --to TOOL`. Status 1 with
+--strict if anything was not carried."""
 
 DATA = {"netcdf": ".nc", "csv": ".csv", "zarr": ".zarr"}
 VIDEOS = {"gif": ".gif", "mp4": ".mp4", "png": ""}
@@ -135,7 +135,7 @@ def _target(args: argparse.Namespace) -> tuple[str, Path]:
 
 
 def _named_first(args: argparse.Namespace) -> None:
-    """Read `export cosivina MODEL` as `export MODEL --to cosivina`."""
+    """Read `export TOOL MODEL` as `export MODEL --to TOOL`."""
     name = str(args.record)
     if (
         name in of_models()

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from deodar import codec
 from deodar.cli import _options, _report
+from deodar.importers.tools import IMPORTERS
 from deodar.model import output
 
 HELP = (
-    "make a document from a file of another tool (cosivina, dnf-composer), with a report of what was carried,"
-    " approximated or dropped"
+    "make a document from a file of another tool, with a report of what was carried, approximated or dropped"
 )
 EPILOG = """\
 Known errors of the other tool are corrected, and listed; with --bugs they are reproduced. The report stays
@@ -21,7 +21,7 @@ with --strict if anything was not carried."""
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.epilog = EPILOG
+    parser.epilog = f"Tools: {', '.join(p.name for p in IMPORTERS.packaged())}. {EPILOG}"
     _options.add_document(parser, "the file of the other tool")
     parser.add_argument(
         "--out",

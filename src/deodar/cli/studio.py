@@ -71,3 +71,10 @@ def run(args: argparse.Namespace) -> int:
     world, token = _options.world(args.world), not args.no_token
     serve(Service(root, file, args.trust, world, args.host, args.port, token), not args.no_browser, say)
     return 0
+
+
+def open_document(path: str) -> int:
+    """Serve the studio with a document, as `deodar studio PATH` does."""
+    parser = argparse.ArgumentParser(prog="deodar studio")
+    arguments(parser)
+    return run(parser.parse_args([path]))

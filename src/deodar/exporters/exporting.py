@@ -17,7 +17,7 @@ from deodar.model.model import Model
 def export(
     model: Model,
     path: str | Path,
-    to: str = "cosivina",
+    to: str | None = None,
     force: bool = False,
     **options: Any,
 ) -> ImportReport:
@@ -30,7 +30,7 @@ def export(
     Args:
         model: the model; it must be free of problems.
         path: the file to write, `.json` for cosivina, `.nir` for NIR.
-        to: name of the tool.
+        to: name of the tool; by default the one whose files have the ending of `path`.
         force: whether to replace an existing file.
         options: options of the tool, for example `spiking=dd.SpikingOptions(...)`: neurons, step and chip
         of a
@@ -51,21 +51,41 @@ def export(
     return content.report
 
 
-def exported(model: Model, name: str, to: str = "cosivina", **options: Any) -> Exported:
+def exported(model: Model, name: str, to: str | None = None, **options: Any) -> Exported:
     """Return the content of the file of another tool, and the report, without writing it.
+
+    Args:
+        model: the model.
+        name: name of the file.
+        to: name of the tool; by default the one whose files have the ending of `name`.
+        options: options of the tool.
 
     Raises:
         UnknownName: deodar has no exporter of that name, or the exporter no such option.
         ModelError: the model has problems; the error lists all.
     """
-    exporter = EXPORTERS[to]
+    exporter = EXPORTERS[_tool(name) if to is None else to]
     if not hasattr(exporter, "write"):
         raise UnknownName(
-            f"the exporter {to!r} writes records, not models", fix=did_you_mean(to, of_models())
+            f"the exporter {exporter.NAME!r} writes records, not models",
+            fix=did_you_mean(exporter.NAME, of_models()),
         )
     accepted = inspect.signature(exporter.write).parameters
     for option in options.keys() - accepted.keys():
         raise UnknownName(
-            f"the exporter {to!r} has no option {option!r}", fix=did_you_mean(option, list(accepted)[2:])
+            f"the exporter {exporter.NAME!r} has no option {option!r}",
+            fix=did_you_mean(option, list(accepted)[2:]),
         )
     return exporter.write(model, name, **options)
+
+
+def _tool(name: str) -> str:
+    """Return the name of the first tool whose files have the ending of a name."""
+    endings = {exporter.ENDING: tool for tool, exporter in reversed(of_models().items())}
+    ending = Path(name).suffix.lower()
+    if ending not in endings:
+        raise UnknownName(
+            f"no exporter of models writes files that end in {ending!r}",
+            fix=f"Give the name of the tool, to=... ({', '.join(of_models())})",
+        )
+    return endings[ending]

@@ -4,37 +4,21 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from deodar.errors import DeodarError, DocumentError, Problem
-from deodar.extensions import Extensions
 from deodar.importers import examples
 from deodar.importers._beside import in_folder
 from deodar.importers.imported import Imported
+from deodar.importers.tools import IMPORTERS
 from deodar.model import model as models
 from deodar.model.files import MOST_BYTES
 from deodar.model.model import Model
-from deodar.plugins import Plugin
 
 HEAD = 65536
 """Number of bytes by which the format of a file is recognised."""
 
 OWN = b'"deodar":'
 """First bytes of deodar's documents."""
-
-
-def _problem(plugin: Plugin, module: Any) -> str:
-    missing = [name for name in ("NAME", "sniff", "read") if not hasattr(module, name)]
-    return f"has no {', '.join(missing)}" if missing else ""
-
-
-IMPORTERS: Extensions[ModuleType] = Extensions("importers", "importer", dict, _problem)
-"""The importers by name.
-
-Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs, beside) -> Imported`; `beside` reads
-other files of the same folder by their names. It may state `ENDINGS`, the endings of its files besides
-`.json`.
-"""
 
 
 def endings() -> tuple[str, ...]:
