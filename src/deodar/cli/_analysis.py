@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from deodar.cli import _figure
+from deodar.cli import _figure, _options
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,7 +38,7 @@ def drawn(args: argparse.Namespace) -> AnalysisDrawing | None:
         return None
     for word in _figure.WORDS:
         if getattr(args, word, None) is not None:
-            args.wrong(f"--{word.replace('_', '-')} is for records of runs; {args.record} holds a {kind}")
+            args.wrong(f"{_options.flags(word)} is for records of runs; {args.record} holds a {kind}")
     more = [Path(name) for name in args.variables if Path(name).suffix.lower() in (".nc", ".zarr")]
     ports = [name for name in args.variables if Path(name) not in more]
     if len(ports) > 1:

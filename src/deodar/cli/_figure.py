@@ -164,7 +164,7 @@ def _from_file(args: argparse.Namespace) -> FigureFile:
 
     for word in WORDS:
         if getattr(args, word, None) is not None:
-            option = f"--{word.replace('_', '-')}"
+            option = _options.flags(word)
             args.wrong(f"{option} selects what is drawn of a record; write it into {args.record}")
     if len(args.variables) > 1:
         args.wrong(f"{args.record} names its variables; after it comes at most one record")

@@ -57,7 +57,7 @@ def refuse_alone(args: argparse.Namespace) -> None:
     """Refuse options that require `--live`."""
     given = [name for name in OF_A_LIVE_RUN if getattr(args, name) is not None]
     if given:
-        args.wrong(f"{_flags(given)} needs --live")
+        args.wrong(f"{_options.flags(*given)} needs --live")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -128,7 +128,7 @@ def _refuse(args: argparse.Namespace) -> None:
     if given:
         what = "a session has no batch" if args.live and args.record else "nothing is recorded"
         args.wrong(
-            f"with --{'live' if args.live else 'cost'} {what}, so {_flags(given)} cannot be given"
+            f"with --{'live' if args.live else 'cost'} {what}, so {_options.flags(*given)} cannot be given"
             + (" without --record" if args.live and not args.record else "")
         )
 
@@ -171,7 +171,3 @@ def _speed(text: str) -> float | str:
 
 
 _speed.__name__ = "speed"
-
-
-def _flags(names: list[str]) -> str:
-    return ", ".join(f"--{name.replace('_', '-')}" for name in names)

@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable
 
+from deodar.cli import _question
 from deodar.errors import TimeError
 
 TRIAL_SECONDS = 0.5
@@ -46,11 +47,20 @@ def confirm(
     print(f"deodar {command}: {says}", file=sys.stderr)
     if args.yes:
         return
-    if not sys.stdin.isatty() or not sys.stderr.isatty():
+    if not _question.on_terminal():
         raise TimeError(f"{says}, and without a terminal deodar cannot ask for confirmation", fix=fix)
-    print("Begin? [y/N] ", end="", file=sys.stderr, flush=True)
-    if sys.stdin.readline().strip().lower() not in ("y", "yes"):
+    if not _question.confirmed("Begin?"):
         raise TimeError("the run was not confirmed", fix=fix)
+
+
+def confirm_run(args: argparse.Namespace, duration: float, dt: float, run: Callable[[float], object]) -> None:
+    """Ask for confirmation of a long `deodar run`; `run` simulates a part of it to measure its speed."""
+    # start-up time: these bring JAX
+    from deodar.batch.simulate import expected_steps
+
+    steps = expected_steps(duration, dt)
+    what = f"{steps:.3g} steps of dt = {dt:g}"
+    confirm(args, "run", steps, what, lambda: steps * seconds_a_step(lambda n: run(n * dt)))
 
 
 def seconds_a_step(run: Callable[[int], object]) -> float:

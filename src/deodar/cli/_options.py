@@ -13,7 +13,6 @@ from deodar.errors import UnknownName
 from deodar.importers import examples
 
 if TYPE_CHECKING:
-    from deodar.batch.cluster import Cluster
     from deodar.model.model import Model
     from deodar.worlds._base import World
 
@@ -38,65 +37,6 @@ def add_world(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trust", action="store_true", help="allow functions that the document names to be imported and run"
     )
-
-
-def add_cluster(parser: argparse.ArgumentParser, what: str, mixed: bool = False) -> None:
-    """Add `--cluster`, `--trust-network`, `--patience` and `--mixed`.
-
-    Args:
-        parser: the parser of the command.
-        what: what the workers share.
-        mixed: whether to add `--mixed`.
-    """
-    parser.add_argument(
-        "--cluster",
-        metavar="ADDRESS",
-        help=(
-            f"share the {what} among the workers of a scheduler at tcp://HOST:PORT or tls://HOST:PORT, of"
-            " local:N processes, or of jobs of SLURM as slurm:FILE states them (extra cluster)"
-        ),
-    )
-    parser.add_argument(
-        "--trust-network",
-        action="store_true",
-        help="allow workers beyond this machine, in a network of your own: messages are not encrypted",
-    )
-    if mixed:
-        parser.add_argument(
-            "--mixed",
-            action="store_true",
-            help="allow workers whose processors differ; each row names its own",
-        )
-    parser.add_argument(
-        "--patience",
-        type=positive,
-        metavar="S",
-        help="seconds without any worker after which the run ends (default 60)",
-    )
-
-
-def cluster(args: argparse.Namespace) -> Cluster | None:
-    """Return the cluster of `--cluster`; None without it."""
-    if args.cluster is None:
-        given = cluster_again(args)
-        if given:
-            args.wrong(f"{given[0].split()[0]} needs --cluster ADDRESS")
-        return None
-    if args.workers:
-        args.wrong("--workers and --cluster exclude each other")
-    # start-up time: this brings JAX
-    from deodar.batch.cluster import PATIENCE, Cluster
-
-    mixed = getattr(args, "mixed", False)
-    return Cluster(args.cluster, args.trust_network, mixed, args.patience or PATIENCE)
-
-
-def cluster_again(args: argparse.Namespace) -> list[str]:
-    """Return the options of a cluster as they are typed."""
-    given = [f"--cluster {shlex.quote(args.cluster)}"] if args.cluster else []
-    given += ["--trust-network"] if args.trust_network else []
-    given += ["--mixed"] if getattr(args, "mixed", False) else []
-    return given + ([f"--patience {args.patience:g}"] if args.patience else [])
 
 
 def add_cores(parser: argparse.ArgumentParser) -> None:
@@ -127,44 +67,6 @@ def use_rounding(separate: bool) -> None:
 
     if separate:
         use_separate_rounding()
-
-
-def add_devices(parser: argparse.ArgumentParser) -> None:
-    """Add `--devices`."""
-    parser.add_argument(
-        "--devices",
-        type=several,
-        metavar="N",
-        help=(
-            "share trials and sweep points, or the fields of a single run, among N devices of the kind of"
-            " --device, or all"
-        ),
-    )
-
-
-def add_hosts(parser: argparse.ArgumentParser) -> None:
-    """Add `--hosts`."""
-    parser.add_argument(
-        "--hosts",
-        type=hosts,
-        metavar="ADDRESS",
-        help=(
-            "with --devices: join the other hosts that run the same command: HOST:PORT,COUNT,INDEX with the"
-            " address of the first one, or auto under srun and mpirun"
-        ),
-    )
-
-
-def join_hosts(args: argparse.Namespace) -> None:
-    """Join the hosts of `--hosts`."""
-    if args.hosts is None:
-        return
-    if args.devices is None:
-        args.wrong("--hosts needs --devices all, or their number on all hosts together")
-    # start-up time: this brings JAX
-    from deodar.compiler.hosts import join_hosts as join
-
-    join(*args.hosts)
 
 
 def add_rounding(parser: argparse.ArgumentParser) -> None:
@@ -209,6 +111,16 @@ def add_run(parser: argparse.ArgumentParser) -> None:
     add_cores(parser)
     add_rounding(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+
+
+def progress(args: argparse.Namespace) -> bool | None:
+    """Return whether a run draws its progress; None: on a terminal."""
+    return False if args.no_progress or args.json else None
+
+
+def flags(*names: str) -> str:
+    """Return the options of arguments as they are typed."""
+    return ", ".join(f"--{name.replace('_', '-')}" for name in names)
 
 
 def wrong(parser: argparse.ArgumentParser) -> None:
@@ -261,18 +173,6 @@ def several(text: str) -> int | str:
 
 
 several.__name__ = "whole number or all"
-
-
-def hosts(text: str) -> tuple[str] | tuple[str, int, int]:
-    """Parse `HOST:PORT,COUNT,INDEX`, or `auto`."""
-    if text == "auto":
-        return (text,)
-    address, *numbers = text.split(",")
-    if len(numbers) != 2 or not all(n.isdecimal() for n in numbers):
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is neither auto nor of the form HOST:PORT,COUNT,INDEX such as node1:7007,2,0"
-        )
-    return address, int(numbers[0]), int(numbers[1])
 
 
 def positive(text: str) -> float:

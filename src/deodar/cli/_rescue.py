@@ -11,6 +11,7 @@ from typing import TypeVar
 
 import platformdirs
 
+from deodar.cli import _question
 from deodar.errors import DeodarError, OutputError, OutputExists, Problem
 from deodar.recording import places
 
@@ -33,7 +34,7 @@ def rescue(error: DeodarError, write: Callable[[Path], Done], first: Sequence[Pa
         OutputError: if no folder is writable; the message lists all of them.
     """
     tried = [error]
-    for folder in _folders(tried, first, ask and sys.stdin.isatty() and sys.stderr.isatty()):
+    for folder in _folders(tried, first, ask and _question.on_terminal()):
         try:
             places.require_parent(folder / "result")
             return write(folder)

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from deodar import codec
-from deodar.cli import _long, _options, _work_plan
+from deodar.cli import _long, _machines, _options, _work_plan
 from deodar.cli._bar import Bar
 from deodar.credentials import masked
 from deodar.errors import OutputError, WorkerError
@@ -82,7 +82,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
             " store), with one object for each batch; all workers must reach it"
         ),
     )
-    _options.add_cluster(parser, "trials", mixed=True)
+    _machines.add_cluster(parser, "trials", mixed=True)
     _options.wrong(parser)
     _long.add_yes(parser)
     _options.add_world(parser)
@@ -119,7 +119,7 @@ def run(args: argparse.Namespace) -> int:
     experiment = dc.replace(found, **given)
     if args.follow is not None:
         return _follow(args, len(experiment.cells) if part is None else part[1] - part[0])
-    cluster = _options.cluster(args)
+    cluster = _machines.cluster(args)
     setup = experiment.setup(args.trust)
     setup.store = args.records or ""
     if args.check:
@@ -143,7 +143,7 @@ def run(args: argparse.Namespace) -> int:
         }
         again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
         again += [f"{name} {value}" for name, value in options.items() if value is not None]
-        again += _options.cluster_again(args)
+        again += _machines.cluster_again(args)
         again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
         why = "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}"
         print(

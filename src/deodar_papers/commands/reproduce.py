@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from deodar import codec
 from deodar.batch.on_cluster import ClusterPool
-from deodar.cli import _options, _rescue
+from deodar.cli import _machines, _options, _rescue
 from deodar.cli._bar import Bar, lasting
 from deodar.codec import Json
 from deodar.errors import OutputError, UnknownName, WorkerError, did_you_mean
@@ -68,7 +68,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="share the runs among N processes of one core each",
     )
-    _options.add_cluster(parser, "runs")
+    _machines.add_cluster(parser, "runs")
     _options.add_json(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.wrong(parser)
@@ -84,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
     paper = papers.PAPERS[args.paper]
     jobs = _chosen(args, paper.jobs(args.quick))
     out: Path = args.out or places.free(Path.cwd(), args.paper)
-    cluster = _options.cluster(args)
+    cluster = _machines.cluster(args)
     claim(out, ROWS, "a reproduction")
     with writer_lock.locked(out), _workers(cluster) as pool:
         made = made_by(find()) if pool is None else pool.made_by
@@ -131,7 +131,7 @@ def _again(args: argparse.Namespace, out: Path) -> str:
     again = " ".join(
         ["deodar reproduce", args.paper, *(["--quick"] if args.quick else []), "--out", _options.shown(out)]
     )
-    again = " ".join([again, *_options.cluster_again(args)])
+    again = " ".join([again, *_machines.cluster_again(args)])
     return again + (f" --only {' '.join(args.only)}" if args.only else "")
 
 

@@ -1,0 +1,133 @@
+"""What `deodar run` prints of a run that has ended, and its status."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import dataclasses as dc
+import sys
+import warnings
+from collections.abc import Generator
+from typing import TYPE_CHECKING
+
+from deodar import codec
+from deodar.cli import _options
+from deodar.cli._run_output import GrownRecord, RunFolder, WrittenRun
+from deodar.codec import Json
+from deodar.errors import RunWarning
+from deodar.recording import probe
+from deodar.recording.files import SUFFIXES
+
+if TYPE_CHECKING:
+    import xarray
+
+    from deodar.model.document import Document
+    from deodar.recording.repeat import Repetition
+
+NAMES = 4
+"""Most variables that are named."""
+
+
+@contextlib.contextmanager
+def quiet() -> Generator[None]:
+    """Suppress the warnings of a run, which its report prints."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RunWarning)
+        yield
+
+
+@dc.dataclass(frozen=True)
+class EndedRun:
+    """A run that has ended.
+
+    Attributes:
+        document: its document.
+        data: its record; None if it was stopped before the first time.
+        stopped: why it was stopped; "": it is complete.
+        repetition: the comparison with the record that was run again.
+    """
+
+    document: Document
+    data: xarray.Dataset | None
+    stopped: str = ""
+    repetition: Repetition | None = None
+
+
+def finish(args: argparse.Namespace, output: RunFolder | GrownRecord, run: EndedRun) -> int:
+    """Write a run and print where; status 1 if it was stopped, written elsewhere, or differs without a
+    reason.
+    """
+    data, stopped, repetition = run.data, run.stopped, run.repetition
+    if stopped and (data is None or not _times(data)):
+        _say(_options.paragraph([stopped, "Nothing had been recorded, so nothing was written"]))
+        return 1
+    assert data is not None
+    written = output.write(data, run.document, not args.json)
+    out, record, failure = written
+    if "diverged" in data.attrs:
+        _say(f"warning: {data.attrs['diverged']}")
+    if args.json:
+        elsewhere = {"instead_of": output.label} if failure else {}
+        print(codec.text(_answer(written, data, run) | elsewhere))
+    wrote = f"Wrote {_contents(data)} to {_options.shown(out)}"
+    table = record.suffix == SUFFIXES["csv"]
+    look = (
+        f"The table is {_options.shown(record)}"
+        if table
+        else f"Look at it with: deodar plot {_options.shown(out)}"
+    )
+    if stopped:
+        _say(_options.paragraph([stopped, f"{wrote}, marked as incomplete", look]))
+        return 1
+    if failure:
+        instead = (
+            f"{wrote} as {record.name} instead" if isinstance(output, GrownRecord) else f"{wrote} instead"
+        )
+        _say(_options.paragraph([failure, instead, look]))
+        return 1
+    if repetition is not None and (repetition.differences or not repetition.same_bits):
+        _say(_options.paragraph([("warning: " if repetition.faithful else "") + str(repetition)]))
+    if not args.json:
+        if repetition is not None and repetition.same_bits and not repetition.differences:
+            print(_options.paragraph([str(repetition)]))
+        text = _options.paragraph([wrote, look])
+        print(text if table else text.rstrip("."))  # a command to copy
+    return 0 if repetition is None or repetition.faithful else 1
+
+
+def _say(what: str) -> None:
+    print(f"deodar run: {what}", file=sys.stderr)
+
+
+def _times(data: xarray.Dataset) -> int:
+    """Return the number of times of the variable with most of them."""
+    return max((n for d, n in data.sizes.items() if probe.is_time(str(d))), default=0)
+
+
+def _contents(data: xarray.Dataset) -> str:
+    names = list(map(str, data.data_vars))
+    shown = ", ".join(names[:NAMES]) + (f" and {len(names) - NAMES} more" if len(names) > NAMES else "")
+    times = _times(data)
+    trials = f"{data.sizes['trial']} trials, " if "trial" in data.sizes else ""
+    return f"{shown} ({trials}{f'{times} times' if times != 1 else 'one time'})"
+
+
+def _answer(written: WrittenRun, data: xarray.Dataset, run: EndedRun) -> dict[str, Json]:
+    answer: dict[str, Json] = {
+        "out": str(written.out),
+        "record": str(written.record),
+        "variables": {
+            str(n): dict(zip(map(str, v.dims), v.shape, strict=True)) for n, v in data.data_vars.items()
+        },
+        "complete": not run.stopped,
+    }
+    if (written.out / "model.json").is_file():
+        answer["model"] = str(written.out / "model.json")
+    if (found := run.repetition) is not None:
+        answer["repetition"] = {
+            "same_bits": found.same_bits,
+            "differences": [{"what": d.what, "then": d.then, "now": d.now} for d in found.differences],
+            "largest": {k: v if v < float("inf") else None for k, v in found.largest.items()},
+            "compared": found.compared,
+        }
+    return answer
