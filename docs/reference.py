@@ -95,6 +95,8 @@ CLASSES = [
         "Signal",
         "Setting",
         "Convolution",
+        "PositionUnit",
+        "PositionCode",
         "Time",
         "Action",
         "Event",
@@ -109,6 +111,7 @@ ALIASES = {
     "Arrays": "arrays by name: a state, inputs, outputs",
     "Axes": "a tuple of `dd.Axis`, () for a single number",
     "Interval": "lowest and highest value, two numbers",
+    "PositionUnits": "a tuple: for each sample a `dd.PositionUnit`, or None for a number that is no position",
 }
 
 

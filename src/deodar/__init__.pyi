@@ -187,6 +187,9 @@ from deodar.numerics.kernels.gaussian import Gaussian as Gaussian
 from deodar.numerics.kernels.mexican_hat import MexicanHat as MexicanHat
 from deodar.numerics.kernels.shifted import Shifted as Shifted
 from deodar.numerics.kernels.truncated_gaussian import TruncatedGaussian as TruncatedGaussian
+from deodar.numerics.positions import PositionCode as PositionCode
+from deodar.numerics.positions import PositionUnit as PositionUnit
+from deodar.numerics.positions import PositionUnits as PositionUnits
 from deodar.numerics.sigmoids._base import SigmoidFunction as SigmoidFunction
 from deodar.numerics.sigmoids.absolute import Absolute as Absolute
 from deodar.numerics.sigmoids.linear import Linear as Linear

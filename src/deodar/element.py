@@ -29,6 +29,7 @@ from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.exact import Exact, exact, split, wide
 from deodar.numerics.intervals import Interval
 from deodar.numerics.kernels._base import Kernel
+from deodar.numerics.positions import PositionCode, PositionUnits
 from deodar.numerics.scalar import Scalar
 from deodar.numerics.signs import Sign
 from deodar.parameters import ArrayLike, FrozenArray, Part, Recompile
@@ -277,6 +278,30 @@ class Element(Part):
     def kernels(self) -> Sequence[Kernel]:
         """Return the kernels that `Setting.convolve` applies, summed."""
         return ()
+
+    # --------------------------------------------------------------------------------------------- in a world
+
+    def sensor_name(self) -> str:
+        """Return the name of the world's sensor that the element reads, or ""."""
+        return ""
+
+    def motor_name(self) -> str:
+        """Return the name of the world's motor that the element's input drives, or ""."""
+        return ""
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        """Return the units of the numbers at output ports that are positions, for checks against a world.
+
+        `inputs` holds the units at each input port, and under `external` those of the reading of a sensor:
+        one for each sample, () if none is known. An output that is not in the result holds no positions.
+        """
+        return {}
+
+    def position_codes(self, ins: Mapping[str, Axes]) -> Mapping[str, PositionCode]:
+        """Return the input ports whose numbers are used as positions on axes, for checks against a world."""
+        return {}
 
     # -------------------------------------------------------------------------------------------- in pictures
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 import numpy as np
 import pytest
@@ -208,3 +209,72 @@ def test_axes_without_a_unit_that_barely_overlap_the_arena_cause_a_warning() -> 
         warnings.simplefilter("error")
         session.run(128)
     assert found(model, dd.Arena(LAYOUT, unit="cm"))[0].endswith("'y' from 0 to 0.8: they barely overlap")
+
+
+@dataclass(frozen=True)
+class Doubling(dd.Coupling):
+    """The input times 2, or times the number of a package's user."""
+
+    scale: Annotated[float, dd.Live(meaning="factor")] = 2.0
+
+    def position_units(
+        self, ins: Mapping[str, dd.Axes], inputs: Mapping[str, dd.PositionUnits]
+    ) -> Mapping[str, dd.PositionUnits]:
+        return {"output": tuple(p and p.scaled(self.scale) for p in inputs["input"])}
+
+    def output(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
+        return {"output": self.scale * inputs["input"]}
+
+
+@dataclass(frozen=True)
+class Marking(Doubling):
+    """The input as a place on a line of 120 cm."""
+
+    def position_codes(self, ins: Mapping[str, dd.Axes]) -> Mapping[str, dd.PositionCode]:
+        return {"input": dd.PositionCode(PLANE, (self.scale, self.scale), (0.0, 0.0), "scale")}
+
+
+@dataclass(frozen=True)
+class Reading(dd.Coupling):
+    """The first sample of a field as a place on its axis."""
+
+    def outputs(self, ins: Mapping[str, dd.Axes]) -> Mapping[str, dd.Axes]:
+        return {"output": ()}
+
+    def position_units(
+        self, ins: Mapping[str, dd.Axes], inputs: Mapping[str, dd.PositionUnits]
+    ) -> Mapping[str, dd.PositionUnits]:
+        return {"output": (dd.PositionUnit.of(ins["input"][0]),)}
+
+    def output(
+        self, at: dd.Setting, state: dd.Arrays, inputs: dd.Arrays, constants: Any, time: dd.Time, noise: Any
+    ) -> dd.Arrays:
+        return {"output": inputs["input"][0]}
+
+
+def test_a_kind_of_a_user_passes_positions_on() -> None:
+    (wrong,) = agreement.judge(coding(1.0, PLANE, Doubling(10.0)).document, dd.Arena(LAYOUT))
+    assert wrong.where == "own place" and "10 times too small" in wrong.what
+    assert found(coding(1.0, PLANE, Doubling(100.0)), dd.Arena(LAYOUT)) == []
+    assert found(coding(0.5, PLANE, Doubling(200.0)), dd.Arena(LAYOUT)) == []
+
+
+def test_a_kind_of_a_user_that_uses_positions_is_checked_and_its_parameter_named() -> None:
+    model = dd.Model("marking", dt=64)
+    model.add(dd.Sensor("place", [PAIR], sensor="place")) >> model.add(Marking(1.0, name="mark"))
+    (wrong,) = agreement.judge(model.document, dd.Arena(LAYOUT))
+    assert wrong.where == "mark" and "with a scale of 1 on the axes 'x' and 'y' in cm" in wrong.what
+    assert wrong.fix.endswith("set its scale: model.set('mark.scale', 100)")
+    model.set("mark.scale", 100.0)
+    assert found(model, dd.Arena(LAYOUT)) == []
+
+
+def test_positions_that_a_kind_of_a_user_reads_off_an_axis_reach_a_motor() -> None:
+    model = dd.Model("rail", dt=10)
+    read = model.add(dd.Field("u", [PLANE[0]])) >> model.add(Reading(name="read"))
+    read >> model.add(dd.Motor("cart", motor="reach"))
+    (wrong,) = agreement.judge(model.document, Rail())
+    assert (wrong.where, wrong.fix) == ("cart", "Connect it through a gain: dd.Gain(10)")
+    assert "the position that read reads out" in wrong.what

@@ -11,6 +11,7 @@ from jax import Array
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.intervals import Interval, hull
+from deodar.numerics.positions import PositionUnits
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -49,6 +50,11 @@ class Delay(Element):
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
     ) -> Mapping[str, Interval]:
         return {"output": hull((self.initial, self.initial), inputs["input"])}
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        return {"output": inputs["input"]}
 
     def init(self, at: Setting) -> Arrays:
         return {"held": at.full(tuple(self.axes), self.initial)}

@@ -11,6 +11,7 @@ from jax import Array
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval, times
+from deodar.numerics.positions import PositionUnits
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live
 from deodar.registry import register
@@ -44,6 +45,11 @@ class Gain(Coupling):
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
     ) -> Mapping[str, Interval]:
         return {} if self.factor == 0 else {"output": times((self.factor, self.factor), inputs["input"])}
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        return {"output": tuple(p and p.scaled(self.factor) for p in inputs["input"])}
 
     def polarity(self) -> Sign:
         return sign_of(self.factor)

@@ -12,6 +12,7 @@ from jax import Array
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes, Axis, one_axis
 from deodar.numerics.centres import centre
+from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -61,6 +62,13 @@ class PeakPosition(Coupling):
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": (), "strength": ()}
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        axes = ins["input"]
+        read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
+        return {} if read is None else {"output": (read,)}
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None

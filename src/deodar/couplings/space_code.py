@@ -15,6 +15,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.leaves import per_axis
 from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import boundaries
+from deodar.numerics.positions import PositionCode
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import Live, PerAxis, Recompile
 from deodar.registry import register
@@ -95,6 +96,10 @@ class SpaceCode(Coupling):
                 f"takes {takes}, one for each of its axes; its input has {list(arriving)} samples",
                 "Connect an input of that shape",
             )
+
+    def position_codes(self, ins: Mapping[str, Axes]) -> Mapping[str, PositionCode]:
+        axes = tuple(self.axes)
+        return {"input": PositionCode(axes, per_axis(self.gain, axes), per_axis(self.offset, axes))}
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None

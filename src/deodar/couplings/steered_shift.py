@@ -13,6 +13,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.errors import did_you_mean
 from deodar.numerics import resampling
 from deodar.numerics.axes import Axes, shape
+from deodar.numerics.positions import PositionCode
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -75,6 +76,11 @@ class SteeredShift(Coupling):
                 f"takes {takes} at its port `by`; its input has {list(arriving)} samples",
                 "Connect such an input, or use several SteeredShifts in series",
             )
+
+    def position_codes(self, ins: Mapping[str, Axes]) -> Mapping[str, PositionCode]:
+        known = {a.name: a for a in ins["input"]}
+        axes = tuple(known[name] for name in self.along if name in known)
+        return {"by": PositionCode(axes, (self.gain,) * len(axes))}
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None

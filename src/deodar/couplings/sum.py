@@ -11,6 +11,7 @@ from jax import Array
 from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics.axes import Axes
 from deodar.numerics.intervals import Interval
+from deodar.numerics.positions import PositionUnits
 from deodar.registry import register
 
 
@@ -38,6 +39,11 @@ class Sum(Coupling):
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]
     ) -> Mapping[str, Interval]:
+        return {"output": inputs["input"]}
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
         return {"output": inputs["input"]}
 
     def output(

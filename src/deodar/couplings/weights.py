@@ -16,6 +16,7 @@ from deodar.element import Arrays, Coupling, Setting, Time
 from deodar.numerics import starting
 from deodar.numerics.axes import Axes, Axis, cell, shape, wrong_shape
 from deodar.numerics.intervals import Interval, times, total
+from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.numerics.signs import Sign, sign_of
 from deodar.parameters import ArrayLike, FrozenArray, Rebuild, Recompile
 from deodar.registry import register
@@ -86,6 +87,15 @@ class Weights(Coupling):
         up, down = float(np.maximum(rows, 0).sum(axis=1).max()), float(np.minimum(rows, 0).sum(axis=1).min())
         return {"output": total(times((0.0, up), inputs["input"]), times((down, 0.0), inputs["input"]))}
 
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        arriving = inputs["input"]
+        if not arriving or not isinstance(self.weights, FrozenArray):
+            return {}
+        rows = self.weights.data.reshape(-1, len(arriving)) * cell(ins["input"])
+        return {"output": tuple(_weighted(row.tolist(), arriving) for row in rows)}
+
     def prepare(self, at: Setting) -> Arrays:
         return {"weights": at.array(self.weights) * cell(at.ins["input"])}
 
@@ -98,3 +108,12 @@ class Weights(Coupling):
     @classmethod
     def example(cls) -> Weights:
         return cls(np.eye(21), [Axis("x", 0, 20, samples=21)], name="example")
+
+
+def _weighted(row: Sequence[float], arriving: PositionUnits) -> PositionUnit | None:
+    """Return the unit of a weighted sum of positions; None if its terms have no common one."""
+    used = [p and p.scaled(weight) for weight, p in zip(row, arriving, strict=True) if weight != 0]
+    first = used[0] if used else None
+    if first is None or any(p is None or not p.fits(first) for p in used):
+        return None
+    return first if len(used) == 1 else first.unbounded()

@@ -13,6 +13,7 @@ from jax import Array
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import is_neutral
 from deodar.numerics.axes import Axes, Axis, one_axis
+from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.parameters import Live, Recompile
 from deodar.registry import register
 
@@ -82,6 +83,13 @@ class Attractor(Element):
         yield from one_axis(found)
         if len(found) == 1 and found[0].periodic and (self.gain != 1.0 or self.offset != 0.0):
             yield f"gain and offset have no meaning on the periodic axis {found[0].name!r}"
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        axes = ins["input"]
+        read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
+        return {} if read is None else {"output": (read.scaled(self.gain),)}
 
     def init(self, at: Setting) -> Arrays:
         return {"phi": at.full((), self.initial)}

@@ -47,6 +47,9 @@ class Motor(Element):
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
 
+    def motor_name(self) -> str:
+        return self.motor
+
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:

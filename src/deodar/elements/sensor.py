@@ -10,6 +10,7 @@ from jax import Array
 
 from deodar.element import Arrays, Element, Setting, Time
 from deodar.numerics.axes import Axes, Axis
+from deodar.numerics.positions import PositionUnits
 from deodar.parameters import Recompile
 from deodar.registry import register
 
@@ -45,6 +46,14 @@ class Sensor(Element):
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": tuple(self.axes)}
+
+    def sensor_name(self) -> str:
+        return self.sensor
+
+    def position_units(
+        self, ins: Mapping[str, Axes], inputs: Mapping[str, PositionUnits]
+    ) -> Mapping[str, PositionUnits]:
+        return {"output": inputs["reading"]}
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None

@@ -11,59 +11,18 @@ import dataclasses as dc
 import inspect
 import math
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from deodar.couplings.delay import Delay
-from deodar.couplings.gain import Gain
-from deodar.couplings.peak_position import PeakPosition
-from deodar.couplings.space_code import SpaceCode
-from deodar.couplings.steered_shift import SteeredShift
-from deodar.couplings.sum import Sum
-from deodar.couplings.weights import Weights
-from deodar.elements.attractor import Attractor
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
+from deodar.element import Element
 from deodar.errors import Problem, RunWarning
-from deodar.leaves import per_axis
 from deodar.model.document import Document
 from deodar.model.resolve import Node, resolve
 from deodar.numerics import units
-from deodar.numerics.axes import Axis, barely_overlap, cell
+from deodar.numerics.axes import Axis, barely_overlap
+from deodar.numerics.positions import PositionCode, PositionUnit, PositionUnits
 from deodar.numerics.units import MetricUnit
-from deodar.parameters import FrozenArray
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
-
-
-@dc.dataclass(frozen=True)
-class PositionUnit:
-    """A number that a model receives or sends as a position or an angle.
-
-    Attributes:
-        quantity: `length` or `angle`.
-        size: metres or radians for an increase by 1.
-        bounds: its smallest and largest value; None: unknown.
-    """
-
-    quantity: str
-    size: float
-    bounds: tuple[float, float] | None = None
-
-    def scaled(self, factor: float) -> PositionUnit | None:
-        """Return the position that is `factor` times this number; None for a factor of 0."""
-        if not factor or not math.isfinite(factor):
-            return None
-        one, other = (None, None) if self.bounds is None else (factor * b for b in self.bounds)
-        bounds = None if one is None or other is None else (min(one, other), max(one, other))
-        return PositionUnit(self.quantity, self.size / abs(factor), bounds)
-
-
-@dc.dataclass(frozen=True)
-class PortPositions:
-    """The numbers at a port that are positions, one for each sample, and the element that they come from."""
-
-    source: Node
-    samples: tuple[PositionUnit | None, ...]
 
 
 def judge(doc: Document, world: World | None) -> list[Problem]:
@@ -72,9 +31,7 @@ def judge(doc: Document, world: World | None) -> list[Problem]:
         return []
     with errors_of(world, "validate"):
         found = list(world.validate())
-    found += [
-        p for e in doc.entries if isinstance(e.element, Sensor) for p in _axes(e.path, e.element, world)
-    ]
+    found += [p for e in doc.entries if e.element.sensor_name() for p in _axes(e.path, e.element, world)]
     if _exchanges_positions(doc, world):
         nodes, problems = resolve(doc)
         found += [] if problems else _Tracer(nodes, world).judge()
@@ -88,28 +45,29 @@ def warn(doc: Document, world: World | None, stacklevel: int) -> None:
             warnings.warn(str(p), RunWarning, stacklevel=stacklevel + 1)
 
 
-def _axes(path: str, sensor: Sensor, world: World) -> Iterator[Problem]:
+def _axes(path: str, sensor: Element, world: World) -> Iterator[Problem]:
     """Yield what is wrong with the axes of a sensor."""
-    signal = world.sensors.get(sensor.sensor)
+    name, axes = sensor.sensor_name(), tuple(sensor.input_axes(sensor.external, None) or ())
+    signal = world.sensors.get(name)
     if signal is None:  # a user's world may accept any name
         return
     with errors_of(world, "validate_axes"):
-        found = list(world.validate_axes(sensor.sensor, tuple(sensor.axes)))
+        found = list(world.validate_axes(name, axes))
     yield from (dc.replace(p, where=path) for p in found)
     given = units.parse(signal.unit)
-    for axis in sensor.axes if signal.shape is not None else ():
+    for axis in axes if signal.shape is not None else ():
         stated = units.parse(axis.unit)
         if given is not None and stated is not None and _differ(given, stated):
             what = (
-                f"its axis {axis.name!r} states the unit {axis.unit}, and the world gives {sensor.sensor!r}"
+                f"its axis {axis.name!r} states the unit {axis.unit}, and the world gives {name!r}"
                 f" in {signal.unit}"
             )
             yield Problem(path, what, _choose(world, stated) or f"Write unit={signal.unit!r} for the axis")
 
 
 def _exchanges_positions(doc: Document, world: World) -> bool:
-    sensors = {e.element.sensor for e in doc.entries if isinstance(e.element, Sensor)}
-    motors = {e.element.motor for e in doc.entries if isinstance(e.element, Motor)}
+    sensors = {e.element.sensor_name() for e in doc.entries}
+    motors = {e.element.motor_name() for e in doc.entries}
     used = [s for n, s in world.sensors.items() if n in sensors] + [
         s for n, s in world.motors.items() if n in motors
     ]
@@ -132,186 +90,138 @@ class _Tracer:
     def __init__(self, nodes: Sequence[Node], world: World) -> None:
         self.nodes = {n.id: n for n in nodes}
         self.world = world
-        self._found: dict[tuple[str, str], PortPositions | None] = {}
+        self._found: dict[str, Mapping[str, PositionUnits]] = {}
 
     def judge(self) -> list[Problem]:
         """Return the problems and warnings of all elements that receive a position of the world."""
         return [p for n in self.nodes.values() for p in self._judged(n)]
 
     def _judged(self, n: Node) -> Iterator[Problem]:
-        e = n.element
-        if isinstance(e, SpaceCode):
-            axes = tuple(e.axes)
-            yield from self._encoded(n, "input", axes, per_axis(e.gain, axes), per_axis(e.offset, axes))
-        elif isinstance(e, SteeredShift):
-            known = {a.name: a for a in n.ins["input"]}
-            axes = tuple(known[name] for name in e.along if name in known)
-            yield from self._encoded(n, "by", axes, [e.gain] * len(axes), None)
-        elif isinstance(e, Motor):
-            yield from self._commanded(n, e)
+        for port, code in n.element.position_codes(n.ins).items():
+            yield from self._encoded(n, port, code)
+        if name := n.element.motor_name():
+            yield from self._commanded(n, name)
 
-    def _encoded(
-        self,
-        n: Node,
-        port: str,
-        axes: Sequence[Axis],
-        gains: Sequence[float],
-        offsets: Sequence[float] | None,
-    ) -> Iterator[Problem]:
-        """Yield the problem and the warnings of an element that uses numbers as positions on axes.
-
-        Args:
-            n: the element.
-            port: its input port, with one number for each axis.
-            axes: the axes.
-            gains: axis units per unit of each number.
-            offsets: position for a number of 0, in axis units; None: the numbers are distances.
-        """
-        arriving = self._arriving(n, port)
-        if arriving is None or len(arriving.samples) != len(axes) or not _is_sensor(arriving):
+    def _encoded(self, n: Node, port: str, code: PositionCode) -> Iterator[Problem]:
+        """Yield the problem and the warnings of an element that uses numbers as positions on axes."""
+        arriving = self.arriving(n, port)
+        source = self._source(arriving)
+        if source is None or len(arriving) != len(code.axes) or not source.element.sensor_name():
             return
-        there = [p and p.scaled(float(g)) for p, g in zip(arriving.samples, gains, strict=True)]
+        there = [p and p.scaled(float(g)) for p, g in zip(arriving, code.gains, strict=True)]
         wrong = [
             (axis, ratio)
-            for axis, p in zip(axes, there, strict=True)
+            for axis, p in zip(code.axes, there, strict=True)
             if p is not None and (ratio := _ratio(p, axis.unit)) is not None
         ]
         if wrong:
-            yield self._problem(n, arriving.source, axes, wrong, gains)
+            yield self._problem(n, source, code, wrong)
             return
-        for axis, p, offset in zip(axes, there, offsets or (), strict=offsets is not None):
+        offsets = code.offsets
+        for axis, p, offset in zip(code.axes, there, offsets or (), strict=offsets is not None):
             if p is not None and p.bounds is not None and not axis.periodic:
                 low, high = (b + offset for b in p.bounds)
-                read = f"the positions that {arriving.source.path} reads"
+                read = f"the positions that {source.path} reads"
                 unit = units.of_size(p.quantity, p.size)
-                given = "" if axis.unit or unit is None else unit.symbol
-                for what, fix in barely_overlap(axis, (low, high), read, given):
+                symbol = "" if axis.unit or unit is None else unit.symbol
+                for what, fix in barely_overlap(axis, (low, high), read, symbol):
                     yield Problem(n.path, what, fix, "warning")
 
     def _problem(
-        self,
-        n: Node,
-        source: Node,
-        axes: Sequence[Axis],
-        wrong: Sequence[tuple[Axis, float]],
-        gains: Sequence[float],
+        self, n: Node, source: Node, code: PositionCode, wrong: Sequence[tuple[Axis, float]]
     ) -> Problem:
         axis, ratio = wrong[0]
-        signal = self.world.sensors[_sensor(source)]
-        names = " and ".join(repr(a.name) for a, _ in wrong)
-        given = ", ".join(f"{g:g}" for g in dict.fromkeys(map(float, gains)))
+        signal = self.world.sensors[source.element.sensor_name()]
+        name, names = code.parameter, " and ".join(repr(a.name) for a, _ in wrong)
+        given = ", ".join(f"{g:g}" for g in dict.fromkeys(map(float, code.gains)))
         what = (
-            f"uses {source.path}, which is read in {signal.unit}, with a gain of {given} on"
+            f"uses {source.path}, which is read in {signal.unit}, with a {name} of {given} on"
             f" {'the axis' if len(wrong) == 1 else 'the axes'} {names} in {axis.unit}: all values are"
             f" {_times(ratio)}"
         )
-        factors = [dict(wrong).get(a, 1.0) for a in axes]
-        new = [f"{g * f:.6g}" for g, f in zip(gains, factors, strict=True)]
+        factors = [dict(wrong).get(a, 1.0) for a in code.axes]
+        new = [f"{g * f:.6g}" for g, f in zip(code.gains, factors, strict=True)]
         value = new[0] if len(set(new)) == 1 else f"[{', '.join(new)}]"
-        change = f"Set its gain: model.set({f'{n.path}.gain'!r}, {value})"
+        change = f"Set its {name}: model.set({f'{n.path}.{name}'!r}, {value})"
         read = units.parse(signal.unit)
         fitting = None if read is None else units.of_size(read.quantity, read.size / ratio)
         choose = "" if fitting is None else _choose(self.world, fitting)
         return Problem(n.path, what, f"{choose}. Or: {change[0].lower()}{change[1:]}" if choose else change)
 
-    def _commanded(self, n: Node, motor: Motor) -> Iterator[Problem]:
-        signal, arriving = self.world.motors.get(motor.motor), self._arriving(n, "input")
-        if signal is None or arriving is None or _is_sensor(arriving):
-            return
-        for wanted, p in zip(_units(signal), arriving.samples, strict=False):
-            ratio = None if wanted is None or p is None else _ratio(p, wanted.symbol)
-            if wanted is not None and ratio is not None:
-                what = (
-                    f"the motor {motor.motor!r} takes {wanted.symbol}, and the position that"
-                    f" {arriving.source.path} reads out makes all commands {_times(ratio)}"
-                )
-                yield Problem(n.path, what, f"Connect it through a gain: dd.Gain({ratio:.6g})")
-                return
+    def _commanded(self, n: Node, name: str) -> Iterator[Problem]:
+        """Yield the problem of an element whose inputs are a command in another unit than the motor's."""
+        signal = self.world.motors.get(name)
+        for port in n.ins if signal is not None else ():
+            arriving = self.arriving(n, port)
+            source = self._source(arriving)
+            if signal is None or source is None or source.element.sensor_name():
+                continue
+            for wanted, p in zip(_units(signal), arriving, strict=False):
+                ratio = None if wanted is None or p is None else _ratio(p, wanted.symbol)
+                if wanted is not None and ratio is not None:
+                    what = (
+                        f"the motor {name!r} takes {wanted.symbol}, and the position that {source.path} reads"
+                        f" out makes all commands {_times(ratio)}"
+                    )
+                    yield Problem(n.path, what, f"Connect it through a gain: dd.Gain({ratio:.6g})")
+                    return
 
-    def _arriving(self, n: Node, port: str) -> PortPositions | None:
+    def _source(self, found: PositionUnits) -> Node | None:
+        """Return the element that positions come from; None if there are none."""
+        return next((self.nodes[p.source] for p in found if p is not None), None)
+
+    def arriving(self, n: Node, port: str) -> PositionUnits:
         """Return the positions at an input port: those of all sources that have the same unit."""
+        if port == n.element.external:
+            return self._reading(n)
         slots = n.reads.get(port, [])
-        known = [f for source, p, _ in slots if (f := self._leaving(self.nodes[source], p)) is not None]
-        if not known:
-            return None
-        first = known[0]
-        if any(not _alike(first, other) for other in known[1:]):
-            return None
+        known = [found for source, p, _ in slots if (found := self._leaving(self.nodes[source], p))]
+        if not known or any(not _alike(known[0], other) for other in known[1:]):
+            return ()
         # the sum of several inputs has other bounds
-        return first if len(slots) == 1 else PortPositions(first.source, _unbounded(first.samples))
+        return known[0] if len(slots) == 1 else tuple(p and p.unbounded() for p in known[0])
 
-    def _leaving(self, n: Node, port: str) -> PortPositions | None:
+    def _leaving(self, n: Node, port: str) -> PositionUnits:
         """Return the positions at an output port."""
-        if (n.id, port) not in self._found:
-            self._found[n.id, port] = None  # for loops
-            self._found[n.id, port] = self._computed(n, port)
-        return self._found[n.id, port]
+        if n.id not in self._found:
+            self._found[n.id] = {}  # for loops
+            self._found[n.id] = n.element.position_units(n.ins, _Arriving(self, n))
+        found = self._found[n.id].get(port, ())
+        return tuple(p and dc.replace(p, source=p.source or n.id) for p in found)
 
-    def _computed(self, n: Node, port: str) -> PortPositions | None:
-        e = n.element
-        if isinstance(e, Sensor):
-            return self._read(n, e)
-        if isinstance(e, (PeakPosition, Attractor)) and port == "output" and len(n.ins["input"]) == 1:
-            unit = units.parse(n.ins["input"][0].unit)
-            read = None if unit is None else PositionUnit(unit.quantity, unit.size)
-            factor = e.gain if isinstance(e, Attractor) else 1.0
-            return None if read is None else PortPositions(n, (read.scaled(factor),))
-        arriving = self._arriving(n, "input") if isinstance(e, (Gain, Delay, Sum, Weights)) else None
-        if arriving is None or isinstance(e, (Delay, Sum)):
-            return arriving
-        if isinstance(e, Gain):
-            return PortPositions(arriving.source, tuple(p and p.scaled(e.factor) for p in arriving.samples))
-        return _weighted(n, e, arriving) if isinstance(e, Weights) else None
-
-    def _read(self, n: Node, sensor: Sensor) -> PortPositions | None:
-        signal = self.world.sensors.get(sensor.sensor)
+    def _reading(self, n: Node) -> PositionUnits:
+        """Return the positions in the reading of a sensor."""
+        signal = self.world.sensors.get(n.element.sensor_name())
         found = () if signal is None else _units(signal)
         if signal is None or not found:
-            return None
+            return ()
         bounds = signal.bounds or [None] * len(found)
-        return PortPositions(
-            n,
-            tuple(
-                None if unit is None else PositionUnit(unit.quantity, unit.size, b)
-                for unit, b in zip(found, bounds, strict=False)
-            ),
+        return tuple(
+            None if unit is None else PositionUnit(unit.quantity, unit.size, b)
+            for unit, b in zip(found, bounds, strict=False)
         )
 
 
-def _weighted(n: Node, e: Weights, arriving: PortPositions) -> PortPositions | None:
-    """Return weighted sums of positions that have one unit each."""
-    if not isinstance(e.weights, FrozenArray):
-        return None
-    rows = e.weights.data.reshape(-1, len(arriving.samples)) * cell(n.ins["input"])
-    out: list[PositionUnit | None] = []
-    for row in rows:
-        used = [
-            p and p.scaled(float(w)) for w, p in zip(row.tolist(), arriving.samples, strict=True) if w != 0
-        ]
-        first = used[0] if used else None
-        same = first is not None and all(
-            p is not None and p.quantity == first.quantity and math.isclose(p.size, first.size, rel_tol=1e-9)
-            for p in used
-        )
-        out.append(first if same and len(used) == 1 else _unbounded((first,))[0] if same else None)
-    return PortPositions(arriving.source, tuple(out))
+class _Arriving(Mapping[str, PositionUnits]):
+    """The positions at the input ports of an element; only those that it asks for are followed."""
+
+    def __init__(self, tracer: _Tracer, node: Node) -> None:
+        self.tracer, self.node = tracer, node
+
+    def __getitem__(self, port: str) -> PositionUnits:
+        return self.tracer.arriving(self.node, port)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.node.ins)
+
+    def __len__(self) -> int:
+        return len(self.node.ins)
 
 
-def _unbounded(samples: Sequence[PositionUnit | None]) -> tuple[PositionUnit | None, ...]:
-    return tuple(p and dc.replace(p, bounds=None) for p in samples)
-
-
-def _alike(one: PortPositions, other: PortPositions) -> bool:
-    return _unbounded(one.samples) == _unbounded(other.samples)
-
-
-def _is_sensor(found: PortPositions) -> bool:
-    return isinstance(found.source.element, Sensor)
-
-
-def _sensor(source: Node) -> str:
-    assert isinstance(source.element, Sensor)
-    return source.element.sensor
+def _alike(one: PositionUnits, other: PositionUnits) -> bool:
+    """Return whether two ports have the same units, whatever their bounds and their sources."""
+    plain = [[p and dc.replace(p, bounds=None, source="") for p in found] for found in (one, other)]
+    return plain[0] == plain[1]
 
 
 def _differ(one: MetricUnit, other: MetricUnit) -> bool:
