@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from deodar import __version__, codec
-from deodar.cli import _sbom
 from deodar.errors import DocumentError
 
 HELP = "list installed packages, devices, the cache of compiled programs, and what is missing"
@@ -38,11 +37,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--json", action="store_true", help="print the answer as JSON")
     parser.add_argument(
-        "--sbom",
-        action="store_true",
-        help="print the bill of materials as CycloneDX 1.5: every package and library, with its licence",
-    )
-    parser.add_argument(
         "--plans",
         action="store_true",
         help="measure every convolution strategy and compare it with its estimated cost (about a minute)",
@@ -51,9 +45,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Examine the installation; status 1 if a requirement is missing."""
-    if args.sbom:
-        print(codec.text(_sbom.bill()))
-        return 0
     if args.plans:
         return _plans(args.json)
     found = examine() | ({"documents": [_needs(path) for path in args.files]} if args.files else {})
