@@ -13,6 +13,7 @@ progress.SHOW_AFTER = 0.0
 model = dd.Model("bar")
 model.add(dd.Field("u", []))
 dd.simulate(model, 2000, record=["u.activation"], every=10{progress})
+import sys; assert "rich" not in sys.modules
 """
 
 

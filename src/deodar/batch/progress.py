@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import contextlib
+import shutil
 import sys
 import time
 from collections.abc import Callable, Generator
 
 SHOW_AFTER = 1.0
 """Seconds after which a run shows a progress bar, if it writes to a terminal."""
+
+BAR_CELLS = 30
+"""Cells of a full progress bar."""
+
+REDRAW_AFTER = 0.1
+"""Seconds between two progress bars."""
 
 LINE_AFTER = 10.0
 """Seconds after which a run whose progress is requested prints it as a line, without a terminal."""
@@ -41,6 +48,30 @@ def lines(steps: int, now: Callable[[], float]) -> Callable[[int], None]:
     return shown
 
 
+def drawn(steps: int, now: Callable[[], float], after: float) -> Callable[[int], None]:
+    """Return a function that draws progress in the last line of a terminal, after a number of seconds."""
+    began = now()
+    due = [began + after]
+
+    def shown(done: int) -> None:
+        if (moment := now()) < due[0]:
+            return
+        whole = round(BAR_CELLS * done / steps) if steps else 0
+        bar = "#" * whole + "." * (BAR_CELLS - whole)
+        left = f", about {(moment - began) / done * (steps - done):.0f} s left" if done else ""
+        _replace_line(f"simulating [{bar}] {done}/{steps} steps{left}")
+        due[0] = moment + REDRAW_AFTER
+
+    return shown
+
+
+def _replace_line(text: str) -> None:
+    """Write over the last line of a terminal, whose cursor stays at the line's beginning."""
+    width = shutil.get_terminal_size().columns - 1  # a full line would begin the next one
+    sys.stderr.write(f"\r{text[:width]:{width}}\r")
+    sys.stderr.flush()
+
+
 @contextlib.contextmanager
 def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
     """Show a progress bar once the run takes longer than SHOW_AFTER."""
@@ -50,31 +81,10 @@ def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
     if progress is False or (progress is None and not sys.stderr.isatty()):
         yield lambda done: None
         return
-
     if not sys.stderr.isatty():
         yield lines(steps, time.monotonic)
         return
-
-    # start-up time: only a terminal needs rich
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    began = time.monotonic()
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("simulating"),
-        BarColumn(),
-        TextColumn("{task.completed}/{task.total} steps"),
-        TimeRemainingColumn(),
-    )
-    with contextlib.ExitStack() as stack:
-        bar: list[Progress] = []
-
-        def shown(done: int) -> None:
-            if not bar and (progress or time.monotonic() - began > SHOW_AFTER):
-                bar.append(stack.enter_context(Progress(*columns, console=console, transient=True)))
-                bar[0].add_task("", total=steps)
-            if bar:
-                bar[0].update(bar[0].task_ids[0], completed=done)
-
-        yield shown
+    try:
+        yield drawn(steps, time.monotonic, 0.0 if progress else SHOW_AFTER)
+    finally:
+        _replace_line("")
