@@ -45,10 +45,11 @@ browser: studio
 fast: .venv/installed-test
 	$(BIN)/python -m pytest $(SPREAD) -m fast
 
-# Python by ruff, the page by prettier and biome
+# Python by ruff and by the limits of tools/measure.py, the page by prettier and biome
 lint: .venv/installed-test
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
+	$(BIN)/python tools/measure.py
 	$(BIN)/python studio/build.py lint
 
 types: .venv/installed-test

@@ -4,7 +4,7 @@
     python tools/measure.py --stored    also compare trajectories with the stored ones (minutes)
     python tools/measure.py --tests     also time `pytest -m fast` and the whole suite (many minutes)
 
-What is counted is the package in `src`, unless the line says otherwise.
+What is counted are the packages in `src`, unless the line says otherwise.
 """
 
 from __future__ import annotations
@@ -12,12 +12,15 @@ from __future__ import annotations
 import argparse
 import ast
 import dataclasses as dc
+import io
 import itertools
 import json
+import os
 import re
 import subprocess
 import sys
 import time
+import tokenize
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
@@ -26,10 +29,19 @@ from pathlib import Path
 import suite
 
 ROOT = Path(__file__).parents[1]
-SRC = ROOT / "src" / "deodar"
+SOURCE = ROOT / "src"
+SRC = SOURCE / "deodar"
 
 WIDTH = 110
 PARAMETERS = 8
+CROWDED = 9
+"""Most functions with that many parameters: 5 when `simulate` takes objects."""
+BLANK = {
+    *(tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE),
+    *(tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER),
+}
+"""Tokens that are no code."""
+
 LOOSE = {"Any", "object"}
 OPTIMISER = re.compile(r"\b([Ww]aves?|WAVES|REST|sharing|to_waves|from_waves|at\.(choices|shared|waves))\b")
 """Words of the compiler."""
@@ -54,13 +66,20 @@ class Figure:
 
 
 Trees = Mapping[str, ast.Module]
-"""Syntax trees by the path of their file, below the package."""
+"""Syntax trees by the path of their file, below the folder of the packages."""
 
 
-def trees(root: Path) -> Trees:
-    """The modules below a folder."""
+def packages(source: Path = SOURCE) -> list[Path]:
+    """The folders of packages: `deodar`, and every `deodar_*` beside it."""
+    return [path.parent for path in sorted(source.glob("deodar*/__init__.py"))]
+
+
+def trees(*roots: Path) -> Trees:
+    """The modules of packages in one folder."""
     return {
-        str(p.relative_to(root)): ast.parse(p.read_text(encoding="utf-8")) for p in sorted(root.rglob("*.py"))
+        p.relative_to(root.parent).as_posix(): ast.parse(p.read_text(encoding="utf-8"))
+        for root in roots
+        for p in sorted(root.rglob("*.py"))
     }
 
 
@@ -74,7 +93,7 @@ def doubled(modules: Trees) -> list[str]:
     """
     where: dict[str, list[str]] = defaultdict(list)
     for path, module in modules.items():
-        if "compat" in path:
+        if Path(path).with_suffix("").parts[1:2] == ("compat",):
             continue
         for name in {*_classes(module), *_aliases(module)}:
             where[name].append(path)
@@ -161,11 +180,11 @@ def crowded(modules: Trees) -> list[str]:
     return found
 
 
-def inner_imports(root: Path, modules: Trees) -> list[str]:
+def inner_imports(source: Path, modules: Trees) -> list[str]:
     """Imports in functions without a comment that says why: in or above a run of them."""
     found: list[str] = []
     for path, module in modules.items():
-        lines = (root / path).read_text(encoding="utf-8").splitlines()
+        lines = (source / path).read_text(encoding="utf-8").splitlines()
         for function in ast.walk(module):
             if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
                 for run in _runs(function):
@@ -191,12 +210,12 @@ def _imports(node: ast.AST) -> bool:
 # ---------------------------------------------------------------------------------------------------- imports
 
 
-def graph(root: Path, modules: Trees) -> dict[str, set[str]]:
-    """Return for each module those of the package that it imports: at the top, in functions, for types."""
-    names = {_module(path, root.name) for path in modules}
+def graph(modules: Trees) -> dict[str, set[str]]:
+    """Return for each module those of the packages that it imports: at the top, in functions, for types."""
+    names = {_module(path) for path in modules}
     out: dict[str, set[str]] = {}
     for path, module in modules.items():
-        here = _module(path, root.name)
+        here = _module(path)
         out[here] = {name for name in _imported(module, names) if name != here}
     return out
 
@@ -210,8 +229,8 @@ def cycle(imports: Mapping[str, set[str]]) -> list[str]:
     return []
 
 
-def _module(path: str, package: str) -> str:
-    parts = [package, *Path(path).with_suffix("").parts]
+def _module(path: str) -> str:
+    parts = Path(path).with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
@@ -248,6 +267,37 @@ def long_lines(paths: Iterable[Path]) -> list[str]:
     ]
 
 
+def counted_lines(text: str) -> tuple[int, int]:
+    """How many lines a module has, and how many without blank lines, comments and docstrings."""
+    code: set[int] = set()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type not in BLANK:
+            code.update(range(token.start[0], token.end[0] + 1))
+    for node in ast.walk(ast.parse(text)):
+        match node:
+            case ast.Expr(value=ast.Constant(value=str())):
+                code.difference_update(range(node.lineno, (node.end_lineno or node.lineno) + 1))
+            case _:
+                pass
+    return len(text.splitlines()), len(code)
+
+
+def sizes(roots: Iterable[Path]) -> Iterator[Figure]:
+    """The lines of each package, and their sum."""
+    total = [0, 0]
+    for root in roots:
+        files = [counted_lines(p.read_text(encoding="utf-8")) for p in sorted(root.rglob("*.py"))]
+        lines = [sum(n) for n in zip(*files, strict=True)]
+        yield from _size(root.name, lines)
+        total = [a + b for a, b in zip(total, lines, strict=True)]
+    yield from _size("src", total)
+
+
+def _size(name: str, lines: Sequence[int]) -> Iterator[Figure]:
+    yield Figure(f"lines of {name}", lines[0])
+    yield Figure("  without blank lines, comments, docstrings", lines[1])
+
+
 def worded(root: Path, folders: Sequence[str]) -> list[str]:
     """Lines of the physics that mention the optimisation of a program."""
     return [
@@ -269,27 +319,37 @@ def _tracked(*patterns: str) -> list[Path]:
 # -------------------------------------------------------------------------------------------------- processes
 
 
+def _python(*arguments: str) -> str:
+    """What this interpreter prints, with the packages of this checkout."""
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": str(SOURCE)},
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode:
+        sys.exit(
+            f"measure.py: {sys.executable} cannot run {' '.join(arguments[:2])}: {done.stderr.strip()}\n"
+            'Run it with an interpreter that has what the tests need: pip install -e ".[test]"'
+        )
+    return done.stdout
+
+
 def _import_time() -> tuple[float, bool]:
     """The shortest of five imports, in seconds of CPU time, and whether it brought JAX."""
     code = (
         "import time; a = time.process_time(); import deodar; b = time.process_time(); import sys; "
         "print(b - a, 'jax' in sys.modules)"
     )
-    told = [
-        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-        for _ in range(5)
-    ]
-    return min(float(t.stdout.split()[0]) for t in told), "True" in told[0].stdout
+    texts = [_python("-c", code) for _ in range(5)]
+    return min(float(text.split()[0]) for text in texts), "True" in texts[0]
 
 
 def _complex() -> list[str]:
-    told = subprocess.run(
-        [sys.executable, "-m", "ruff", "check", "--select", "C901", "--output-format", "json", str(SRC)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return [f"{Path(x['filename']).relative_to(SRC)}:{x['location']['row']}" for x in json.loads(told.stdout)]
+    options = ("--select", "C901", "--output-format", "json", "--exit-zero")
+    text = _python("-m", "ruff", "check", *options, *map(str, packages()))
+    return [f"{Path(x['filename']).relative_to(SOURCE)}:{x['location']['row']}" for x in json.loads(text)]
 
 
 def _timed(*command: str) -> tuple[float, int]:
@@ -304,7 +364,9 @@ def _timed(*command: str) -> tuple[float, int]:
 
 def counted() -> Iterator[Figure]:
     """What is read off the files."""
-    modules = trees(SRC)
+    roots = packages()
+    modules = trees(*roots)
+    yield from sizes(roots)
     scripts = [
         ROOT / "README.md",
         *_tracked("docs/*.md", "docs/*.ipynb", "docs/*.py", "examples/*.py", "examples/*.md"),
@@ -318,20 +380,20 @@ def counted() -> Iterator[Figure]:
     yield Figure("deep import lines in README, docs, examples", len(lines), 5, lines)
     found = doubled(modules)
     yield Figure("class or alias names that occur twice", len(found), 0, found)
-    ring = cycle(graph(SRC, modules))
+    ring = cycle(graph(modules))
     yield Figure("modules in the first cycle of imports", len(ring), 0, ring)
     found = _complex()
     yield Figure("functions of a complexity above 15", len(found), 0, found)
     found = [str(Path(x).relative_to(ROOT)) for x in long_lines(_tracked("*.py", "*.pyi"))]
     yield Figure(f"lines of Python above {WIDTH} columns, all folders", len(found), 0, found)
     found = crowded(modules)
-    yield Figure(f"functions of {PARAMETERS} and more parameters", len(found), 5, found)
+    yield Figure(f"functions of {PARAMETERS} and more parameters", len(found), CROWDED, found)
     held, total, by = loose(modules)
     worst = [f"{path}: {n}" for path, n in sorted(by.items(), key=lambda item: -item[1])[:25] if n]
     yield Figure(f"annotations with Any, object or an alias, of {total}", 100 * held / total, 8, worst, "%")
-    found = inner_imports(SRC, modules)
+    found = inner_imports(SOURCE, modules)
     yield Figure("imports in functions without a reason", len(found), 0, found)
-    found = worded(SRC, ("elements", "couplings"))
+    found = worded(SOURCE, [f"{root.name}/{room}" for root in roots for room in ("elements", "couplings")])
     yield Figure("lines of elements and couplings on the optimiser", len(found), 0, found)
 
 

@@ -7,11 +7,11 @@ import sys
 from tests.house.source import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
-from measure import SRC, cycle, graph, trees
+from measure import cycle, graph, packages, trees
 
 
 def test_no_module_is_part_of_a_cycle_of_imports() -> None:
-    assert cycle(graph(SRC, trees(SRC))) == []
+    assert cycle(graph(trees(*packages()))) == []
 
 
 def test_a_cycle_of_imports_is_found() -> None:
@@ -19,6 +19,6 @@ def test_a_cycle_of_imports_is_found() -> None:
 
 
 def test_imports_inside_functions_and_for_types_are_in_the_graph() -> None:
-    imports = graph(SRC, trees(SRC))
+    imports = graph(trees(*packages()))
     assert "deodar.batch.workers" in imports["deodar.batch.simulate"]
     assert "deodar.recording.record" in imports["deodar.batch.compute"]

@@ -29,7 +29,7 @@ def test_a_name_of_two_classes_or_aliases_is_found_with_its_modules(tmp_path: Pa
         b="class Box: ...\nTree: TypeAlias = 'list[int]'\nLIMIT = 4",
         c="class Other: ...",
     )
-    assert measure.doubled(measure.trees(root)) == ["Box: a.py, b.py", "Tree: a.py, b.py"]
+    assert measure.doubled(measure.trees(root)) == ["Box: toy/a.py, toy/b.py", "Tree: toy/a.py, toy/b.py"]
 
 
 def test_modules_in_the_words_of_other_tools_may_repeat_names(tmp_path: Path) -> None:
@@ -45,11 +45,11 @@ def test_any_is_counted_through_aliases_and_not_in_metadata(tmp_path: Path) -> N
         c="Wood: TypeAlias = 'Forest | None'\ny: Wood = None",
     )
     held, total, by = measure.loose(measure.trees(root))
-    assert (held, total, by["b.py"], by["c.py"]) == (4, 8, 3, 1)
+    assert (held, total, by["toy/b.py"], by["toy/c.py"]) == (4, 8, 3, 1)
 
 
 def test_at_most_8_per_cent_of_the_annotations_hold_any_or_object() -> None:
-    held, total, _ = measure.loose(measure.trees(measure.SRC))
+    held, total, _ = measure.loose(measure.trees(*measure.packages()))
     assert held <= 0.08 * total, "give them types: python tools/measure.py --where lists the places"
 
 
@@ -60,14 +60,14 @@ def test_parameters_of_every_kind_count_and_self_does_not(tmp_path: Path) -> Non
         "    def f(self, a, b, c, /, d, e, *f, g): ...\n"
         "    def g(self, a, b, c, d, e, f, *g, h, **i): ...\n",
     )
-    assert measure.crowded(measure.trees(root)) == ["a.py:3 g (9)"]
+    assert measure.crowded(measure.trees(root)) == ["toy/a.py:3 g (9)"]
 
 
 def test_a_cycle_through_an_import_in_a_function_is_found(tmp_path: Path) -> None:
     root = package(tmp_path, a="def f():\n    from toy import b", b="from toy.c import x", c="import toy.a")
-    assert set(measure.cycle(measure.graph(root, measure.trees(root)))) == {"toy.a", "toy.b", "toy.c"}
+    assert set(measure.cycle(measure.graph(measure.trees(root)))) == {"toy.a", "toy.b", "toy.c"}
     (root / "c.py").write_text("x = 1")
-    assert measure.cycle(measure.graph(root, measure.trees(root))) == []
+    assert measure.cycle(measure.graph(measure.trees(root))) == []
 
 
 def test_an_import_in_a_function_needs_a_reason(tmp_path: Path) -> None:
@@ -77,7 +77,7 @@ def test_an_import_in_a_function_needs_a_reason(tmp_path: Path) -> None:
         "def g():\n    import json\n\n    import re  # why\n"
         "def h():\n    import json\n",
     )
-    assert measure.inner_imports(root, measure.trees(root)) == ["a.py:10"]
+    assert measure.inner_imports(tmp_path, measure.trees(root)) == ["toy/a.py:10"]
 
 
 def test_the_words_of_the_optimiser_are_found_in_physics(tmp_path: Path) -> None:
@@ -103,23 +103,52 @@ def test_the_command_prints_every_limit_and_marks_those_exceeded(
 
 
 def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
-    found = {" ".join(line.split()[:2]) for line in measure.crowded(measure.trees(measure.SRC))}
+    found = {" ".join(line.split()[:2]) for line in measure.crowded(measure.trees(*measure.packages()))}
     assert {re.sub(r":\d+", "", place) for place in found} == {
-        "analysis/continuation/continuation.py continuation",
-        "batch/simulate.py simulate",
-        "compat/cosivina/controls.py __init__",
-        "experiments/batch.py run_batch",
-        "experiments/run.py run_trial",
-        "session/session.py __init__",
-        "worlds/arena/arena.py __init__",
-        "worlds/eye/eye.py __init__",
-        "worlds/mujoco/mujoco.py __init__",
+        "deodar/analysis/continuation/continuation.py continuation",
+        "deodar/batch/simulate.py simulate",
+        "deodar/compat/cosivina/controls.py __init__",
+        "deodar/experiments/batch.py run_batch",
+        "deodar/experiments/run.py run_trial",
+        "deodar/session/session.py __init__",
+        "deodar/worlds/arena/arena.py __init__",
+        "deodar/worlds/eye/eye.py __init__",
+        "deodar/worlds/mujoco/mujoco.py __init__",
     }
 
 
 def test_no_class_or_alias_of_the_package_shares_its_name() -> None:
-    assert measure.doubled(measure.trees(measure.SRC)) == []
+    assert measure.doubled(measure.trees(*measure.packages())) == []
 
 
 def test_every_import_in_a_function_states_its_reason() -> None:
-    assert measure.inner_imports(measure.SRC, measure.trees(measure.SRC)) == []
+    assert measure.inner_imports(measure.SOURCE, measure.trees(*measure.packages())) == []
+
+
+def test_lines_are_counted_without_blank_lines_comments_and_docstrings(tmp_path: Path) -> None:
+    text = (
+        '"""A module.\n\nIts text.\n"""\n\n# a comment\n'
+        'x = """one\ntwo"""  # kept\n\n\ndef f():\n    """Why."""\n    return x\n'
+    )
+    assert measure.counted_lines(text) == (13, 4)
+    root = package(tmp_path, a=text, b="y = 1\n")
+    assert [(f.what.split()[-1], f.value) for f in measure.sizes([root])] == [
+        *(("toy", 14), ("docstrings", 5)),
+        *(("src", 14), ("docstrings", 5)),
+    ]
+
+
+def test_every_package_beside_deodar_is_measured(tmp_path: Path) -> None:
+    for name in ("deodar", "deodar_robots", "deodar.egg-info", "other"):
+        (tmp_path / name).mkdir()
+    for name in ("deodar", "deodar_robots", "other"):
+        (tmp_path / name / "__init__.py").write_text("")
+    assert [path.name for path in measure.packages(tmp_path)] == ["deodar", "deodar_robots"]
+    (tmp_path / "deodar_robots" / "arm.py").write_text("import deodar")
+    imports = measure.graph(measure.trees(*measure.packages(tmp_path)))
+    assert imports["deodar_robots.arm"] == {"deodar"}
+
+
+def test_an_interpreter_without_the_tools_of_the_tests_is_refused() -> None:
+    with pytest.raises(SystemExit, match=r"cannot run -m no_such_tool: .*\n.*pip install"):
+        measure._python("-m", "no_such_tool")

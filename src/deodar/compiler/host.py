@@ -75,7 +75,8 @@ def _last_uses(jaxpr: Jaxpr) -> dict[int, list[Var]]:
 
 
 def _dtype(atom: Var | Literal) -> np.dtype[Any]:
-    return np.dtype(getattr(atom.aval, "dtype"))  # noqa: B009  (the class of an array has it, its base has not)
+    # the class of an array has it, its base has not
+    return np.dtype(getattr(atom.aval, "dtype"))  # noqa: B009
 
 
 def _inner(equation: JaxprEqn) -> ClosedJaxpr | None:
