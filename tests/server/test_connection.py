@@ -13,7 +13,7 @@ from deodar.server import requests
 from deodar.server.connection import PageConnection
 from deodar.server.message import Message
 from deodar.server.page import Page
-from deodar.server.project import ConfirmationRequired
+from deodar.server.project.open_project import ConfirmationRequired
 from deodar.server.to_page import Answer, ListedProblem
 
 

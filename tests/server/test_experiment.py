@@ -23,7 +23,7 @@ from deodar.server import hub, requests, state_store, to_server
 from deodar.server.connection import PageConnection
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.open_experiment import OpenExperiment
-from deodar.server.project import ConfirmationRequired
+from deodar.server.project.open_project import ConfirmationRequired
 from deodar.server.run_place import RunPlace
 from deodar.server.to_page import Answer, ExperimentView
 from tests.server.page import WAIT, Page, play, studio

@@ -16,7 +16,7 @@ from deodar.model.building import Around
 from deodar.model.document import Document
 from deodar.server import converted, view
 from deodar.server.converted import Status
-from deodar.server.recent_changes import MOST
+from deodar.server.project.recent_changes import MOST
 from tests.server.models import weighted
 from tests.server.page import Page, page, patched, play, studio
 

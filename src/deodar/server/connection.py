@@ -25,7 +25,7 @@ from deodar.model.unit import unit_seconds
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
 from deodar.server.message import Message, union
-from deodar.server.project import ConfirmationRequired
+from deodar.server.project.open_project import ConfirmationRequired
 from deodar.server.source import FrameSource
 from deodar.server.to_page import (
     Answer,

@@ -21,7 +21,7 @@ from deodar.server.field_tuning import FieldTuning
 from deodar.server.file_thread import try_in_file_thread
 from deodar.server.open_experiment import OpenExperiment
 from deodar.server.page import Page
-from deodar.server.project import OpenProject
+from deodar.server.project.open_project import OpenProject
 from deodar.server.record_frames import RecordFrames
 from deodar.server.regime_measurement import RegimeMeasurement
 from deodar.server.run_place import MOST_WORKERS, USUAL_WORKERS

@@ -30,7 +30,7 @@ from deodar.server import content, gallery, view
 from deodar.server.data_history import DataHistory
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
-from deodar.server.project import ConfirmationRequired, OpenProject
+from deodar.server.project.open_project import ConfirmationRequired, OpenProject
 from deodar.server.run_place import SLURM, RunPlace
 from deodar.server.state_store import StoredExperiment
 from deodar.server.to_page import ExperimentView, RunView, TrialRows

@@ -22,8 +22,8 @@ from deodar.parameters import Part
 from deodar.recording.first_difference import FirstDifference
 from deodar.recording.replay import RecordReader
 from deodar.server import converted
-from deodar.server.comparison import RecordComparison
 from deodar.server.converted import Converted
+from deodar.server.project.comparison import RecordComparison
 from deodar.server.to_page import (
     Comparison,
     CopyDimension,

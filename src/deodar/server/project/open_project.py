@@ -30,13 +30,13 @@ from deodar.recording import files
 from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
 from deodar.server import content, converted, embodiment, record_frames, saved_files, view
-from deodar.server.change_queue import ChangeQueue
-from deodar.server.checker import Checker
-from deodar.server.comparison import RecordComparison
 from deodar.server.converted import Converted, Status
 from deodar.server.embodiment import Embodiment, signals
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
-from deodar.server.recent_changes import DocumentChange, RecentChanges
+from deodar.server.project.change_queue import ChangeQueue
+from deodar.server.project.checker import Checker
+from deodar.server.project.comparison import RecordComparison
+from deodar.server.project.recent_changes import DocumentChange, RecentChanges
 from deodar.server.saved_files import SavedFolder
 from deodar.server.state_store import StateStore
 from deodar.server.to_page import (

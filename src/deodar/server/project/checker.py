@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from deodar.errors import Problem
 from deodar.model.document import Document
 from deodar.server import view
-from deodar.server.change_queue import ChangeQueue
+from deodar.server.project.change_queue import ChangeQueue
 from deodar.server.to_page import Checked
 
 SECONDS = 0.2
