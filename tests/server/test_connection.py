@@ -13,7 +13,7 @@ from deodar.server import requests
 from deodar.server.connection import PageConnection
 from deodar.server.message import Message
 from deodar.server.page import Page
-from deodar.server.project.open_project import ConfirmationRequired
+from deodar.server.project.confirmation import ConfirmationRequired
 from deodar.server.to_page import Answer, ListedProblem
 
 
@@ -90,7 +90,9 @@ def test_a_request_with_a_number_is_answered_and_one_without_is_not(
         socket = Said(
             '{"type": "pause", "request": 7}', '{"type": "pause"}', '{"type": "nonsense", "request": 9}'
         )
-        hub = SimpleNamespace(new_page=lambda: Page(1), project=SimpleNamespace(model=None))
+        hub = SimpleNamespace(
+            new_page=lambda: Page(1), project=SimpleNamespace(history=SimpleNamespace(model=None))
+        )
         one = PageConnection(cast("Any", socket), cast("Any", hub))
         await one._receive()
         return list(one._answers)

@@ -23,7 +23,7 @@ from deodar.server import hub, requests, state_store, to_server
 from deodar.server.connection import PageConnection
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.open_experiment import OpenExperiment
-from deodar.server.project.open_project import ConfirmationRequired
+from deodar.server.project.confirmation import ConfirmationRequired
 from deodar.server.run_place import RunPlace
 from deodar.server.to_page import Answer, ExperimentView
 from tests.server.page import WAIT, Page, play, studio
@@ -232,7 +232,7 @@ def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
         async with desk(folder) as d:
             await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
             await d.do(to_server.RepeatTrial(trial=1))
-            assert d.hub.project.record is not None
+            assert d.hub.project.record.reader is not None
 
     asyncio.run(scene())
     with dd.open_records(folder / "store") as records:
@@ -263,10 +263,10 @@ def test_a_stored_row_that_was_changed_is_refused_on_replay(folder: Path, repeat
             await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
             with pytest.raises(DeodarError, match="trial 2 gives another row than the stored one"):
                 await d.do(to_server.RepeatTrial(trial=2))
-            assert d.hub.project.record is None
+            assert d.hub.project.record.reader is None
             assert not list((folder / "results" / "repeats").glob("*2.*"))
             await d.do(to_server.RepeatTrial(trial=1))
-            assert d.hub.project.record is not None
+            assert d.hub.project.record.reader is not None
 
     asyncio.run(scene())
 
@@ -423,7 +423,7 @@ def test_an_experiment_closes_while_one_of_its_trials_is_repeated(folder: Path) 
             assert d.hub.experiment.data is None and run._pool is None
             with pytest.raises(DeodarError, match="was closed"):
                 await repeated
-            assert d.hub.project.record is None
+            assert d.hub.project.record.reader is None
 
     asyncio.run(scene())
 
@@ -494,24 +494,24 @@ def test_the_document_with_its_edits_is_open_again_after_the_record_of_a_trial(
             project, experiment = d.hub.project, d.hub.experiment
             await d.do(to_server.OpenExperimentFile(path="results/experiment.json"))
             await d.do(to_server.OpenFile(path="two-targets.model.json"))
-            u = project.document().entries[0].id
+            u = project.history.document().entries[0].id
             await d.do(to_server.SetParameter(element=u, parameter="tau", value=40.0))
             repeated = asyncio.create_task(d.do(to_server.RepeatTrial(trial=1)))
             await d.do(to_server.SetParameter(element=u, parameter="tau", value=50.0))
             ready.set()
             await repeated
-            assert experiment.repeated == 1 and project.record is not None
+            assert experiment.repeated == 1 and project.record.reader is not None
             [stored] = (own_state / "unsaved").glob("*.json")
             assert dd.load(stored).get("u.tau") == 50.0
             with pytest.raises(ConfirmationRequired):
                 await d.do(to_server.OpenFile(path="two-targets.model.json"))
             await d.do(to_server.LeaveTrial())
-            assert project.record is None and project.unsaved and stored.is_file()
-            assert project.file == folder / "two-targets.model.json"
-            assert project.model is not None and project.model.get("u.tau") == 50.0
+            assert project.record.reader is None and project.history.unsaved and stored.is_file()
+            assert project.file.path == folder / "two-targets.model.json"
+            assert project.history.model is not None and project.history.model.get("u.tau") == 50.0
             await d.do(to_server.Undo())
             await d.do(to_server.Undo())
-            assert project.model.get("u.tau") == 20.0 and not project.unsaved
+            assert project.history.model.get("u.tau") == 20.0 and not project.history.unsaved
 
     asyncio.run(scene())
 
@@ -657,7 +657,7 @@ def test_an_edited_experiment_is_recovered_after_a_kill(
             view = d.hub.experiment.view()
             assert (view.data or {})["trials"] == 7 and view.unsaved and view.problems == []
             assert view.file == "a.json" and view.trials == 28
-            assert not d.hub.project.unsaved, "its model has the content of its file"
+            assert not d.hub.project.history.unsaved, "its model has the content of its file"
             assert not (await d.hub.gallery()).recoveries
             with pytest.raises(ConfirmationRequired, match="replace"):
                 await d.do(to_server.SaveExperiment())  # another program may have changed it meanwhile

@@ -16,7 +16,8 @@ import deodar as dd
 from deodar.live import branch_states
 from deodar.recording import folder, writer_lock
 from deodar.recording.growing import GrowingRecord
-from deodar.server import hub, project
+from deodar.server import hub
+from deodar.server.project import run
 from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio
 
@@ -339,7 +340,7 @@ def test_another_document_ends_the_repetition_of_a_record(
         go.wait(20)
         progress(1, 2)
 
-    monkeypatch.setattr(project, "session_at", session_at)
+    monkeypatch.setattr(run, "session_at", session_at)
 
     async def scene(p: Page) -> None:
         await shows(p)

@@ -43,7 +43,7 @@ async def _changed(hub: Hub, how: Callable[[Document], tuple[Document, T]]) -> T
         found.append(result)
         return new
 
-    await hub.project.change(change)
+    await hub.project.history.change(change)
     return found[0]
 
 
@@ -68,36 +68,36 @@ async def _insert(hub: Hub, page: Page, m: to_server.InsertElement) -> None:
     def change(doc: Document) -> Document:
         return building.placed(building.insert_element(doc, m.element, _ends(m.wire)), _of(doc, m.positions))
 
-    await hub.project.change(change)
+    await hub.project.history.change(change)
 
 
 @handles(to_server.Connect)
 async def _connect(hub: Hub, page: Page, m: to_server.Connect) -> None:
-    await hub.project.change(lambda doc: building.connect(doc, _ends(m), m.reads))
+    await hub.project.history.change(lambda doc: building.connect(doc, _ends(m), m.reads))
 
 
 @handles(to_server.Disconnect)
 async def _disconnect(hub: Hub, page: Page, m: to_server.Disconnect) -> None:
-    await hub.project.change(lambda doc: building.disconnect(doc, [_ends(m)]))
+    await hub.project.history.change(lambda doc: building.disconnect(doc, [_ends(m)]))
 
 
 @handles(to_server.Reconnect)
 async def _reconnect(hub: Hub, page: Page, m: to_server.Reconnect) -> None:
-    await hub.project.change(lambda doc: building.reconnect(doc, _ends(m.old), _ends(m.new)))
+    await hub.project.history.change(lambda doc: building.reconnect(doc, _ends(m.old), _ends(m.new)))
 
 
 @handles(to_server.RemoveElements)
 async def _remove(hub: Hub, page: Page, m: to_server.RemoveElements) -> None:
     wires = [_ends(c) for c in m.connections]
-    await hub.project.change(lambda doc: building.remove(doc, m.elements, _groups(m.groups), wires))
+    await hub.project.history.change(lambda doc: building.remove(doc, m.elements, _groups(m.groups), wires))
 
 
 @handles(to_server.Rename)
 async def _rename(hub: Hub, page: Page, m: to_server.Rename) -> None:
     if m.element:
-        await hub.project.change(lambda doc: building.rename(doc, m.element, m.name))
+        await hub.project.history.change(lambda doc: building.rename(doc, m.element, m.name))
     else:
-        await hub.project.change(lambda doc: building.rename_group(doc, tuple(m.group), m.name))
+        await hub.project.history.change(lambda doc: building.rename_group(doc, tuple(m.group), m.name))
 
 
 @handles(to_server.MoveInto)
@@ -106,7 +106,7 @@ async def _move_into(hub: Hub, page: Page, m: to_server.MoveInto) -> None:
         moved = building.move_into(doc, m.elements, _groups(m.groups), tuple(m.group))
         return building.placed(moved, _of(doc, m.positions))
 
-    await hub.project.change(change)
+    await hub.project.history.change(change)
 
 
 @handles(to_server.MakeGroup)
@@ -117,12 +117,12 @@ async def _group(hub: Hub, page: Page, m: to_server.MakeGroup) -> Answer:
 
 @handles(to_server.Ungroup)
 async def _ungroup(hub: Hub, page: Page, m: to_server.Ungroup) -> None:
-    await hub.project.change(lambda doc: building.ungroup(doc, tuple(m.group)))
+    await hub.project.history.change(lambda doc: building.ungroup(doc, tuple(m.group)))
 
 
 @handles(to_server.CopyElements)
 async def _copy(hub: Hub, page: Page, m: to_server.CopyElements) -> Answer:
-    doc = hub.project.document()
+    doc = hub.project.history.document()
     text = await asyncio.to_thread(
         lambda: clipboard.text(building.excerpt(doc, m.elements, _groups(m.groups)))
     )
@@ -132,7 +132,7 @@ async def _copy(hub: Hub, page: Page, m: to_server.CopyElements) -> Answer:
 @handles(to_server.ExportScript)
 async def _export_script(hub: Hub, page: Page, m: to_server.ExportScript) -> Answer:
     # a script says how the model is built, not what was imported
-    doc, path = stored_report.without_report(hub.project.document()), hub.project.file
+    doc, path = stored_report.without_report(hub.project.history.document()), hub.project.file.path
     written = await asyncio.to_thread(script.script, doc, "" if path is None else path.name)
     return Answer(request=m.request, text=written)
 
@@ -163,7 +163,7 @@ async def _set_many(hub: Hub, page: Page, m: to_server.SetMany) -> Answer:
         return new
 
     gesture = (page.number, m.gesture) if m.gesture else None
-    return Answer(request=m.request, cost=await hub.project.change(change, gesture))
+    return Answer(request=m.request, cost=await hub.project.history.change(change, gesture))
 
 
 @handles(to_server.ChangeAxis)
@@ -174,7 +174,7 @@ async def _change_axis(hub: Hub, page: Page, m: to_server.ChangeAxis) -> Answer:
             raise UnknownName(f"the document has no axis {m.key!r}", fix=did_you_mean(m.key, known))
         return edit.replace_axis(doc, known[m.key], starting.axis(m.axis))
 
-    return Answer(request=m.request, cost=await hub.project.change(change))
+    return Answer(request=m.request, cost=await hub.project.history.change(change))
 
 
 @handles(to_server.AddTemplate)
@@ -203,20 +203,20 @@ async def _comment(hub: Hub, page: Page, m: to_server.Comment) -> Answer:
         found.append(ident)
         return new
 
-    await hub.project.lay_out(change)
+    await hub.project.history.lay_out(change)
     return Answer(request=m.request, made=[] if m.comment else found)
 
 
 @handles(to_server.FindFits)
 async def _find_fits(hub: Hub, page: Page, m: to_server.FindFits) -> Fits:
-    doc = hub.project.document()
+    doc = hub.project.history.document()
     ports, kinds = await asyncio.to_thread(fits.fits, doc, m.element, m.port)
     return view.fits(m, ports, kinds)
 
 
 @handles(to_server.PlaceBoxes)
 async def _place(hub: Hub, page: Page, m: to_server.PlaceBoxes) -> None:
-    await hub.project.lay_out(lambda doc: building.placed(doc, _of(doc, m.positions)))
+    await hub.project.history.lay_out(lambda doc: building.placed(doc, _of(doc, m.positions)))
 
 
 def _of(doc: Document, positions: Mapping[str, BoxPosition]) -> dict[str, BoxPosition]:

@@ -25,7 +25,7 @@ from deodar.model.unit import unit_seconds
 from deodar.server import requests, scene, view
 from deodar.server.hub import Hub
 from deodar.server.message import Message, union
-from deodar.server.project.open_project import ConfirmationRequired
+from deodar.server.project.confirmation import ConfirmationRequired
 from deodar.server.source import FrameSource
 from deodar.server.to_page import (
     Answer,
@@ -133,7 +133,7 @@ class PageConnection:
         except ConfirmationRequired as required:
             answers = [Answer(request=message.request, ask=required.question, file=required.file)]
         except DeodarError as error:
-            model = self._hub.project.model
+            model = self._hub.project.history.model
             problems = view.problems(error.problems, None if model is None else model.document)
             answers = [Answer(request=message.request, problems=problems)]
         except OSError as error:
@@ -180,7 +180,7 @@ class PageConnection:
                 await self._text(message)
                 spoke = True
             # an answer is never sent before its change, and frames belong to the document that was sent
-            now = hub.project.session, hub.project.version, hub.experiment.version
+            now = hub.project.session, hub.project.history.version, hub.experiment.version
             known = self._session, self._version, self._experiment
             if known == now and hub.source(self.page).identity is source.identity:
                 answers = list(self._answers)
@@ -284,7 +284,7 @@ class PageConnection:
     async def _news_of_state(self) -> list[Message]:
         project = self._hub.project
         out: list[Message] = []
-        now = project.session, project.version
+        now = project.session, project.history.version
         if (self._session, self._version) != now:
             changes = project.changes_since(self._session, self._version)
             if changes is None:
@@ -295,16 +295,16 @@ class PageConnection:
             else:
                 out.extend(changes)
             self._session, self._version = now
-            file, problems = project.file_problems
+            file, problems = project.file.refused
             self._new("file_problems", FileProblems(file=file, problems=view.problems(problems)), out)
-        if project.checker.found is not None:
-            self._new("checked", project.checker.found, out)
-        self._new("import_report", project.report(), out)
+        if project.history.checker.found is not None:
+            self._new("checked", project.history.checker.found, out)
+        self._new("import_report", project.history.report(), out)
         self._new("costs", self._hub.costs(), out)
         for analysis in self._hub.analyses():
             self._new(type(analysis).__name__, analysis, out)
-        self._new("comparison", project.compared(), out)
-        self._new("saved_files", project.saved_files, out)
+        self._new("comparison", project.record.compared(), out)
+        self._new("saved_files", project.file.saved_files, out)
         experiment = self._hub.experiment.view()
         self._experiment = experiment.version
         self._new("experiment", experiment, out)
@@ -316,8 +316,8 @@ class PageConnection:
 
     def _news_of_world(self, state: PublishedState) -> list[Message]:
         out: list[Message] = []
-        session, note = self._hub.engine.session, self._hub.project.scene[1]
-        world = None if session is None or self._hub.project.record is not None else session.world
+        session, note = self._hub.engine.session, self._hub.project.record.scene[1]
+        world = None if session is None or self._hub.project.record.reader is not None else session.world
         self._new("scene", scene.scene(state.scene, note, world), out)
         now = time.monotonic()
         if now - self._link_sent >= LINK_EVERY:

@@ -79,7 +79,7 @@ class Hub:
         self.project = OpenProject(
             self.workspace, self.store, self.engine, self.embodiment, trust, self.notify
         )
-        self.experiment = OpenExperiment(self.project, self.workspace, self.from_thread, private)
+        self.experiment = OpenExperiment(self.project, self.workspace, self.store, self.from_thread, private)
         self.measurement = RegimeMeasurement(self.from_thread)
         self.field_tuning = FieldTuning(self.from_thread)
         self._analyses: tuple[tuple[Any, ...], list[Regime | Tuning]] | None = None
@@ -145,11 +145,11 @@ class Hub:
             overruns=meter.overruns,
             longest=engine.pace.longest,
             lengthened=meter.lengthened,
-            busy=self.project.busy or engine.busy,
+            busy=self.project.run.busy or engine.busy,
             compiling=self._compiling(),
-            failure=self.project.failures(),
+            failure=self.project.run.failures(),
             world=self._world(session),
-            senses=self.project.senses,
+            senses=self.project.run.senses,
             pushing="" if injection is None else injection.element,
             timeline=timeline,
             recording=self._recording(session),
@@ -162,12 +162,12 @@ class Hub:
 
     def _dt(self, session: Session | None) -> float:
         """Return the present step; of a document that is not compiled, the one that it will run with."""
-        model = self.project.model
+        model = self.project.history.model
         return session.dt if session is not None else 1.0 if model is None else model.document.step
 
     def _compiling(self) -> CompilingView | None:
         project, engine = self.project, self.engine
-        found = project.compilation if project.busy else engine.compilation if engine.busy else None
+        found = project.run.compilation if project.run.busy else engine.compilation if engine.busy else None
         if found is None:
             return None
         return CompilingView(phase=found.phase, elapsed=round(found.elapsed, 1), expected=found.expected)
@@ -180,17 +180,17 @@ class Hub:
 
     def source(self, page: Page) -> FrameSource:
         """Return what a page watches: the run, or the open record."""
-        record = self.project.record
+        record = self.project.record.reader
         if record is None:
             page.frames = None
             return RunFrames(self.engine)
         if page.frames is None or page.frames.record is not record:
-            page.frames = RecordFrames(record, self.project.scene[0], self._from(page))
+            page.frames = RecordFrames(record, self.project.record.scene[0], self._from(page))
         return page.frames
 
     def other_source(self, page: Page) -> RecordFrames | None:
         """Return the record that the open one is compared with; None: there is none."""
-        comparison, frames = self.project.comparison, page.frames
+        comparison, frames = self.project.record.comparison, page.frames
         if comparison is None or frames is None:
             page.others = None
         elif page.others is None or page.others.record is not comparison.other:
@@ -251,7 +251,7 @@ class Hub:
 
     def _copied(self, element: str) -> Model:
         """Return the model of the open document, which has this element."""
-        doc = self.project.document()
+        doc = self.project.history.document()
         if element not in doc.by_id():
             raise DocumentError("the document has no such element", where=element)
         return Model(document=doc, trusted=self.project.trust)
@@ -260,7 +260,7 @@ class Hub:
         """Return the regime and the tuning as last computed; empty ones if another document was opened
         since.
         """
-        model, session = self.project.model, self.project.session
+        model, session = self.project.history.model, self.project.session
         for one in (self.measurement, self.field_tuning):
             if one.report.element and (model is None or one.report.session != session):
                 one.stop()
@@ -309,7 +309,7 @@ class Hub:
 
     async def _follow(self) -> None:
         """Show what is added to a record or to followed rows, and check the open experiment."""
-        if await self.project.refresh():
+        if await self.project.record.refresh():
             self.notify()
         await self.experiment.check()
         await self.experiment.follow()
@@ -318,7 +318,7 @@ class Hub:
         """Store unsaved edits and stop the engine."""
         self._storing.cancel()
         self._following.cancel()
-        self.project.end()
+        self.project.run.end()
         await self.project.store_edits()
         await self.experiment.store_edits()
         await asyncio.to_thread(self.experiment.end)

@@ -30,9 +30,11 @@ from deodar.server import content, gallery, view
 from deodar.server.data_history import DataHistory
 from deodar.server.experiment_run import ExperimentRun
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
-from deodar.server.project.open_project import ConfirmationRequired, OpenProject
+from deodar.server.project.confirmation import ConfirmationRequired
+from deodar.server.project.file_state import plain
+from deodar.server.project.open_project import OpenProject
 from deodar.server.run_place import SLURM, RunPlace
-from deodar.server.state_store import StoredExperiment
+from deodar.server.state_store import StateStore, StoredExperiment
 from deodar.server.to_page import ExperimentView, RunView, TrialRows
 from deodar.server.to_server import RunExperiment
 from deodar.server.workspace import Workspace
@@ -61,6 +63,7 @@ class OpenExperiment:
     Args:
         project: the open document and its queue.
         workspace: the files below the root.
+        store: where unsaved edits are stored.
         changed: called when pages may have something new to show.
         private: whether pages may name any cluster (see `RunPlace`).
 
@@ -77,9 +80,14 @@ class OpenExperiment:
     """
 
     def __init__(
-        self, project: OpenProject, workspace: Workspace, changed: Callable[[], None], private: bool
+        self,
+        project: OpenProject,
+        workspace: Workspace,
+        store: StateStore,
+        changed: Callable[[], None],
+        private: bool,
     ) -> None:
-        self._project, self._workspace, self._changed = project, workspace, changed
+        self._project, self._workspace, self._store, self._changed = project, workspace, store, changed
         self._private, self._looked = private, 0.0
         self.data: JsonObject | None = None
         self.version = 0
@@ -154,16 +162,19 @@ class OpenExperiment:
 
     def _present(self) -> tuple[Model | None, Path | None]:
         """Return the open document, or the one that was set aside, and its file."""
-        aside, project = self._project.aside, self._project
-        return (project.model, project.file) if aside is None else (aside.model, aside.file)
+        aside, project = self._project.record.aside, self._project
+        if aside is None:
+            return project.history.model, project.file.path
+        return aside.model, aside.file.path
 
     def _document(self) -> Document:
         """Return the model of the experiment, without positions of panels."""
-        if self._project.aside is not None:
-            return view.plain(self._project.aside.model.document)
-        if self._project.model is None or self._project.record is not None:
+        record, model = self._project.record, self._project.history.model
+        if record.aside is not None:
+            return plain(record.aside.model.document)
+        if model is None or record.reader is not None:
             raise DocumentError("no document is open", fix="Open the model of the experiment first")
-        return view.plain(self._project.model.document)
+        return plain(model.document)
 
     def _experiment(self, model: object) -> Experiment:
         """Return the experiment of the plain data."""
@@ -200,7 +211,7 @@ class OpenExperiment:
 
     async def check(self) -> None:
         """Find the problems of the experiment, if it or its model changed since the last check."""
-        record = self._project.record
+        record = self._project.record.reader
         if self.repeated is not None and (record is None or record.path != self._shown):
             self.repeated = None  # the record of the trial was closed
         try:
@@ -261,7 +272,7 @@ class OpenExperiment:
             raise DocumentError("there is no such file", where=self._workspace.shown(place)) from None
         document, file = self._named(place, str(found.model))
         await self._project.open_model(document, file, str(found.model), discard)
-        if self._project.model is None:
+        if self._project.history.model is None:
             return
         data: Any = codec.parse(codec.line(found.to_data()))
         await self._take({key: value for key, value in data.items() if key not in APART}, place, None)
@@ -373,10 +384,10 @@ class OpenExperiment:
         stored = self._stored
         if stored is not None and stored[0] is self.data and stored[1] == doc:
             return
-        self.edits = self.edits or self._project.store.new_name()
+        self.edits = self.edits or self._store.new_name()
         note = StoredExperiment(self.data, "" if self.file is None else str(self.file))
         name, file = self.edits, "" if own is None else str(own)
-        await try_in_file_thread(lambda: self._project.store.store_edits(name, doc, file, note))
+        await try_in_file_thread(lambda: self._store.store_edits(name, doc, file, note))
         self._stored = self.data, doc
 
     async def recover(self, name: str, discard: bool, discard_experiment: bool) -> None:
@@ -387,11 +398,11 @@ class OpenExperiment:
                 `discard_experiment`, the open experiment.
         """
         self._require_end(discard_experiment)
-        found = await in_file_thread(lambda: self._project.store.experiment(name), name)
+        found = await in_file_thread(lambda: self._store.experiment(name), name)
         if found is None:
             raise DocumentError("no experiment is stored under this name")
         await self._project.recover_model(name, discard)
-        if self._project.model is None:
+        if self._project.history.model is None:
             return
         file = Path(found.file) if found.file else None
         if file is not None and not self._workspace.holds(file):
@@ -404,7 +415,7 @@ class OpenExperiment:
         name, self.edits, self._stored = self.edits, "", None
         self._history.clear()
         if name:
-            await try_in_file_thread(lambda: self._project.store.forget(name))
+            await try_in_file_thread(lambda: self._store.forget(name))
 
     async def save(self, path: str, replace: bool) -> Path:
         """Write the experiment to a path, or to its own file; a model without a file is written beside it.
@@ -449,7 +460,7 @@ class OpenExperiment:
         self.file, self._saved, self._digests = place, self.data, digests
         name, self.edits, self._stored = self.edits, "", None
         if name:
-            await try_in_file_thread(lambda: self._project.store.forget(name))
+            await try_in_file_thread(lambda: self._store.forget(name))
         self._model = present, own
         self._changed()
         return place
@@ -517,8 +528,9 @@ class OpenExperiment:
             if latest != self._repeats:
                 raise DocumentError(f"trial {trial} is not opened: another trial was opened meanwhile")
             await self._project.open_trial(path)
-            if self._project.record is not None:
-                self.repeated, self._shown = trial, self._project.record.path
+            record = self._project.record.reader
+            if record is not None:
+                self.repeated, self._shown = trial, record.path
             self._changed()
 
         await self._project.queue.run(show)

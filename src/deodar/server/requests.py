@@ -68,7 +68,7 @@ async def _done(hub: Hub, page: Page, message: to_server.Request) -> Answers:
 
 async def _change(hub: Hub, page: Page, message: to_server.DocumentRequest) -> Answers:
     answers = await _done(hub, page, message)
-    version = hub.project.version
+    version = hub.project.history.version
     return [msgspec.structs.replace(a, version=version) if isinstance(a, Answer) else a for a in answers]
 
 
@@ -93,12 +93,12 @@ async def _open_record_model(hub: Hub, page: Page, m: to_server.OpenRecordModel)
 
 @handles(to_server.CompareRecord)
 async def _compare_record(hub: Hub, page: Page, m: to_server.CompareRecord) -> None:
-    await hub.project.compare(hub.workspace.inside(m.path), hub.from_thread)
+    await hub.project.record.compare(hub.workspace.inside(m.path), hub.from_thread)
 
 
 @handles(to_server.EndComparison)
 async def _end_comparison(hub: Hub, page: Page, m: to_server.EndComparison) -> None:
-    hub.project.end_comparison()
+    hub.project.record.end_comparison()
 
 
 @handles(to_server.OpenExample)
@@ -131,7 +131,7 @@ async def _recover(hub: Hub, page: Page, m: to_server.Recover) -> None:
 @handles(to_server.Forget)
 async def _forget(hub: Hub, page: Page, m: to_server.Forget) -> None:
     await in_file_thread(lambda: hub.store.forget(m.name), m.name)
-    hub.project.touch()
+    hub.project.history.touch()
 
 
 @handles(to_server.Close)
@@ -156,14 +156,14 @@ async def _list_folder(hub: Hub, page: Page, m: to_server.ListFolder) -> Folder:
 @handles(to_server.SetParameter)
 async def _set(hub: Hub, page: Page, m: to_server.SetParameter) -> Answer:
     gesture = (page.number, m.gesture) if m.gesture else None
-    cost = await hub.project.set(m.element, m.parameter, m.value, gesture)
+    cost = await hub.project.history.set(m.element, m.parameter, m.value, gesture)
     return Answer(request=m.request, cost=cost)
 
 
 @handles(to_server.Describe)
 async def _describe(hub: Hub, page: Page, m: to_server.Describe) -> None:
     given = {key: value for key in ("name", "notes", "dt") if (value := getattr(m, key)) is not None}
-    await hub.project.describe(given)
+    await hub.project.history.describe(given)
 
 
 @handles(to_server.AddDocumentParameter)
@@ -178,27 +178,27 @@ async def _add_document_parameter(hub: Hub, page: Page, m: to_server.AddDocument
             m.name,
         )
 
-    await hub.project.change(change)
+    await hub.project.history.change(change)
 
 
 @handles(to_server.Link)
 async def _link(hub: Hub, page: Page, m: to_server.Link) -> None:
-    await hub.project.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
+    await hub.project.history.change(lambda doc: edit.link(doc, m.element, m.parameter, m.name))
 
 
 @handles(to_server.Unlink)
 async def _unlink(hub: Hub, page: Page, m: to_server.Unlink) -> None:
-    await hub.project.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
+    await hub.project.history.change(lambda doc: edit.unlink(doc, m.element, m.parameter))
 
 
 @handles(to_server.RemoveDocumentParameter)
 async def _remove_document_parameter(hub: Hub, page: Page, m: to_server.RemoveDocumentParameter) -> None:
-    await hub.project.change(lambda doc: edit.remove_document_parameter(doc, m.name))
+    await hub.project.history.change(lambda doc: edit.remove_document_parameter(doc, m.name))
 
 
 @handles(to_server.Arrange)
 async def _arrange(hub: Hub, page: Page, m: to_server.Arrange) -> None:
-    await hub.project.arrange(m.layout, m.undoable)
+    await hub.project.history.arrange(m.layout, m.undoable)
 
 
 @handles(to_server.ApplyPreset)
@@ -230,19 +230,19 @@ async def _take_over(
         lines.extend(found)
         return new
 
-    cost = await hub.project.change(change)
+    cost = await hub.project.history.change(change)
     unmatched = [str(line) for line in lines if line.verdict == "dropped"]
     return Answer(request=request, cost=cost, carried=len(lines) - len(unmatched), unmatched=unmatched)
 
 
 @handles(to_server.Undo)
 async def _undo(hub: Hub, page: Page, m: to_server.Undo) -> None:
-    await hub.project.undo()
+    await hub.project.history.undo()
 
 
 @handles(to_server.Redo)
 async def _redo(hub: Hub, page: Page, m: to_server.Redo) -> None:
-    await hub.project.redo()
+    await hub.project.history.redo()
 
 
 # ---------------------------------------------------------------------------------------------------- running
@@ -319,13 +319,15 @@ async def _return_to(hub: Hub, page: Page, m: to_server.ReturnTo) -> None:
 
 @handles(to_server.SavePreset)
 async def _save_preset(hub: Hub, page: Page, m: to_server.SavePreset) -> Answer:
-    path = await hub.project.save_preset(m.name)
+    doc = hub.project.history.require_edited().document
+    path = await hub.project.file.save_preset(doc, m.name)
     return Answer(request=m.request, file=hub.workspace.shown(path))
 
 
 @handles(to_server.RemoveSaved)
 async def _remove_saved(hub: Hub, page: Page, m: to_server.RemoveSaved) -> None:
-    await hub.project.remove_saved(m.sort, m.name)
+    title = hub.project.history.require_edited().name
+    await hub.project.file.remove_saved(title, m.sort, m.name)
 
 
 @handles(to_server.Seek)
@@ -336,7 +338,7 @@ async def _seek(hub: Hub, page: Page, m: to_server.Seek) -> None:
 @handles(to_server.ChooseCopy)
 async def _choose_copy(hub: Hub, page: Page, m: to_server.ChooseCopy) -> None:
     hub.source(page)
-    record = hub.project.record
+    record = hub.project.record.reader
     if page.frames is None or record is None or m.dimension not in record.copies:
         raise DocumentError("the open record has no such dimension", where=m.dimension)
     page.frames.choose({m.dimension: m.index})
@@ -378,7 +380,7 @@ async def _stop_record(hub: Hub, page: Page, m: to_server.StopRecord) -> None:
 
 @handles(to_server.SaveFigure)
 async def _save_figure(hub: Hub, page: Page, m: to_server.SaveFigure) -> Answer:
-    engine, opened = hub.engine, hub.project.record
+    engine, opened = hub.engine, hub.project.record.reader
     session = engine.session
     if opened is not None:
         record, document = opened.path, opened.document
@@ -421,7 +423,7 @@ async def _stop_tuning(hub: Hub, page: Page, m: to_server.StopTuning) -> None:
 
 @handles(to_server.ApplyTuning)
 async def _apply_tuning(hub: Hub, page: Page, m: to_server.ApplyTuning) -> Answer:
-    return Answer(request=m.request, cost=await hub.project.change(hub.field_tuning.applied))
+    return Answer(request=m.request, cost=await hub.project.history.change(hub.field_tuning.applied))
 
 
 @handles(to_server.PushInput)
@@ -469,7 +471,7 @@ async def _use_world(hub: Hub, page: Page, m: to_server.UseWorld) -> None:
 
 @handles(to_server.PreviewWorld)
 async def _preview_world(hub: Hub, page: Page, m: to_server.PreviewWorld) -> Answer:
-    model = hub.project.model
+    model = hub.project.history.model
     doc = None if model is None else model.document
     shown = await in_file_thread(lambda: preview(_world(hub, m), doc), masked(m.path))
     return Answer(request=m.request, preview=shown)

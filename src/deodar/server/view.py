@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses as dc
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -41,9 +40,6 @@ from deodar.server.to_page import (
     ReportLineView,
 )
 from deodar.server.to_server import FindFits
-
-LOOKS = ("panels", "folded")
-"""Keys of the layout whose changes do not count as unsaved edits: positions of panels, folded groups."""
 
 
 def kinds() -> list[Kind]:
@@ -223,8 +219,3 @@ def import_report(doc: Document) -> ImportReportView:
         return NO_REPORT
     lines = [msgspec.convert(line, ReportLineView, from_attributes=True) for line in found.lines]
     return ImportReportView(tool=found.tool, file=found.file, lines=lines, bugs=list(found.bugs))
-
-
-def plain(doc: Document) -> Document:
-    """Return the document without the keys of its layout that do not count as edits."""
-    return dc.replace(doc, layout={k: v for k, v in doc.layout.items() if k not in LOOKS})
