@@ -24,7 +24,7 @@ from deodar.elements.boost import Boost
 from deodar.errors import DeodarError
 from deodar.importers import presets
 from deodar.leaves import get
-from deodar.model import edit, files
+from deodar.model import edit, files, plain_values
 from deodar.model.document import Document
 from deodar.server import view
 from tests.server.page import Page, page, studio
@@ -192,8 +192,7 @@ def again(state: State, page: int, m: dict[str, Any]) -> State:
 def _other(doc: Document, m: dict[str, Any]) -> Document:
     match m["type"]:
         case "set" if m["element"]:
-            value = view.read_value(doc, doc.by_id()[m["element"]], m["parameter"], m["value"])
-            return edit.put(doc, m["element"], m["parameter"], value)
+            return plain_values.put(doc, [m["element"]], m["parameter"], m["value"])
         case "set":
             return edit.document_parameter(doc, m["parameter"], m["value"])
         case "add_document_parameter":

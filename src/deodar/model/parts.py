@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import typing
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, cast
+from typing import Any
 
 from deodar import codec, registry
 from deodar.declarations import Needed
@@ -309,29 +310,12 @@ def value_from_json(
     The path is of the form `tau`, `kernel`, `kernel.0` or `kernel.0.sigma`.
     """
     p, whole = _declared(part, path)
+    if p.form == "parts" and not whole:
+        p = dc.replace(p, form="part")
+    elif not whole or (p.form == "array" and not isinstance(data, dict)):
+        return data  # a number inside a value, or an array given by its numbers
     problems: list[Problem] = []
-    value: Any = data
-    if p.form in ("axes", "axis") and whole and data is not None:
-        keys = cast("list[Any]", data if p.form == "axes" else [data])
-        if not isinstance(keys, list) or any(not isinstance(k, str) or k not in axes for k in keys):
-            raise ParameterError(
-                f"{show(data)} is not among the document's axes",
-                where=where,
-                fix=f"Axes of the document: {', '.join(axes) or 'none'}",
-            )
-        value = [axes[k] for k in keys] if p.form == "axes" else axes[keys[0]]
-    elif p.form == "parts" and whole:
-        if not isinstance(data, list):
-            raise ParameterError(f"needs a list, not {show(data)}", where=where)
-        items = cast("list[Any]", data)
-        value = [
-            _from_json(v, f"{where}.{i}", axes, arrays, cast(Any, p.of), problems, {})
-            for i, v in enumerate(items)
-        ]
-    elif p.form in ("part", "parts") and data is not None:
-        value = _from_json(data, where, axes, arrays, cast(Any, p.of), problems, {})
-    elif p.form == "array" and isinstance(data, dict):
-        value = arrays.get(cast("dict[str, Any]", data).get("array", ""))
+    value = _value(p, data, where, axes, arrays, problems)
     if problems:
         raise ParameterError(problems)
     return value

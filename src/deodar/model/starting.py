@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, cast
+from typing import Any
 
 from deodar import registry
 from deodar.declarations import Needed
 from deodar.element import Element
 from deodar.errors import ParameterError
-from deodar.model import files
+from deodar.model import files, plain_values
 from deodar.model.document import Document
 from deodar.model.parts import part_from_json
 from deodar.numerics.axes import Axes, Axis
@@ -45,7 +45,7 @@ def element(
     if not issubclass(cls, Element):
         raise ParameterError(f"expected an element, got {an(kind)}", where=kind)
     known = files.axes(doc)
-    values = {k: keyed(cls, k, v, known) for k, v in values.items()}
+    values = {k: plain_values.keyed(cls, k, v, known) for k, v in values.items()}
     free = usual_axes(doc) if axes is None else axes
     body: dict[str, Any] = {**values, "kind": kind}
     example, own = cls.example(), free
@@ -61,29 +61,6 @@ def element(
             own = tuple(known[key] for key in listed if isinstance(key, str) and key in known)
     begun = {k: v for k, v in cls.starting_values(own, arriving).items() if k not in values}
     return part_from_json(body, name, known, {}, Element, name, begun)
-
-
-def keyed(cls: type[Any], name: str, value: Any, known: dict[str, Axis]) -> Any:
-    """Return the value of a parameter with the keys of its axes.
-
-    An axis may also be given by its properties, `{"name": "x", "lower": 0, "upper": 1, "samples": 51}`; it is
-    added to `known`, the axes of the document by their keys.
-    """
-    forms = {p.name: p.form for p in parameters(cls)}
-    if forms.get(name) == "axis":
-        return _key(value, known)
-    if forms.get(name) == "axes" and isinstance(value, list):
-        return [_key(each, known) for each in cast("list[Any]", value)]
-    return value
-
-
-def _key(value: Any, known: dict[str, Axis]) -> Any:
-    return files.axis_key(known, axis(value)) if isinstance(value, dict) else value
-
-
-def axis(properties: Mapping[str, Any]) -> Axis:
-    """Return the axis of plain properties; raise AxesError or UnknownName for wrong ones."""
-    return Axis(**{str(k): v for k, v in properties.items()})
 
 
 def usual_axes(doc: Document) -> Axes:

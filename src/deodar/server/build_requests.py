@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
 from deodar.importers import stored_report
-from deodar.model import building, clipboard, edit, files, find, fits, script, starting
+from deodar.model import building, clipboard, edit, files, fits, plain_values, script
 from deodar.model.building import Around, BoxPosition, EndPorts
 from deodar.model.document import Document
 from deodar.model.paths import PathNames
@@ -155,15 +155,12 @@ async def _paste(hub: Hub, page: Page, m: to_server.Paste) -> Answer:
 
 @handles(to_server.SetMany)
 async def _set_many(hub: Hub, page: Page, m: to_server.SetMany) -> Answer:
-    def change(doc: Document) -> Document:
-        new = doc
-        for ident in dict.fromkeys(m.elements):
-            value = view.read_value(doc, find.entry(doc, ident), m.parameter, m.value)
-            new = edit.put(new, ident, m.parameter, value)
-        return new
-
+    ids = list(dict.fromkeys(m.elements))
     gesture = (page.number, m.gesture) if m.gesture else None
-    return Answer(request=m.request, cost=await hub.project.history.change(change, gesture))
+    cost = await hub.project.history.change(
+        lambda doc: plain_values.put(doc, ids, m.parameter, m.value), gesture
+    )
+    return Answer(request=m.request, cost=cost)
 
 
 @handles(to_server.ChangeAxis)
@@ -172,7 +169,7 @@ async def _change_axis(hub: Hub, page: Page, m: to_server.ChangeAxis) -> Answer:
         known = files.axes(doc)
         if m.key not in known:
             raise UnknownName(f"the document has no axis {m.key!r}", fix=did_you_mean(m.key, known))
-        return edit.replace_axis(doc, known[m.key], starting.axis(m.axis))
+        return edit.replace_axis(doc, known[m.key], plain_values.axis(m.axis))
 
     return Answer(request=m.request, cost=await hub.project.history.change(change))
 

@@ -12,11 +12,10 @@ from deodar.errors import Problem as Wrong
 from deodar.experiments.design import KINDS, USUAL, Design
 from deodar.importers import stored_report
 from deodar.kinds.description import describe, descriptions
-from deodar.model import files, starting
+from deodar.model import files
 from deodar.model.check import judge
-from deodar.model.document import Document, Entry
+from deodar.model.document import Document
 from deodar.model.fits import Fit, FittingKind
-from deodar.model.parts import value_from_json
 from deodar.parameters import Part
 from deodar.recording.first_difference import FirstDifference
 from deodar.recording.replay import RecordReader
@@ -182,22 +181,6 @@ def _named(where: str, ids: Mapping[str, Sequence[tuple[int, str]]]) -> list[str
     """Return the elements that the `where` of a problem names: `u`, `u.tau` or `u (script.py:3)`."""
     ends = [k for k in range(len(where)) if where[k] == "." or where[k : k + 2] == " ("]
     return [i for _, i in sorted(hit for end in [*ends, len(where)] for hit in ids.get(where[:end], ()))]
-
-
-def read_value(doc: Document, entry: Entry, parameter: str, value: Any) -> Any:
-    """Convert a parameter's value from the page to the form of the document."""
-    axes = files.axes(doc)
-    if "." not in parameter:
-        value = starting.keyed(type(entry.element), parameter, value, axes)
-    arrays = files.arrays(doc) if _names_array(value) else {}
-    return value_from_json(entry.element, parameter, value, f"{entry.path}.{parameter}", axes, arrays)
-
-
-def _names_array(value: Any) -> bool:
-    """Return whether plain data refer to an array of the document."""
-    if isinstance(value, dict):
-        return "array" in value or any(_names_array(v) for v in value.values())
-    return isinstance(value, list) and any(_names_array(v) for v in value)
 
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 from deodar.declarations import Cost
 from deodar.errors import DocumentError
 from deodar.importers import stored_report
-from deodar.model import edit, find
+from deodar.model import edit, plain_values
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.server import converted, view
@@ -125,8 +125,7 @@ class DocumentHistory:
                 raise DocumentError("there is no such document parameter", where=parameter)
             new = edit.document_parameter(doc, parameter, value)
             return await self._commit(new, gesture)
-        entry = find.entry(doc, element)
-        new = edit.put(doc, element, parameter, view.read_value(doc, entry, parameter, value))
+        new = plain_values.put(doc, [element], parameter, value)
         shown = view.shown_value(new, element, parameter)
         return await self._commit(new, gesture, (element, parameter, shown))
 
