@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -17,15 +16,11 @@ from deodar.model.check import judge
 from deodar.model.document import Document
 from deodar.model.fits import Fit, FittingKind
 from deodar.parameters import Part
-from deodar.recording.first_difference import FirstDifference
 from deodar.recording.replay import RecordReader
 from deodar.server import converted
 from deodar.server.converted import Converted
-from deodar.server.project.comparison import RecordComparison
 from deodar.server.to_page import (
-    Comparison,
     CopyDimension,
-    DifferenceView,
     DocumentView,
     ExperimentForms,
     Fits,
@@ -106,21 +101,6 @@ def record(reader: RecordReader, path: str) -> RecordView:
     )
 
 
-NO_COMPARISON = Comparison(path="", progress=0.0, compared=0, differences=[], notes=[], problems=[])
-
-
-def comparison(found: RecordComparison, path: str) -> Comparison:
-    """Convert a comparison of two records."""
-    return Comparison(
-        path=path,
-        progress=found.progress,
-        compared=len(found.ports),
-        differences=[_difference(found.record, d) for d in found.differences],
-        notes=found.notes,
-        problems=problems(found.problems),
-    )
-
-
 def fits(m: FindFits, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fits:
     """Convert what a port can be connected with."""
     shown = [
@@ -135,23 +115,6 @@ def fits(m: FindFits, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fit
     ]
     found = [FittingKindView(kind=k.kind, port=k.port) for k in kinds]
     return Fits(request=m.request, element=m.element, port=m.port, ports=shown, kinds=found)
-
-
-def _difference(reader: RecordReader, found: FirstDifference) -> DifferenceView:
-    axes = reader.axes(found.place)
-    at = ", ".join(
-        f"{a.name} {a.points[i]:g} {a.unit}".rstrip() for a, i in zip(axes, found.index, strict=True)
-    )
-    value, other = (v if math.isfinite(v) else None for v in found.values)
-    return DifferenceView(
-        element=found.place[0],
-        path=found.path,
-        time=found.time,
-        copy=dict(found.copy),
-        at=at,
-        value=value,
-        other=other,
-    )
 
 
 def problems(

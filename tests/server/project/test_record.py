@@ -12,7 +12,7 @@ from deodar.errors import DocumentError
 from deodar.model import edit
 from deodar.recording import folder
 from deodar.recording.replay import RecordReader
-from deodar.server import view
+from deodar.server.project import comparison
 from deodar.server.project.file_state import FileState
 from deodar.server.project.record import OpenRecord, SetAside
 
@@ -46,7 +46,7 @@ def test_two_records_are_compared_until_one_is_closed(tmp_path: Path) -> None:
         assert r.compared().path == "two" and [d.path for d in r.compared().differences] == ["u.activation"]
         assert "changed" in news
         r.close()
-        assert r.reader is None and r.compared() == view.NO_COMPARISON
+        assert r.reader is None and r.compared() == comparison.NO_COMPARISON
 
     asyncio.run(scene())
 

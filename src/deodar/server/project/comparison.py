@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +12,10 @@ import numpy as np
 from deodar.errors import DeodarError, Problem
 from deodar.recording.first_difference import FirstDifference, common_ports, first_differences
 from deodar.recording.replay import RecordReader
+from deodar.server import view
+from deodar.server.to_page import Comparison, DifferenceView
+
+NO_COMPARISON = Comparison(path="", progress=0.0, compared=0, differences=[], notes=[], problems=[])
 
 
 class RecordComparison:
@@ -61,6 +66,35 @@ class RecordComparison:
             self.progress = share
             self._changed()
         return not self._ended
+
+
+def shown(found: RecordComparison, path: str) -> Comparison:
+    """Return a comparison as a message; `path` is the other record as the page names it."""
+    return Comparison(
+        path=path,
+        progress=found.progress,
+        compared=len(found.ports),
+        differences=[_difference(found.record, d) for d in found.differences],
+        notes=found.notes,
+        problems=view.problems(found.problems),
+    )
+
+
+def _difference(reader: RecordReader, found: FirstDifference) -> DifferenceView:
+    axes = reader.axes(found.place)
+    at = ", ".join(
+        f"{a.name} {a.points[i]:g} {a.unit}".rstrip() for a, i in zip(axes, found.index, strict=True)
+    )
+    value, other = (v if math.isfinite(v) else None for v in found.values)
+    return DifferenceView(
+        element=found.place[0],
+        path=found.path,
+        time=found.time,
+        copy=dict(found.copy),
+        at=at,
+        value=value,
+        other=other,
+    )
 
 
 def _notes(one: RecordReader, other: RecordReader, shared: int) -> list[str]:

@@ -9,8 +9,8 @@ from pathlib import Path
 from deodar.errors import DocumentError
 from deodar.model.model import Model
 from deodar.recording.replay import RecordReader
-from deodar.server import view
 from deodar.server.file_thread import in_file_thread, try_in_file_thread
+from deodar.server.project import comparison
 from deodar.server.project.comparison import RecordComparison
 from deodar.server.project.file_state import FileState
 from deodar.server.to_page import Comparison
@@ -96,7 +96,11 @@ class OpenRecord:
     def compared(self) -> Comparison:
         """Return the comparison as a message."""
         found = self.comparison
-        return view.NO_COMPARISON if found is None else view.comparison(found, self._shown(found.other.path))
+        return (
+            comparison.NO_COMPARISON
+            if found is None
+            else comparison.shown(found, self._shown(found.other.path))
+        )
 
     async def refresh(self) -> bool:
         """Read what was added to a record that grows; return whether something was."""
