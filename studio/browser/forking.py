@@ -14,7 +14,7 @@ import socket
 import sys
 
 import deodar.cli.studio
-import deodar.server.serve  # noqa: F401
+import deodar.server.web.serve  # noqa: F401
 from deodar.cli import main
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import FrameType
 
 from deodar import cli
-from deodar.server.connection import PageConnection
+from deodar.server.web.connection import PageConnection
 from deodar.session.session import Session
 
 

@@ -12,8 +12,8 @@ from typing import Any
 import websockets
 
 import deodar as dd
-from deodar.server.connection import MOST_MALFORMED
-from deodar.server.to_server import MESSAGES, Drawn
+from deodar.server.messages.to_server import MESSAGES, Drawn
+from deodar.server.web.connection import MOST_MALFORMED
 from tests.attacks.edits import small
 from tests.server.page import Page, page, studio
 

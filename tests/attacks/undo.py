@@ -22,8 +22,9 @@ from deodar.importers import presets
 from deodar.model import building, clipboard, edit, files, script
 from deodar.model.building import Around
 from deodar.model.document import Document, Entry
-from deodar.server import converted, templates, view
-from deodar.server.converted import Status
+from deodar.server.catalogue import templates
+from deodar.server.views import converted, view
+from deodar.server.views.converted import Status
 from tests.server.page import patched
 
 MOST_ELEMENTS = 12

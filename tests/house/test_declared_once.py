@@ -16,9 +16,10 @@ from deodar.experiments.design import KINDS, Design
 from deodar.experiments.plain import from_data, to_data
 from deodar.family import Family
 from deodar.parameters import Recompile
-from deodar.server import requests, to_page, to_server
-from deodar.server.message import Message, union
-from deodar.server.protocol import schema
+from deodar.server.messages import to_page, to_server
+from deodar.server.messages.message import Message, union
+from deodar.server.messages.protocol import schema
+from deodar.server.requests import dispatch as requests
 
 
 def _declared(module: Any, base: type[Any]) -> set[str]:

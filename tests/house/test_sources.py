@@ -28,7 +28,10 @@ IMPORTERS = {
 STATE = {
     ("compiler.hosts", "_joined"): "JAX joins hosts once for the process",
     ("registry", "_kinds"): "the registry itself",
-    ("server.handlers", "HANDLERS"): "the handlers of messages, filled by `handles` in the same file",
+    (
+        "server.requests.handlers",
+        "HANDLERS",
+    ): "the handlers of messages, filled by `handles` in this file",
     (
         "worlds._capture",
         "_silenced",

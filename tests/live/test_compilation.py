@@ -7,7 +7,7 @@ from pathlib import Path
 import deodar as dd
 from deodar.live.compilation import MOST_SIZES, CompileTimes
 from deodar.model.document import Document
-from deodar.server.state_store import StateStore
+from deodar.server.files.state_store import StateStore
 
 
 def chain(count: int) -> Document:

@@ -36,7 +36,7 @@ from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.recording import files
-from deodar.server.state_store import StateStore
+from deodar.server.files.state_store import StateStore
 
 
 def choice(version: int) -> dd.Model:

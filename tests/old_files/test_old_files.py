@@ -18,7 +18,7 @@ from deodar.errors import OutputExists
 from deodar.model import document
 from deodar.recording.provenance import made_by
 from deodar.recording.repeat import repeat
-from deodar.server.state_store import StateStore
+from deodar.server.files.state_store import StateStore
 
 OLD = Path(__file__).parent / "version_1"
 X = dd.Axis("x", 0, 20, samples=21)

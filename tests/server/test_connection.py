@@ -9,12 +9,12 @@ from typing import Any, cast
 import pytest
 
 from deodar.errors import DocumentError
-from deodar.server import requests
-from deodar.server.connection import PageConnection
-from deodar.server.message import Message
-from deodar.server.page import Page
+from deodar.server.messages.message import Message
+from deodar.server.messages.to_page import Answer, ListedProblem
+from deodar.server.pages.page import Page
 from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.to_page import Answer, ListedProblem
+from deodar.server.requests import dispatch as requests
+from deodar.server.web.connection import PageConnection
 
 
 class Silent(PageConnection):

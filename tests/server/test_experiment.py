@@ -19,13 +19,16 @@ import deodar as dd
 from deodar import codec
 from deodar.errors import DeodarError
 from deodar.experiments.results import stored_rows
-from deodar.server import hub, requests, state_store, to_server
-from deodar.server.connection import PageConnection
-from deodar.server.experiment_run import ExperimentRun
-from deodar.server.open_experiment import OpenExperiment
+from deodar.server.experiment.experiment_run import ExperimentRun
+from deodar.server.experiment.open_experiment import OpenExperiment
+from deodar.server.experiment.run_place import RunPlace
+from deodar.server.files import state_store
+from deodar.server.messages import to_server
+from deodar.server.messages.to_page import Answer, ExperimentView
+from deodar.server.pages import hub
 from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.run_place import RunPlace
-from deodar.server.to_page import Answer, ExperimentView
+from deodar.server.requests import dispatch as requests
+from deodar.server.web.connection import PageConnection
 from tests.server.page import WAIT, Page, play, studio
 
 

@@ -13,9 +13,9 @@ import pytest
 import websockets
 from websockets.sync.client import connect
 
-from deodar.server import token
-from deodar.server.guard import Guard, is_local
-from deodar.server.serve import bind
+from deodar.server.access import token
+from deodar.server.access.guard import Guard, is_local
+from deodar.server.web.serve import bind
 from tests.server.page import studio
 
 

@@ -16,7 +16,7 @@ import deodar as dd
 from deodar.live import branch_states
 from deodar.recording import folder, writer_lock
 from deodar.recording.growing import GrowingRecord
-from deodar.server import hub
+from deodar.server.pages import hub
 from deodar.server.project import run
 from deodar.worlds.arena.arena import Arena
 from tests.server.page import Page, page, play, studio

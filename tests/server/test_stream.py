@@ -9,8 +9,9 @@ import deodar as dd
 from deodar.live.published import PublishedState
 from deodar.live.section import Section
 from deodar.live.trace import Trace, TraceRequest
-from deodar.server import frames, stream
-from deodar.server.to_page import Announced
+from deodar.server.messages import frames
+from deodar.server.messages.to_page import Announced
+from deodar.server.streams import stream
 from deodar.worlds.picture import Picture
 
 X, Y, Z, W = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyzw", (4, 5, 6, 3), strict=True))

@@ -19,8 +19,8 @@ import deodar as dd
 from deodar.live import engine
 from deodar.numerics.kernel_shape import kernel_shape
 from deodar.numerics.sigmoids.linear import Linear
-from deodar.server import hub
-from deodar.server.state_store import StateStore
+from deodar.server.files.state_store import StateStore
+from deodar.server.pages import hub
 from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 

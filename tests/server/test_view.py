@@ -14,10 +14,10 @@ from deodar.errors import Problem
 from deodar.kinds.description import descriptions
 from deodar.model import plain_values
 from deodar.numerics.kernels.custom import Custom
-from deodar.server import view
-from deodar.server.requests import _blob
-from deodar.server.to_page import Kind
-from deodar.server.to_server import PushInput
+from deodar.server.messages.to_page import Kind
+from deodar.server.messages.to_server import PushInput
+from deodar.server.requests.dispatch import _blob
+from deodar.server.views import view
 
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
 Y = dd.Axis("y", 0, 1, samples=11)

@@ -60,8 +60,8 @@ def run(args: argparse.Namespace) -> int:
     if file is not None:
         opening.require(file)
     # start-up time: these bring JAX
-    from deodar.server.serve import serve
-    from deodar.server.service import Service
+    from deodar.server.web.serve import serve
+    from deodar.server.web.service import Service
 
     _options.use_cores(args.cores)
 

@@ -11,10 +11,10 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError, ParameterError
 from deodar.model.document import Document
+from deodar.server.messages.to_page import Changed, Edited
 from deodar.server.project.change_queue import ChangeQueue
 from deodar.server.project.conversions import Conversions
 from deodar.server.project.history import DocumentHistory
-from deodar.server.to_page import Changed, Edited
 
 
 async def accepts(doc: Document) -> Any:

@@ -13,7 +13,7 @@ import deodar as dd
 from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.recording.opened import again, named
-from deodar.server.embodiment import Embodiment, preview
+from deodar.server.world.embodiment import Embodiment, preview
 from deodar.worlds import _capture
 from deodar_robots.event_file import aedat2
 from deodar_robots.eye.event_camera import EventCamera

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 
 from deodar.errors import Problem
 from deodar.model.document import Document
-from deodar.server import view
+from deodar.server.messages.to_page import Checked
 from deodar.server.project.change_queue import ChangeQueue
-from deodar.server.to_page import Checked
+from deodar.server.views import view
 
 SECONDS = 0.2
 """Wall time, in seconds, between a change and the check.

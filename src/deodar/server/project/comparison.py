@@ -12,8 +12,8 @@ import numpy as np
 from deodar.errors import DeodarError, Problem
 from deodar.recording.first_difference import FirstDifference, common_ports, first_differences
 from deodar.recording.replay import RecordReader
-from deodar.server import view
-from deodar.server.to_page import Comparison, DifferenceView
+from deodar.server.messages.to_page import Comparison, DifferenceView
+from deodar.server.views import view
 
 NO_COMPARISON = Comparison(path="", progress=0.0, compared=0, differences=[], notes=[], problems=[])
 

@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 from deodar.errors import Problem
 from deodar.model.check import check
 from deodar.model.document import Document
-from deodar.server import converted
-from deodar.server.converted import Converted
+from deodar.server.views import converted
+from deodar.server.views.converted import Converted
 
 Judge = Callable[[Document], tuple[Sequence[Problem], Sequence[Problem]]]
 """Returns the problems of a document of sound structure in the present world, and its warnings there."""

@@ -8,14 +8,14 @@ from pathlib import Path
 
 from deodar.errors import DocumentError, Problem
 from deodar.model.document import Document
-from deodar.server import saved_files
-from deodar.server.file_thread import in_file_thread, try_in_file_thread
+from deodar.server.files import saved_files
+from deodar.server.files.file_thread import in_file_thread, try_in_file_thread
+from deodar.server.files.saved_files import SavedFolder, Sort
+from deodar.server.files.state_store import StateStore
+from deodar.server.files.workspace import Workspace
+from deodar.server.messages.to_page import SavedFiles
 from deodar.server.project.confirmation import ConfirmationRequired
 from deodar.server.project.file_state import FileState, plain
-from deodar.server.saved_files import SavedFolder, Sort
-from deodar.server.state_store import StateStore
-from deodar.server.to_page import SavedFiles
-from deodar.server.workspace import Workspace
 from deodar.session.snapshot import SessionSnapshot
 
 

@@ -12,13 +12,13 @@ from deodar.importers import stored_report
 from deodar.model import edit, plain_values
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar.server import converted, view
-from deodar.server.converted import Status
+from deodar.server.messages.to_page import Changed, ImportReportView
 from deodar.server.project.change_queue import ChangeQueue
 from deodar.server.project.checker import Checker
 from deodar.server.project.conversions import Conversions
 from deodar.server.project.recent_changes import DocumentChange, RecentChanges
-from deodar.server.to_page import Changed, ImportReportView
+from deodar.server.views import converted, view
+from deodar.server.views.converted import Status
 
 
 class DocumentHistory:

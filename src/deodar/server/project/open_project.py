@@ -20,10 +20,11 @@ from deodar.live.engine import Engine
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording import files
-from deodar.server import content, embodiment, record_frames, view
-from deodar.server.converted import Converted
-from deodar.server.embodiment import Embodiment
-from deodar.server.file_thread import in_file_thread
+from deodar.server.files import content
+from deodar.server.files.file_thread import in_file_thread
+from deodar.server.files.state_store import StateStore
+from deodar.server.files.workspace import Workspace
+from deodar.server.messages.to_page import DocumentView, Opened
 from deodar.server.project.change_queue import ChangeQueue
 from deodar.server.project.confirmation import ConfirmationRequired
 from deodar.server.project.conversions import Conversions
@@ -33,9 +34,11 @@ from deodar.server.project.history import DocumentHistory
 from deodar.server.project.recent_changes import DocumentChange
 from deodar.server.project.record import OpenRecord, SetAside
 from deodar.server.project.run import DocumentRun
-from deodar.server.state_store import StateStore
-from deodar.server.to_page import DocumentView, Opened
-from deodar.server.workspace import Workspace
+from deodar.server.streams import record_frames
+from deodar.server.views import view
+from deodar.server.views.converted import Converted
+from deodar.server.world import embodiment
+from deodar.server.world.embodiment import Embodiment
 from deodar.session.session import Session
 from deodar.worlds._base import World
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from deodar.server.to_page import Changed, Edited
+from deodar.server.messages.to_page import Changed, Edited
 
 DocumentChange = Changed | Edited
 

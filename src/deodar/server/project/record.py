@@ -9,11 +9,11 @@ from pathlib import Path
 from deodar.errors import DocumentError
 from deodar.model.model import Model
 from deodar.recording.replay import RecordReader
-from deodar.server.file_thread import in_file_thread, try_in_file_thread
+from deodar.server.files.file_thread import in_file_thread, try_in_file_thread
+from deodar.server.messages.to_page import Comparison
 from deodar.server.project import comparison
 from deodar.server.project.comparison import RecordComparison
 from deodar.server.project.file_state import FileState
-from deodar.server.to_page import Comparison
 from deodar.worlds._scene import Scene
 
 

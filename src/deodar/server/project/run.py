@@ -14,11 +14,12 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
-from deodar.server import embodiment, view
-from deodar.server.embodiment import Embodiment, signals
+from deodar.server.messages.to_page import ListedProblem
 from deodar.server.project.change_queue import ChangeQueue
 from deodar.server.project.conversions import Conversions
-from deodar.server.to_page import ListedProblem
+from deodar.server.views import view
+from deodar.server.world import embodiment
+from deodar.server.world.embodiment import Embodiment, signals
 from deodar.session.exchange import used
 from deodar.session.session import Session
 from deodar.session.session_at import session_at

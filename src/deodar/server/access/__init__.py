@@ -1,0 +1,1 @@
+"""Who may reach the studio: hosts, origins and the token."""

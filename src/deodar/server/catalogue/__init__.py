@@ -1,0 +1,1 @@
+"""What a page offers: examples, templates, and plots of packages."""

@@ -1,0 +1,1 @@
+"""The open experiment, its file and its run."""

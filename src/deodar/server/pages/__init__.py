@@ -1,0 +1,1 @@
+"""The connected pages, and all that they share."""

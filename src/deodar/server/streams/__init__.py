@@ -1,0 +1,1 @@
+"""Frames of arrays and time courses, of the run and of records."""

@@ -1,0 +1,1 @@
+"""Documents, parameters and problems as parts of messages."""

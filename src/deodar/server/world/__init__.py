@@ -1,0 +1,1 @@
+"""The world that the open document senses and moves."""
