@@ -19,7 +19,7 @@ from deodar.parameters import Recompile
 from deodar.server.messages import to_page, to_server
 from deodar.server.messages.message import Message, union
 from deodar.server.messages.protocol import schema
-from deodar.server.requests import dispatch as requests
+from deodar.server.requests import dispatch, handlers
 
 
 def _declared(module: Any, base: type[Any]) -> set[str]:
@@ -76,12 +76,12 @@ def test_a_new_message_is_in_the_protocol(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_every_message_to_the_server_has_a_handler() -> None:
     """`Drawn` is not a request: the connection itself reads it."""
-    assert set(requests.HANDLERS) == set(to_server.MESSAGES.values()) - {to_server.Drawn}
+    assert set(dispatch.HANDLERS) == set(to_server.MESSAGES.values()) - {to_server.Drawn}
 
 
 def test_a_second_handler_of_a_message_is_refused() -> None:
     with pytest.raises(ModelError, match="Undo has a handler already"):
-        requests.handles(to_server.Undo)(requests.HANDLERS[to_server.Redo])
+        handlers.handles(to_server.Undo)(handlers.HANDLERS[to_server.Redo])
 
 
 def test_a_name_is_registered_once_and_only_under_its_base() -> None:

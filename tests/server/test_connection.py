@@ -13,7 +13,7 @@ from deodar.server.messages.message import Message
 from deodar.server.messages.to_page import Answer, ListedProblem
 from deodar.server.pages.page import Page
 from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.requests import dispatch as requests
+from deodar.server.requests import dispatch
 from deodar.server.web.connection import PageConnection
 
 
@@ -97,7 +97,7 @@ def test_a_request_with_a_number_is_answered_and_one_without_is_not(
         await one._receive()
         return list(one._answers)
 
-    monkeypatch.setattr(requests, "do", do)
+    monkeypatch.setattr(dispatch, "do", do)
     first, *rest, last = asyncio.run(main())
     assert first == expected and not rest
     assert last.request == 9 and "is not understood" in last.problems[0].what

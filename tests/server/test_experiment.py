@@ -27,7 +27,7 @@ from deodar.server.messages import to_server
 from deodar.server.messages.to_page import Answer, ExperimentView
 from deodar.server.pages import hub
 from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.requests import dispatch as requests
+from deodar.server.requests import dispatch
 from deodar.server.web.connection import PageConnection
 from tests.server.page import WAIT, Page, play, studio
 
@@ -317,7 +317,7 @@ class Desk:
         self.page = self.hub.new_page()
 
     async def do(self, message: to_server.Request) -> None:
-        await requests.do(self.hub, self.page, message)
+        await dispatch.do(self.hub, self.page, message)
 
     async def edit(self, **changes: Any) -> None:
         """Change the plain data of the open experiment."""

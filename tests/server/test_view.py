@@ -16,7 +16,7 @@ from deodar.model import plain_values
 from deodar.numerics.kernels.custom import Custom
 from deodar.server.messages.to_page import Kind
 from deodar.server.messages.to_server import PushInput
-from deodar.server.requests.dispatch import _blob
+from deodar.server.requests.run_requests import _blob
 from deodar.server.views import view
 
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")

@@ -200,6 +200,10 @@ class Hub:
             page.others.choose(frames.copy)
         return page.others
 
+    async def in_engine(self, function: Callable[[], object]) -> None:
+        """Run a function in the engine's thread, and wait for its end."""
+        await asyncio.wrap_future(self.engine.call(function))
+
     def from_thread(self) -> None:
         """Wake all pages, from any thread."""
         with contextlib.suppress(RuntimeError):  # the loop is closed, and no page is left

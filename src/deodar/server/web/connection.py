@@ -46,7 +46,7 @@ from deodar.server.messages.to_page import (
 from deodar.server.messages.to_server import MESSAGES, Drawn, RepeatTrial, RunRecordFrom
 from deodar.server.pages.hub import Hub
 from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.requests import dispatch as requests
+from deodar.server.requests import dispatch
 from deodar.server.streams.source import FrameSource
 from deodar.server.views import view
 from deodar.server.world import scene
@@ -131,7 +131,7 @@ class PageConnection:
 
     async def _do(self, message: Any) -> None:
         try:
-            answers = await requests.do(self._hub, self.page, message)
+            answers = await dispatch.do(self._hub, self.page, message)
         except ConfirmationRequired as required:
             answers = [Answer(request=message.request, ask=required.question, file=required.file)]
         except DeodarError as error:
