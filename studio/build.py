@@ -1,6 +1,6 @@
 """The page of the studio: built, checked and tested, with a node that needs no installation.
 
-python studio/build.py build      the page into src/deodar/server/static, unless it is there already
+python studio/build.py build      the page into src/deodar_studio/static, unless it is there already
 python studio/build.py check      the types
 python studio/build.py lint       the formatting of the files (prettier), and the linter (biome)
 python studio/build.py format     format the files, lines of at most 110 columns (prettier)
@@ -34,7 +34,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 STUDIO = Path(__file__).resolve().parent
-STATIC = STUDIO.parent / "src" / "deodar" / "server" / "static"
+STATIC = STUDIO.parent / "src" / "deodar_studio" / "static"
 STAMP = "stamp.txt"
 
 # What the built page does not depend on.

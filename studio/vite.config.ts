@@ -22,7 +22,7 @@ export default defineConfig({
   base: "./",
   plugins: [fonts(), licences(), react()],
   build: {
-    outDir: "../src/deodar/server/static",
+    outDir: "../src/deodar_studio/static",
     emptyOutDir: true,
     sourcemap: false,
     assetsInlineLimit: 0,

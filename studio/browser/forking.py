@@ -13,8 +13,8 @@ import signal
 import socket
 import sys
 
-import deodar.cli.studio
-import deodar.server.web.serve  # noqa: F401
+import deodar_studio.command
+import deodar_studio.web.serve  # noqa: F401
 from deodar.cli import main
 
 

@@ -157,7 +157,7 @@ test("the slider marks the time with fewer frames, where older ones were removed
     file: "selection.json",
     files: {
       "small_ring.py":
-        "from deodar.live.ring import StateRing\nStateRing.__init__.__defaults__ = (60.0, 40_000)\n",
+        "from deodar_studio.live.ring import StateRing\nStateRing.__init__.__defaults__ = (60.0, 40_000)\n",
     },
     imports: ["small_ring"],
   });

@@ -40,7 +40,7 @@ test("the address bar does not show the token, and a page without it asks for it
 test("the file that the studio opens in the browser leads to the page", async () => {
   const { url, browser } = await start();
   const code =
-    "import sys; from deodar.server.access.redirect_file import RedirectFile; " +
+    "import sys; from deodar_studio.access.redirect_file import RedirectFile; " +
     "print(RedirectFile(sys.argv[1]).address)";
   const context = await browser.newContext({ locale: "en-US", reducedMotion: "reduce" });
   context.setDefaultTimeout(60_000);

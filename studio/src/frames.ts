@@ -1,5 +1,5 @@
 // Arrays on the wire: a header of 16 bytes and raw float32, little-endian
-// (src/deodar/server/messages/frames.py).
+// (src/deodar_studio/messages/frames.py).
 
 export type Frame = {
   stream: number;

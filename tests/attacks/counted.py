@@ -15,8 +15,8 @@ from pathlib import Path
 from types import FrameType
 
 from deodar import cli
-from deodar.server.web.connection import PageConnection
 from deodar.session.session import Session
+from deodar_studio.web.connection import PageConnection
 
 
 def count(number: int, frame: FrameType | None) -> None:

@@ -26,7 +26,7 @@ from deodar.importers import presets
 from deodar.leaves import get
 from deodar.model import edit, files, plain_values
 from deodar.model.document import Document
-from deodar.server.views import view
+from deodar_studio.views import view
 from tests.server.page import Page, page, studio
 
 PARAMETERS = ("gain", "tempo", "level")

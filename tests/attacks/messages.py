@@ -12,8 +12,8 @@ from typing import Any
 import websockets
 
 import deodar as dd
-from deodar.server.messages.to_server import MESSAGES, Drawn
-from deodar.server.web.connection import MOST_MALFORMED
+from deodar_studio.messages.to_server import MESSAGES, Drawn
+from deodar_studio.web.connection import MOST_MALFORMED
 from tests.attacks.edits import small
 from tests.server.page import Page, page, studio
 

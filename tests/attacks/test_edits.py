@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import deodar as dd
-from deodar.server.project.change_queue import ChangeQueue
+from deodar_studio.project.change_queue import ChangeQueue
 from tests.attacks import edits
 from tests.server.page import page, studio
 

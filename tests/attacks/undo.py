@@ -22,9 +22,9 @@ from deodar.importers import presets
 from deodar.model import building, clipboard, edit, files, script
 from deodar.model.building import Around
 from deodar.model.document import Document, Entry
-from deodar.server.catalogue import templates
-from deodar.server.views import converted, view
-from deodar.server.views.converted import Status
+from deodar_studio.catalogue import templates
+from deodar_studio.views import converted, view
+from deodar_studio.views.converted import Status
 from tests.server.page import patched
 
 MOST_ELEMENTS = 12

@@ -162,7 +162,7 @@ def test_the_studio_opens_an_example_as_a_copy_without_a_file(
     """The studio writes below the working folder, never into the folder of the examples."""
     monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
     given: list[Any] = []
-    monkeypatch.setattr("deodar.server.web.serve.serve", lambda *args: given.extend(args))
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
     assert main(["studio", "example:node", "--no-browser"]) == 0
     service = given[0]
     assert service.root == here

@@ -18,8 +18,8 @@ from urllib.request import url2pathname
 import pytest
 
 from deodar.cli import main
-from deodar.server.web import app, serve
-from deodar.server.web.service import Service
+from deodar_studio.web import app, serve
+from deodar_studio.web.service import Service
 from tests.server.page import play, studio
 
 

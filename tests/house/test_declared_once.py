@@ -16,10 +16,10 @@ from deodar.experiments.design import KINDS, Design
 from deodar.experiments.plain import from_data, to_data
 from deodar.family import Family
 from deodar.parameters import Recompile
-from deodar.server.messages import to_page, to_server
-from deodar.server.messages.message import Message, union
-from deodar.server.messages.protocol import schema
-from deodar.server.requests import dispatch, handlers
+from deodar_studio.messages import to_page, to_server
+from deodar_studio.messages.message import Message, union
+from deodar_studio.messages.protocol import schema
+from deodar_studio.requests import dispatch, handlers
 
 
 def _declared(module: Any, base: type[Any]) -> set[str]:

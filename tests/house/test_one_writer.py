@@ -10,14 +10,14 @@ from tests.house.source import MODULES, module, tree
 
 OTHERS = {
     "recording.places": "whole folders, each file of which `output` puts on the disk",
-    "server.files.open_folder": "the same steps in a folder that is held open, without following links",
+    "deodar_studio.files.open_folder": "the same steps in a folder that is held open, past links",
     "recording.table": "writes into the temporary file that `output` gives it",
     "recording.netcdf": "the same",
     "deodar_interop.records.cedar": "files in the temporary folder that `places` gives it",
     "figures._encode": "writes into the temporary file that `output` gives it",
-    "server.access.token": "a secret of mode 0600, which must not exist before",
-    "server.access.redirect_file": "a secret of mode 0600, in a temporary folder",
-    "server.world.embodiment": "a file in a temporary folder",
+    "deodar_studio.access.token": "a secret of mode 0600, which must not exist before",
+    "deodar_studio.access.redirect_file": "a secret of mode 0600, in a temporary folder",
+    "deodar_studio.world.embodiment": "a file in a temporary folder",
     "deodar_spikes.norse": "the file for norse, in a temporary folder",
     "deodar_robots.event_file.event_file": "an example in a temporary folder",
     "deodar_robots.event_file.aedat4_process": "its output, a pipe",

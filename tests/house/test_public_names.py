@@ -161,4 +161,4 @@ def test_a_document_is_read_and_checked_without_plots_or_records() -> None:
 
 
 def test_the_studio_starts_without_what_it_needs_later() -> None:
-    assert _loaded("import deodar.server.web.serve", SLOW) == set()
+    assert _loaded("import deodar_studio.web.serve", SLOW) == set()

@@ -29,7 +29,7 @@ STATE = {
     ("compiler.hosts", "_joined"): "JAX joins hosts once for the process",
     ("registry", "_kinds"): "the registry itself",
     (
-        "server.requests.handlers",
+        "deodar_studio.requests.handlers",
         "HANDLERS",
     ): "the handlers of messages, filled by `handles` in this file",
     (

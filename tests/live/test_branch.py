@@ -12,12 +12,12 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ParameterError, RecordError
-from deodar.live import branch_states
-from deodar.live.branch_states import BranchStates, size
-from deodar.live.engine import Injection
-from deodar.live.trace import TraceRequest
 from deodar.model import edit
 from deodar.model.document import Document
+from deodar_studio.live import branch_states
+from deodar_studio.live.branch_states import BranchStates, size
+from deodar_studio.live.engine import Injection
+from deodar_studio.live.trace import TraceRequest
 from tests.live.test_engine import Driven
 from tests.session.models import mixed
 from tests.worlds.test_recording import driving

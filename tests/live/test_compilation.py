@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import deodar as dd
-from deodar.live.compilation import MOST_SIZES, CompileTimes
 from deodar.model.document import Document
-from deodar.server.files.state_store import StateStore
+from deodar_studio.files.state_store import StateStore
+from deodar_studio.live.compilation import MOST_SIZES, CompileTimes
 
 
 def chain(count: int) -> Document:

@@ -12,13 +12,13 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, TimeError
-from deodar.live import engine as engine_module
-from deodar.live.engine import Engine, Injection
-from deodar.live.section import Section
-from deodar.live.trace import CAPACITY, Trace, TraceRequest
 from deodar.model import edit
 from deodar.model.unit import unit_seconds
 from deodar.session.pace import Pace
+from deodar_studio.live import engine as engine_module
+from deodar_studio.live.engine import Engine, Injection
+from deodar_studio.live.section import Section
+from deodar_studio.live.trace import CAPACITY, Trace, TraceRequest
 
 X = dd.Axis("x", 0, 100, samples=101)
 WAIT = 600.0

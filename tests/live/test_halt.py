@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 import pytest
 
 import deodar as dd
-from deodar.live.engine import Engine
 from deodar.worlds._base import Signal, World
+from deodar_studio.live.engine import Engine
 
 
 class Halting(World):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.live.published import PublishedState
-from deodar.live.ring import PAUSE, StateRing
 from deodar.worlds._scene import Scene, SceneBody, SceneBox
+from deodar_studio.live.published import PublishedState
+from deodar_studio.live.ring import PAUSE, StateRing
 
 PLACE = ("u", "activation")
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.live.section import Section
-from deodar.live.trace import CAPACITY, Trace, TraceRequest, capacity, extremes, farthest
+from deodar_studio.live.section import Section
+from deodar_studio.live.trace import CAPACITY, Trace, TraceRequest, capacity, extremes, farthest
 
 X, Y, Z = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyz", (4, 5, 6), strict=True))
 HUE = dd.Axis("hue", 0, 360, samples=8, periodic=True)

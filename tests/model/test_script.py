@@ -14,7 +14,7 @@ from deodar.importers import examples
 from deodar.importers.opening import load
 from deodar.model import files
 from deodar.model.document import Document
-from deodar.server.catalogue import templates
+from deodar_studio.catalogue import templates
 from tests.contracts import build
 from tests.importers.cosivina.files import SAMPLES
 

@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar import registry
 from deodar.cli import main
-from deodar.server.views.view import kinds
+from deodar_studio.views.view import kinds
 
 pytestmark = pytest.mark.usefixtures("example")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from deodar.cli import main
-from deodar.server.catalogue import plots
+from deodar_studio.catalogue import plots
 from tests.house.source import ROOT
 from tests.plugins.conftest import EXAMPLE, Install
 from tests.server.page import Page, play, studio

@@ -16,7 +16,7 @@ from deodar.errors import OutputError
 from deodar.experiments.rows import Rows
 from deodar.model import output
 from deodar.recording import files
-from deodar.server.files.open_folder import OpenFolder
+from deodar_studio.files.open_folder import OpenFolder
 from tests.recording.models import model, record
 
 SMALL = """
@@ -26,7 +26,7 @@ sys.path[:0] = {path!r}
 import deodar as dd
 from deodar.errors import OutputError
 from deodar.recording import files
-from deodar.server.files.open_folder import OpenFolder
+from deodar_studio.files.open_folder import OpenFolder
 from tests.recording.models import model, record
 data = record(trials=3)
 before = data.copy(deep=True)

@@ -14,9 +14,9 @@ from urllib.parse import urlsplit
 import numpy as np
 import websockets
 
-from deodar.server.messages import frames
-from deodar.server.web.serve import prepare
-from deodar.server.web.service import Service
+from deodar_studio.messages import frames
+from deodar_studio.web.serve import prepare
+from deodar_studio.web.service import Service
 
 WAIT = 600.0
 """Wall time in seconds after which a wait fails; it is not a measurement."""

@@ -9,12 +9,12 @@ from typing import Any, cast
 import pytest
 
 from deodar.errors import DocumentError
-from deodar.server.messages.message import Message
-from deodar.server.messages.to_page import Answer, ListedProblem
-from deodar.server.pages.page import Page
-from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.requests import dispatch
-from deodar.server.web.connection import PageConnection
+from deodar_studio.messages.message import Message
+from deodar_studio.messages.to_page import Answer, ListedProblem
+from deodar_studio.pages.page import Page
+from deodar_studio.project.confirmation import ConfirmationRequired
+from deodar_studio.requests import dispatch
+from deodar_studio.web.connection import PageConnection
 
 
 class Silent(PageConnection):

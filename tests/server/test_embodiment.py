@@ -13,9 +13,9 @@ from deodar.architectures.saliency import saliency
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import WorldError
-from deodar.server.world.embodiment import Embodiment, preview, problems, warnings
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
+from deodar_studio.world.embodiment import Embodiment, preview, problems, warnings
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

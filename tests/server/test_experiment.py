@@ -19,16 +19,16 @@ import deodar as dd
 from deodar import codec
 from deodar.errors import DeodarError
 from deodar.experiments.results import stored_rows
-from deodar.server.experiment.experiment_run import ExperimentRun
-from deodar.server.experiment.open_experiment import OpenExperiment
-from deodar.server.experiment.run_place import RunPlace
-from deodar.server.files import state_store
-from deodar.server.messages import to_server
-from deodar.server.messages.to_page import Answer, ExperimentView
-from deodar.server.pages import hub
-from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.requests import dispatch
-from deodar.server.web.connection import PageConnection
+from deodar_studio.experiment.experiment_run import ExperimentRun
+from deodar_studio.experiment.open_experiment import OpenExperiment
+from deodar_studio.experiment.run_place import RunPlace
+from deodar_studio.files import state_store
+from deodar_studio.messages import to_server
+from deodar_studio.messages.to_page import Answer, ExperimentView
+from deodar_studio.pages import hub
+from deodar_studio.project.confirmation import ConfirmationRequired
+from deodar_studio.requests import dispatch
+from deodar_studio.web.connection import PageConnection
 from tests.server.page import WAIT, Page, play, studio
 
 

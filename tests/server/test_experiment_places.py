@@ -20,8 +20,8 @@ from deodar.batch import scheduler
 from deodar.experiments import following, setup
 from deodar.experiments.results import stored_rows
 from deodar.recording import writer_lock
-from deodar.server.experiment import experiment_run, run_place
-from deodar.server.web.service import Service
+from deodar_studio.experiment import experiment_run, run_place
+from deodar_studio.web.service import Service
 from tests.server.page import Page, play, studio
 from tests.server.test_experiment import ended, experiment, few, rows
 

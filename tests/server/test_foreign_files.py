@@ -8,8 +8,8 @@ from typing import Any
 
 from deodar.couplings.weights import Weights
 from deodar.parameters import FrozenArray
-from deodar.server.files import content
-from deodar.server.files.workspace import Workspace
+from deodar_studio.files import content
+from deodar_studio.files.workspace import Workspace
 from tests.importers.cosivina.files import element, text, written
 from tests.importers.cosivina.scripts import PAIR, built, launcher, parameters
 from tests.importers.dnf_composer.files import HERE as SIMULATIONS

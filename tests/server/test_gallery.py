@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.errors import UnknownName
 from deodar.importers.examples import LONGEST
 from deodar.importers.examples import first_sentence as sentence
-from deodar.server.catalogue.gallery import example_file, examples, picture_file
+from deodar_studio.catalogue.gallery import example_file, examples, picture_file
 from tests.docs.source import EXAMPLES
 
 NAMES = [e.name for e in examples()]

@@ -13,9 +13,9 @@ import pytest
 import websockets
 from websockets.sync.client import connect
 
-from deodar.server.access import token
-from deodar.server.access.guard import Guard, is_local
-from deodar.server.web.serve import bind
+from deodar_studio.access import token
+from deodar_studio.access.guard import Guard, is_local
+from deodar_studio.web.serve import bind
 from tests.server.page import studio
 
 

@@ -14,9 +14,9 @@ import deodar as dd
 from deodar.model import building, edit
 from deodar.model.building import Around
 from deodar.model.document import Document
-from deodar.server.project.recent_changes import MOST
-from deodar.server.views import converted, view
-from deodar.server.views.converted import Status
+from deodar_studio.project.recent_changes import MOST
+from deodar_studio.views import converted, view
+from deodar_studio.views.converted import Status
 from tests.server.models import weighted
 from tests.server.page import Page, page, patched, play, studio
 

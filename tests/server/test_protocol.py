@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from deodar.model import output
-from deodar.server.messages import frames, protocol, to_page, to_server
+from deodar_studio.messages import frames, protocol, to_page, to_server
 
-SAY = "write them again: python -m deodar.server.messages.protocol"
+SAY = "write them again: python -m deodar_studio.messages.protocol"
 
 
 def test_the_schema_is_up_to_date() -> None:

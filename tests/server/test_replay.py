@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.live import branch_states
 from deodar.recording import folder, writer_lock
 from deodar.recording.growing import GrowingRecord
-from deodar.server.pages import hub
-from deodar.server.project import run
 from deodar.worlds.arena.arena import Arena
+from deodar_studio.live import branch_states
+from deodar_studio.pages import hub
+from deodar_studio.project import run
 from tests.server.page import Page, page, play, studio
 
 

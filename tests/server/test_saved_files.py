@@ -10,8 +10,8 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DeodarError
-from deodar.server.files.saved_files import SavedFolder
-from deodar.server.files.workspace import Workspace
+from deodar_studio.files.saved_files import SavedFolder
+from deodar_studio.files.workspace import Workspace
 from tests.live.test_branch import bits
 from tests.server.page import Page, play, studio
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.live.published import PublishedState
-from deodar.live.section import Section
-from deodar.live.trace import Trace, TraceRequest
-from deodar.server.messages import frames
-from deodar.server.messages.to_page import Announced
-from deodar.server.streams import stream
 from deodar.worlds.picture import Picture
+from deodar_studio.live.published import PublishedState
+from deodar_studio.live.section import Section
+from deodar_studio.live.trace import Trace, TraceRequest
+from deodar_studio.messages import frames
+from deodar_studio.messages.to_page import Announced
+from deodar_studio.streams import stream
 
 X, Y, Z, W = (dd.Axis(name, 0, 10, samples=n) for name, n in zip("xyzw", (4, 5, 6, 3), strict=True))
 CHANNEL = Picture.example_axes("picture")[2]

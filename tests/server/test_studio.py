@@ -16,11 +16,11 @@ import pytest
 import websockets
 
 import deodar as dd
-from deodar.live import engine
 from deodar.numerics.kernel_shape import kernel_shape
 from deodar.numerics.sigmoids.linear import Linear
-from deodar.server.files.state_store import StateStore
-from deodar.server.pages import hub
+from deodar_studio.files.state_store import StateStore
+from deodar_studio.live import engine
+from deodar_studio.pages import hub
 from tests.server.models import weighted
 from tests.server.page import Page, page, play, studio
 

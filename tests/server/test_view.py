@@ -14,10 +14,10 @@ from deodar.errors import Problem
 from deodar.kinds.description import descriptions
 from deodar.model import plain_values
 from deodar.numerics.kernels.custom import Custom
-from deodar.server.messages.to_page import Kind
-from deodar.server.messages.to_server import PushInput
-from deodar.server.requests.run_requests import _blob
-from deodar.server.views import view
+from deodar_studio.messages.to_page import Kind
+from deodar_studio.messages.to_server import PushInput
+from deodar_studio.requests.run_requests import _blob
+from deodar_studio.views import view
 
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")
 Y = dd.Axis("y", 0, 1, samples=11)

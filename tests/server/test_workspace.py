@@ -13,9 +13,9 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DeodarError, DocumentError, OutputError
-from deodar.server.files import content
-from deodar.server.files.state_store import StateStore, state_folder
-from deodar.server.files.workspace import UNREADABLE, Workspace
+from deodar_studio.files import content
+from deodar_studio.files.state_store import StateStore, state_folder
+from deodar_studio.files.workspace import UNREADABLE, Workspace
 from tests.server.models import weighted
 
 

@@ -10,8 +10,8 @@ from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import UnknownName, WorldError
-from deodar.live.track import FINE, MOST, Track
 from deodar.worlds.arena.arena import Arena
+from deodar_studio.live.track import FINE, MOST, Track
 
 OPEN = {
     "arena": {"x": [0, 3], "y": [0, 2]},

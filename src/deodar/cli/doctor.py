@@ -16,16 +16,8 @@ from deodar.errors import DocumentError
 
 HELP = "list installed packages, devices, the cache of compiled programs, and what is missing"
 
-EXTRAS = {
-    "docs": "zensical",
-    "events": "aedat",
-    "network": "rosbags",
-    "test": "pytest",
-    "tune": "cma",
-    "video": "imageio-ffmpeg",
-    "vision": "opencv-python-headless",
-}
-"""For each extra a package whose presence shows that the extra is installed."""
+EXTRA = re.compile(r"""([\w.-]+).*extra == ["']([\w-]+)["']""")
+"""A requirement of an extra in the metadata of deodar."""
 
 GIB = 2**30
 
@@ -134,7 +126,7 @@ def examine() -> dict[str, Any]:
         "packages": packages,
         "missing": [name for name, found in packages.items() if found is None],
         "plugins": _plugins(),
-        "extras": {extra: version(package) is not None for extra, package in EXTRAS.items()},
+        "extras": {extra: None not in map(version, names) for extra, names in _extras().items()},
         "device": device.name(device.find()),
         "devices": {name: device.find(name).device_kind for name in device.names()},
         "cores": device.available(),
@@ -151,6 +143,15 @@ def examine() -> dict[str, Any]:
             "writable": bool(near is not None and os.access(near, os.W_OK)),
         },
     }
+
+
+def _extras() -> dict[str, list[str]]:
+    """Return the packages that each extra of deodar brings."""
+    packages: dict[str, list[str]] = {}
+    for requirement in importlib.metadata.requires("deodar") or ():
+        if extra := EXTRA.match(requirement):
+            packages.setdefault(extra[2], []).append(extra[1])
+    return packages
 
 
 def _needs(path: str) -> dict[str, Any]:

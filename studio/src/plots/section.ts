@@ -1,4 +1,5 @@
-// Sections of arrays: which axes a plot draws, and the positions on the others (src/deodar/live/section.py).
+// Sections of arrays: which axes a plot draws, and the positions on the others
+// (src/deodar_studio/live/section.py).
 
 import type { Announced, AxisView } from "../protocol";
 import { stepOf } from "./kinds/kinds";

@@ -10,10 +10,10 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError
 from deodar.model import edit
-from deodar.server.files.state_store import StateStore
-from deodar.server.files.workspace import Workspace
-from deodar.server.project.confirmation import ConfirmationRequired
-from deodar.server.project.file import DocumentFile
+from deodar_studio.files.state_store import StateStore
+from deodar_studio.files.workspace import Workspace
+from deodar_studio.project.confirmation import ConfirmationRequired
+from deodar_studio.project.file import DocumentFile
 
 
 def file(root: Path) -> DocumentFile:

@@ -11,10 +11,10 @@ import pytest
 import deodar as dd
 from deodar.errors import DocumentError, ParameterError
 from deodar.model.document import Document
-from deodar.server.messages.to_page import Changed, Edited
-from deodar.server.project.change_queue import ChangeQueue
-from deodar.server.project.conversions import Conversions
-from deodar.server.project.history import DocumentHistory
+from deodar_studio.messages.to_page import Changed, Edited
+from deodar_studio.project.change_queue import ChangeQueue
+from deodar_studio.project.conversions import Conversions
+from deodar_studio.project.history import DocumentHistory
 
 
 async def accepts(doc: Document) -> Any:

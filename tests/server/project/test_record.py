@@ -12,9 +12,9 @@ from deodar.errors import DocumentError
 from deodar.model import edit
 from deodar.recording import folder
 from deodar.recording.replay import RecordReader
-from deodar.server.project import comparison
-from deodar.server.project.file_state import FileState
-from deodar.server.project.record import OpenRecord, SetAside
+from deodar_studio.project import comparison
+from deodar_studio.project.file_state import FileState
+from deodar_studio.project.record import OpenRecord, SetAside
 
 
 def record(path: Path, seed: int) -> Path:

@@ -10,13 +10,13 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError, Problem
-from deodar.live.engine import Engine
 from deodar.model import edit
 from deodar.model.document import Document
-from deodar.server.project.change_queue import ChangeQueue
-from deodar.server.project.conversions import Conversions
-from deodar.server.project.run import DocumentRun
-from deodar.server.world.embodiment import Embodiment
+from deodar_studio.live.engine import Engine
+from deodar_studio.project.change_queue import ChangeQueue
+from deodar_studio.project.conversions import Conversions
+from deodar_studio.project.run import DocumentRun
+from deodar_studio.world.embodiment import Embodiment
 
 WAIT = 60.0
 

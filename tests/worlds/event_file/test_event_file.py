@@ -13,10 +13,10 @@ import deodar as dd
 from deodar.cli import main
 from deodar.errors import WorldError
 from deodar.recording.opened import again, named
-from deodar.server.world.embodiment import Embodiment, preview
 from deodar.worlds import _capture
 from deodar_robots.event_file import aedat2
 from deodar_robots.eye.event_camera import EventCamera
+from deodar_studio.world.embodiment import Embodiment, preview
 
 HERE = Path(__file__).parent
 PIXELS = (dd.Axis("column", 0, 127, 128), dd.Axis("row", 0, 127, 128))

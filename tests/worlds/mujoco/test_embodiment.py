@@ -7,7 +7,7 @@ import sys
 import pytest
 
 import deodar as dd
-from deodar.server.world.embodiment import Embodiment, problems
+from deodar_studio.world.embodiment import Embodiment, problems
 
 
 def test_a_model_that_points_gets_the_table_and_another_model_does_not(monkeypatch: pytest.MonkeyPatch):

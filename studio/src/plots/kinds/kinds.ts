@@ -184,7 +184,7 @@ export function runsDown(document: DocumentView, axis: AxisView): boolean {
 }
 
 // Positions of the samples; of fewer values than samples, the middles of equal parts of the axis
-// (src/deodar/server/streams/stream.py).
+// (src/deodar_studio/streams/stream.py).
 export function points(axis: AxisView, values = axis.samples): Float64Array {
   const [first, last] = edges(axis);
   const step = (last - first) / values;

@@ -1,0 +1,80 @@
+"""The command `deodar studio [FILE|RECORD]`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from deodar.cli import _options
+
+HELP = "open the studio in the browser: run a model, tune it, watch it"
+EPILOG = """\
+FILE is a document, or a record (.zarr, .nc, or a folder that deodar run wrote), which is played without
+running. Without FILE it opens the gallery of examples. The studio reads and writes files below FILE's folder
+(without FILE: below the working folder), and listens on this machine only; with --host it can be reached
+from others. The page needs the token in the printed address, also on this machine, which other users may
+share. A restart at the same port keeps the token; with --host each start has a new one."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.epilog = EPILOG
+    _options.add_document(parser, "a document (.json, .deodar), a record, or example:NAME", nargs="?")
+    parser.add_argument(
+        "--port",
+        type=_options.whole,
+        metavar="N",
+        help="port to listen on (default: the first free one from 8430 on; 0: any)",
+    )
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="H",
+        help="address to listen on (default 127.0.0.1: this machine only)",
+    )
+    parser.add_argument(
+        "--no-browser", action="store_true", help="do not open the browser, only print the address"
+    )
+    parser.add_argument(
+        "--no-token",
+        action="store_true",
+        help="allow everyone who can connect to use the studio: at least every user of this machine",
+    )
+    _options.add_world(parser)
+    _options.add_cores(parser)
+    _options.wrong(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Serve the studio until Ctrl-C."""
+    # start-up time: these bring JAX
+    from deodar.importers import examples, opening
+
+    if args.port is not None and args.port > 65535:
+        args.wrong("a port is a number from 0 to 65535")
+    file: Path | None = args.file
+    # an example is opened as a copy without a file
+    root = Path.cwd() if file is None or examples.holds(file) else file.resolve().parent
+    if not root.is_dir():
+        args.wrong(f"the folder {root} does not exist")
+    if file is not None:
+        opening.require(file)
+    # start-up time: these bring JAX
+    from deodar_studio.web.serve import serve
+    from deodar_studio.web.service import Service
+
+    _options.use_cores(args.cores)
+
+    def say(address: str) -> None:
+        print(f"deodar studio: {address}\nStop it with Ctrl-C.", flush=True)
+
+    world, token = _options.world(args.world), not args.no_token
+    serve(Service(root, file, args.trust, world, args.host, args.port, token), not args.no_browser, say)
+    return 0
+
+
+def open_document(path: str) -> int:
+    """Serve the studio with a document, as `deodar studio PATH` does."""
+    parser = argparse.ArgumentParser(prog="deodar studio")
+    arguments(parser)
+    return run(parser.parse_args([path]))

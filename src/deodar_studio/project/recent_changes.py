@@ -1,0 +1,35 @@
+"""Recent changes of the document, for pages that lag behind."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from deodar_studio.messages.to_page import Changed, Edited
+
+DocumentChange = Changed | Edited
+
+MOST = 256
+"""Number of changes that a page may lag behind before the server sends the whole document."""
+
+
+class RecentChanges:
+    """The newest changes: of single parameters (`Changed`), and patches (`Edited`).
+
+    What a patch cannot express clears them, and pages then need the whole document.
+    """
+
+    def __init__(self) -> None:
+        self._changes: deque[DocumentChange] = deque(maxlen=MOST)
+
+    def add(self, change: DocumentChange) -> None:
+        """Add a change."""
+        self._changes.append(change)
+
+    def clear(self) -> None:
+        """Remove all changes."""
+        self._changes.clear()
+
+    def between(self, version: int, now: int) -> list[DocumentChange] | None:
+        """Return the changes from one version to another; None if these are not sufficient."""
+        found = [change for change in self._changes if change.version > version]
+        return found if len(found) == now - version else None

@@ -1,0 +1,167 @@
+"""Conversion of documents, parameters and problems to messages for the page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import msgspec
+
+from deodar.errors import Problem as Wrong
+from deodar.experiments.design import KINDS, USUAL, Design
+from deodar.importers import stored_report
+from deodar.kinds.description import describe, descriptions
+from deodar.model import files
+from deodar.model.check import judge
+from deodar.model.document import Document
+from deodar.model.fits import Fit, FittingKind
+from deodar.parameters import Part
+from deodar.recording.replay import RecordReader
+from deodar_studio.messages.to_page import (
+    CopyDimension,
+    DocumentView,
+    ExperimentForms,
+    Fits,
+    FittingKindView,
+    FitView,
+    ImportReportView,
+    Kind,
+    ListedProblem,
+    OfferView,
+    RecordView,
+    ReportLineView,
+)
+from deodar_studio.messages.to_server import FindFits
+from deodar_studio.views import converted
+from deodar_studio.views.converted import Converted
+
+
+def kinds() -> list[Kind]:
+    """Return the description of every registered kind as a message."""
+    return [msgspec.convert(kind, Kind, from_attributes=True) for kind in descriptions()]
+
+
+def experiment_forms() -> ExperimentForms:
+    """Return the descriptions of the parts of an experiment, those of packages included."""
+
+    def forms(family: Mapping[str, type[Part]]) -> list[Kind]:
+        return [msgspec.convert(describe(cls, {}), Kind, from_attributes=True) for cls in family.values()]
+
+    [design] = forms({"": Design})
+    kept = [form for form in design.parameters if form.name not in ("model", *KINDS)]
+    return ExperimentForms(
+        design=kept,
+        conditions=forms(KINDS["conditions"]),
+        actions=forms(KINDS["actions"]),
+        measures=forms(KINDS["measures"]),
+        usual=USUAL["measures"],
+    )
+
+
+def document(
+    doc: Document, file: str, unsaved: bool, undo: int, redo: int, known: Converted | None = None
+) -> DocumentView:
+    """Convert a whole document; `known`: what is converted already."""
+    made = converted.convert(doc) if known is None else known
+    return DocumentView(
+        file=file,
+        title=doc.name,
+        time_unit=doc.time_unit,
+        dt=doc.dt,
+        notes=doc.notes,
+        axes=converted.axes(made),
+        elements=list(made.elements.values()),
+        connections=[converted.connection(c) for c in doc.connections],
+        groups=[list(g) for g in doc.groups],
+        parameters=converted.parameters(doc),
+        layout=dict(converted.shown_layout(doc)),
+        problems=problems(made.problems or [*made.warnings, *judge(doc, made.nodes)], doc),
+        unsaved=unsaved,
+        undo=undo,
+        redo=redo,
+    )
+
+
+def record(reader: RecordReader, path: str) -> RecordView:
+    """Convert a record: its state, its trials and sweep, and the recorded ports."""
+    ports: dict[str, list[str]] = {}
+    for ident, port in reader.ports:
+        ports.setdefault(ident, []).append(port)
+    copies = [
+        CopyDimension(name=name, values=[f"{v:g}" for v in values.tolist()])
+        for name, values in reader.copies.items()
+    ]
+    return RecordView(
+        path=path,
+        complete=reader.complete,
+        growing=reader.growing,
+        notes=reader.notes,
+        copies=copies,
+        ports=ports,
+    )
+
+
+def fits(m: FindFits, ports: Iterable[Fit], kinds: Iterable[FittingKind]) -> Fits:
+    """Convert what a port can be connected with."""
+    shown = [
+        FitView(
+            element=f.element,
+            port=f.port,
+            fits=f.fits,
+            reason=f.reason,
+            offers=[OfferView(kind=o.kind, values=dict(o.values), note=o.note) for o in f.offers],
+        )
+        for f in ports
+    ]
+    found = [FittingKindView(kind=k.kind, port=k.port) for k in kinds]
+    return Fits(request=m.request, element=m.element, port=m.port, ports=shown, kinds=found)
+
+
+def problems(
+    found: Iterable[Wrong], doc: Document | None = None, paths: Sequence[str] = ()
+) -> list[ListedProblem]:
+    """Convert problems, each once for every element concerned: those named in its `where`, or in `paths`."""
+    ids = {} if doc is None else _ids(doc)
+    out: list[ListedProblem] = []
+    for p in found:
+        concerned = [i for path in (p.where, *paths) for i in _named(path, ids)] or [""]
+        out += [
+            ListedProblem(what=p.what, where=p.where, fix=p.fix, element=ident, severity=p.severity)
+            for ident in dict.fromkeys(concerned)
+        ]
+    return out
+
+
+def _ids(doc: Document) -> Mapping[str, Sequence[tuple[int, str]]]:
+    """Return the ids of the elements by their paths, with their positions in the document."""
+    out: dict[str, list[tuple[int, str]]] = {}
+    for k, e in enumerate(doc.entries):
+        out.setdefault(e.path, []).append((k, e.id))
+    return out
+
+
+def _named(where: str, ids: Mapping[str, Sequence[tuple[int, str]]]) -> list[str]:
+    """Return the elements that the `where` of a problem names: `u`, `u.tau` or `u (script.py:3)`."""
+    ends = [k for k in range(len(where)) if where[k] == "." or where[k : k + 2] == " ("]
+    return [i for _, i in sorted(hit for end in [*ends, len(where)] for hit in ids.get(where[:end], ()))]
+
+
+def shown_value(doc: Document, element: str, parameter: str) -> Any:
+    """Convert the value of a parameter for the page."""
+    axes, arrays = {a: key for key, a in files.axes(doc).items()}, files.arrays(doc)
+    value: Any = converted.values(doc.by_id()[element].element, axes, arrays)
+    for step in parameter.split("."):
+        value = value[int(step)] if isinstance(value, list) else value[step]
+    return value
+
+
+NO_REPORT = ImportReportView(tool="", file="", lines=[], bugs=[])
+
+
+def import_report(doc: Document) -> ImportReportView:
+    """Convert the import report that a document contains."""
+    found = stored_report.report_of(doc)
+    if found is None:
+        return NO_REPORT
+    lines = [msgspec.convert(line, ReportLineView, from_attributes=True) for line in found.lines]
+    return ImportReportView(tool=found.tool, file=found.file, lines=lines, bugs=list(found.bugs))

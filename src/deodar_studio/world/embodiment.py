@@ -1,0 +1,239 @@
+"""The world that the sensors of the open document read and its motors move."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import contextlib
+import dataclasses as dc
+import tempfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from deodar import registry
+from deodar.credentials import masked
+from deodar.elements.motor import Motor
+from deodar.elements.sensor import Sensor
+from deodar.errors import MissingExtra, Problem, WorldError, did_you_mean
+from deodar.kinds.world_settings import require_settings
+from deodar.model.document import Document
+from deodar.numerics.axes import Axis
+from deodar.recording.opened import opened
+from deodar.recording.provenance import described
+from deodar.session import agreement
+from deodar.session.exchange import used
+from deodar.worlds._base import World
+from deodar.worlds._failure import errors_of
+from deodar_studio.messages.to_page import WorldPreview
+from deodar_studio.world import scene
+
+MOST_BYTES = 32 * 2**20
+PREVIEW = (Axis("x", 0, 159, 160), Axis("y", 0, 119, 120), Axis("channel", 0, 2, 3))
+
+
+class Embodiment:
+    """The world that the user chose, or an example.
+
+    An example is used if no world was chosen, or the chosen one lacks a sensor or motor of the document; it
+    is of a kind that has all of them.
+    """
+
+    def __init__(self, chosen: World | None = None) -> None:
+        self.chosen = chosen
+        self._dropped: tempfile.TemporaryDirectory[str] | None = None
+        self._name = (
+            ""
+            if chosen is None
+            else _named(type(chosen).__name__, str((described(chosen) or {}).get("file", "")))
+        )
+
+    def world(self, doc: Document, present: World | None = None) -> World | None:
+        """Return the world for a document; `present` is the one in use, which stays if it fits.
+
+        Return None if the document has no sensors and motors, or if no world was chosen and no example fits;
+        `problems` then says what is missing.
+        """
+        wanted = signals(doc)
+        if not wanted:
+            return None
+        for known in (present, self.chosen):
+            if known is not None and not missing(known, doc):
+                return known
+        for cls in registry.kinds("worlds").values():
+            if cls.stands_in and wanted <= {*cls.sensors, *cls.motors}:
+                # without the extra of a world there is no example of it
+                with contextlib.suppress(MissingExtra), errors_of(cls, "examples"):
+                    return _best(cls.examples(), doc)
+        return self.chosen
+
+    def label(self, world: World | None) -> str:
+        """Return a phrase for a world in use."""
+        if world is None:
+            return ""
+        return self._name if world is self.chosen else _named(type(world).__name__, "an example")
+
+    def starting_values(self, kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of a new element; a sensor gets axes over which an example can be read."""
+        if kind != Sensor.__name__ or "axes" in values:
+            return dict(values)
+        sensor = values.get("sensor", Sensor().sensor)
+        for cls in registry.kinds("worlds").values():
+            if cls.stands_in and sensor in cls.sensors:
+                return {**values, "axes": [dc.asdict(axis) for axis in cls.example_axes(sensor)]}
+        return dict(values)
+
+    def kind(self, name: str) -> type[World]:
+        """Return the class of a world."""
+        kinds = registry.kinds("worlds")
+        if name not in kinds:
+            raise WorldError(f"there is no world {name!r}", fix=did_you_mean(name, kinds))
+        return kinds[name]
+
+    def open(self, kind: str, argument: str, name: str, settings: Mapping[str, Any]) -> World:
+        """Return a world of a kind, made from an argument; `name` is the name that messages show."""
+        cls = self.kind(kind)
+        require_settings(cls, settings)
+        try:
+            if not settings:
+                return opened(cls, argument)
+            make = cast("Callable[..., World]", cls)
+            with errors_of(cls, "open", argument):
+                return make(int(argument) if not cls.opens and argument.isdecimal() else argument, **settings)
+        except WorldError as error:
+            raise WorldError(
+                error.problems[0].what, where=masked(name), fix=error.problems[0].fix
+            ) from error.__cause__
+
+    def open_content(self, kind: str, name: str, content: str, settings: Mapping[str, Any]) -> World:
+        """Return a world of a kind, made from the content (base64) of the file `name`."""
+        try:
+            data = base64.b64decode(content, validate=True)
+        except (binascii.Error, ValueError):
+            raise WorldError("the content is not base64", where=name) from None
+        if len(data) > MOST_BYTES:
+            raise WorldError(f"is larger than {MOST_BYTES // 2**20} MiB", where=name)
+        # worlds may read their files later, too
+        self._dropped = self._dropped or tempfile.TemporaryDirectory(prefix="deodar-")
+        path = Path(tempfile.mkdtemp(dir=self._dropped.name)) / f"dropped{Path(name).suffix}"
+        path.write_bytes(data)
+        return self.open(kind, str(path), name, settings)
+
+    def close(self) -> None:
+        """Remove the files that were dropped on the page."""
+        if self._dropped is not None:
+            self._dropped.cleanup()
+            self._dropped = None
+
+    def choose(self, world: World, kind: str, name: str, doc: Document) -> None:
+        """Choose a world for a document.
+
+        Raises:
+            WorldError: the world lacks a sensor or motor of the document; the world in use stays.
+        """
+        if lacking := missing(world, doc):
+            raise WorldError(
+                f"the world {kind} has no {', '.join(map(repr, lacking))}",
+                where=masked(name),
+                fix="Choose a world with all sensors and motors of the model",
+            )
+        self.chosen = world
+        self._name = _named(kind, masked(name))
+
+
+def _best(worlds: Iterable[World], doc: Document) -> World:
+    """Return the first world without problems and warnings, or else the one with the fewest; problems count
+    first.
+    """
+    counts: list[tuple[tuple[int, int], World]] = []
+    for world in worlds:
+        if not missing(world, doc):
+            counts.append(((len(problems(doc, world)), len(agreement.judge(doc, world))), world))
+            if counts[-1][0] == (0, 0):
+                break
+    return min(counts, key=lambda one: one[0])[1]
+
+
+def missing(world: World, doc: Document) -> list[str]:
+    """Return the sensors and motors of a document that a world does not have."""
+    return sorted(signals(doc) - {*world.sensors, *world.motors})
+
+
+def problems(doc: Document, world: World | None) -> Sequence[Problem]:
+    """Return why a document cannot run in a world: signals that it lacks, or has over other axes."""
+    lacking = [
+        _lacking(e.path, e.element, world)
+        for e in doc.entries
+        if isinstance(e.element, (Sensor, Motor)) and _lacks(e.element, world)
+    ]
+    if lacking:
+        return lacking
+    try:
+        used(doc, world)
+    except WorldError as error:
+        return error.problems
+    return ()
+
+
+def warnings(doc: Document, world: World | None) -> list[Problem]:
+    """Return the warnings about a document in a world."""
+    return [p for p in agreement.judge(doc, world) if p.severity == "warning"]
+
+
+def _lacks(element: Sensor | Motor, world: World | None) -> bool:
+    """Return whether a world does not have the sensor or motor of an element."""
+    if isinstance(element, Sensor):
+        return world is None or element.sensor not in world.sensors
+    return world is not None and element.motor not in world.motors
+
+
+def _lacking(path: str, element: Sensor | Motor, world: World | None) -> Problem:
+    what, name = ("sensor", element.sensor) if isinstance(element, Sensor) else ("motor", element.motor)
+    lacks = "no world was chosen that has" if world is None else f"the world {type(world).__name__} lacks"
+    having = [kind for kind, cls in registry.kinds("worlds").items() if name in {**cls.sensors, **cls.motors}]
+    such = f", such as {' or '.join(having)}" if having else ""
+    fix = f"Choose a world that has it{such}: the button World in the header"
+    return Problem(path, f"{lacks} the {what} {name!r}", fix)
+
+
+def preview(world: World, doc: Document | None) -> WorldPreview:
+    """Return what a world looks like: from above, or its own preview, or else what its first sensor of any
+    shape reads.
+    """
+    picture = np.zeros((0, 0, 3))
+    try:
+        with errors_of(type(world), "preview"):
+            world.reset(0)
+            seen = world.scene()
+            free = [name for name, signal in world.sensors.items() if signal.shape is None]
+            own = world.preview() if seen is None else None
+            if own is not None:
+                picture = own
+            elif seen is None and free:
+                picture = world.sense(free[0], PREVIEW, 0.0).transpose(1, 0, 2)
+    finally:
+        close = getattr(world, "close", None)
+        if callable(close):
+            close()
+    pixels = (np.clip(picture, 0, 1) * 255).astype(np.uint8)
+    return WorldPreview(
+        sensors=list(world.sensors),
+        motors=list(world.motors),
+        missing=[] if doc is None else missing(world, doc),
+        scene=scene.scene(seen).scene,
+        width=pixels.shape[1],
+        height=pixels.shape[0],
+        pixels=base64.b64encode(pixels.tobytes()).decode(),
+    )
+
+
+def signals(doc: Document) -> set[str]:
+    """Return the names of the sensors that a document reads and of the motors that it drives."""
+    sensors = {e.element.sensor for e in doc.entries if isinstance(e.element, Sensor)}
+    return sensors | {e.element.motor for e in doc.entries if isinstance(e.element, Motor)}
+
+
+def _named(kind: str, name: str) -> str:
+    return f"{kind}: {name}" if name else kind
