@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import cast
 
-from deodar import docstring, registry
+from deodar import docstring, plugins, registry
 from deodar.codec import Json
 from deodar.docstring import Docstring
 from deodar.element import Element
@@ -15,8 +15,6 @@ from deodar.kinds.parameter import ParameterDescription, describe_parameter, pla
 from deodar.kinds.world_settings import WorldSetting, world_settings
 from deodar.parameters import Parameter, Part, parameters, positional
 from deodar.worlds._base import World
-
-ROOT = "deodar"
 
 
 @dc.dataclass(frozen=True)
@@ -66,8 +64,8 @@ class Description:
     @property
     def public_name(self) -> str:
         """How a script names it: `dd.Field`, or the module and the class of a kind of a package."""
-        packaged = self.module.split(".")[0] != ROOT
-        return f"{self.module}.{self.name}" if packaged else f"dd.{self.name}"
+        outside = self.module.partition(".")[0] not in plugins.first_party()
+        return f"{self.module}.{self.name}" if outside else f"dd.{self.name}"
 
 
 def descriptions() -> list[Description]:
@@ -127,7 +125,7 @@ def _declared(cls: type[Part]) -> list[Parameter]:
 def _room(cls: type) -> str:
     """The first folder of its module, below `numerics` the second; windows have a module instead."""
     package, *inner = cls.__module__.split(".")
-    if package != ROOT:
+    if package != "deodar":
         return "worlds" if issubclass(cls, World) else "own"
     return inner[1] if inner[0] == "numerics" else inner[0]
 

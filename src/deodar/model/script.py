@@ -218,7 +218,7 @@ class _Script:
                 break
             first.append(given.pop(name))
         function = f"dd.{kind.__name__}"
-        if kind.__module__.split(".")[0] != "deodar":
+        if not registry.own(kind):
             self.imports.add(f"from {kind.__module__} import {kind.__name__}")
             function = kind.__name__
         name = {"name": given.pop("name")} if "name" in given else {}

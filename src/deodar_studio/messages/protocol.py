@@ -19,7 +19,7 @@ from deodar_studio.messages import to_page, to_server
 from deodar_studio.messages.message import union
 
 SCHEMA = Path(__file__).with_name("protocol.schema.json")
-TYPESCRIPT = Path(__file__).parents[4] / "studio" / "src" / "protocol.ts"
+TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
 HEAD = (
     "// Generated from src/deodar_studio/messages/to_server.py and to_page.py; change those, not this one:\n"
     "// python -m deodar_studio.messages.protocol\n"
