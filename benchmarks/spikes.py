@@ -31,7 +31,7 @@ import numpy as np
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT))
 
-from tests.neuromorphic.scenes import (  # noqa: E402
+from tests.deodar_spikes.scenes import (  # noqa: E402
     DETECTOR,
     GRADED,
     MEMORY,

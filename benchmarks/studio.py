@@ -32,7 +32,7 @@ from deodar.model.document import Document
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent))
 
-from tests.server.page import Page, page, studio  # noqa: E402
+from tests.deodar_studio.page import Page, page, studio  # noqa: E402
 
 FRAME = 1 / 30
 ROUNDS = 7

@@ -40,29 +40,29 @@ steps take several times as long. Single precision differs in the last digits.
 
 DEFAULT_PROGRAM = (
     # bits
-    "tests/contracts/test_worlds.py::test_a_run_is_independent_of_chunks_and_equal_after_a_reset",
-    "tests/contracts/test_worlds.py::test_the_run_inside_the_step_equals_that_outside_of_it",
+    "tests/deodar/contracts/test_worlds.py::test_a_run_is_independent_of_chunks_and_equal_after_a_reset",
+    "tests/deodar/contracts/test_worlds.py::test_the_run_inside_the_step_equals_that_outside_of_it",
     "tests/old_files/",
     "tests/benchmarks/test_bits.py",
     "tests/benchmarks/test_trajectories.py",
     "tests/docs/test_pages.py::test_a_page_runs[command-line]",
     "tests/docs/test_pages.py::test_a_page_runs[instabilities]",
-    "tests/session/test_invariance.py",
-    "tests/elements/test_moving_gaussian.py::test_how_a_run_is_cut",
-    "tests/elements/test_time_series.py::test_how_a_run_is_cut",
+    "tests/deodar/session/test_invariance.py",
+    "tests/deodar/elements/test_moving_gaussian.py::test_how_a_run_is_cut",
+    "tests/deodar/elements/test_time_series.py::test_how_a_run_is_cut",
     # long runs
-    "tests/architectures/test_change_detection.py",
-    "tests/architectures/test_serial_order.py",
-    "tests/architectures/test_spa.py",
+    "tests/deodar/architectures/test_change_detection.py",
+    "tests/deodar/architectures/test_serial_order.py",
+    "tests/deodar/architectures/test_spa.py",
     "tests/benchmarks/test_resolution.py",
     "tests/docs/test_pages.py::test_a_page_runs[saliency]",
     "tests/docs/test_pages.py::test_a_page_runs[spa]",
-    "tests/papers/looking/test_looking.py",
-    "tests/papers/pointing/test_trials.py",
-    "tests/papers/saliency/test_demo.py",
-    "tests/papers/saliency/test_untuned.py",
-    "tests/session/test_memory.py",
-    "tests/session/test_resolution.py",
+    "tests/deodar_papers/looking/test_looking.py",
+    "tests/deodar_papers/pointing/test_trials.py",
+    "tests/deodar_papers/saliency/test_demo.py",
+    "tests/deodar_papers/saliency/test_untuned.py",
+    "tests/deodar/session/test_memory.py",
+    "tests/deodar/session/test_resolution.py",
 )
 """Tests that judge the bits of programs or compare them with stored ones, and tests that run so long that
 optimised steps save more time than their compilation takes: `make optimised` runs them with

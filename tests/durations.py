@@ -27,8 +27,8 @@ SHARE = 0.6
 """Most CPU seconds of a function outside of the marker `long`."""
 
 ALWAYS = (
-    "tests/experiments/test_cluster.py::test_a_killed_caller_leaves_no_process_and_is_resumed",
-    "tests/experiments/test_cluster.py::test_rows_are_the_same_while_workers_are_killed",
+    "tests/deodar/experiments/test_cluster.py::test_a_killed_caller_leaves_no_process_and_is_resumed",
+    "tests/deodar/experiments/test_cluster.py::test_rows_are_the_same_while_workers_are_killed",
 )
 """Functions that never have the marker `long`: what they test has no shorter form, and failed before."""
 

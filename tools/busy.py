@@ -2,7 +2,7 @@
 
 python tools/busy.py                      the whole suite, five times, beside four busy processes
 python tools/busy.py --times 1 --keep     one run; its row is added to evidence/busy.csv
-python tools/busy.py --times 1 tests/batch/test_workers.py
+python tools/busy.py --times 1 tests/deodar/batch/test_workers.py
 """
 
 from __future__ import annotations

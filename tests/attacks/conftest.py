@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from tests.server.conftest import own_state, root
+from tests.deodar_studio.conftest import own_state, root
 
 __all__ = ["own_state", "root"]

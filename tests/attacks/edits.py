@@ -27,7 +27,7 @@ from deodar.leaves import get
 from deodar.model import edit, files, plain_values
 from deodar.model.document import Document
 from deodar_studio.views import view
-from tests.server.page import Page, page, studio
+from tests.deodar_studio.page import Page, page, studio
 
 PARAMETERS = ("gain", "tempo", "level")
 LEAVES = (

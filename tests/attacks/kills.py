@@ -15,7 +15,7 @@ from pathlib import Path
 
 import deodar as dd
 from tests.attacks.edits import small
-from tests.server.page import page
+from tests.deodar_studio.page import page
 
 
 @dc.dataclass

@@ -15,7 +15,7 @@ import deodar as dd
 from deodar_studio.messages.to_server import MESSAGES, Drawn
 from deodar_studio.web.connection import MOST_MALFORMED
 from tests.attacks.edits import small
-from tests.server.page import Page, page, studio
+from tests.deodar_studio.page import Page, page, studio
 
 STRANGE: tuple[Any, ...] = (
     None,

@@ -22,7 +22,7 @@ import psutil
 import deodar as dd
 from tests.attacks.edits import small
 from tests.attacks.kills import start, stop
-from tests.server.page import page
+from tests.deodar_studio.page import page
 
 AT_ONCE = 4
 """Pages that visit at the same time."""

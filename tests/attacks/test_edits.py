@@ -9,7 +9,7 @@ from typing import Any
 import deodar as dd
 from deodar_studio.project.change_queue import ChangeQueue
 from tests.attacks import edits
-from tests.server.page import page, studio
+from tests.deodar_studio.page import page, studio
 
 
 def test_simultaneous_edits_of_two_pages_are_both_kept(tmp_path: Path) -> None:

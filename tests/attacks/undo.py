@@ -25,7 +25,7 @@ from deodar.model.document import Document, Entry
 from deodar_studio.catalogue import templates
 from deodar_studio.views import converted, view
 from deodar_studio.views.converted import Status
-from tests.server.page import patched
+from tests.deodar_studio.page import patched
 
 MOST_ELEMENTS = 12
 """Number of elements from which the walk adds no more."""

@@ -11,7 +11,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
 import spikes
-from tests.neuromorphic.scenes import DETECTOR, bistable, pairs, winner_take_all
+from tests.deodar_spikes.scenes import DETECTOR, bistable, pairs, winner_take_all
 
 
 def test_the_page_has_the_stored_tables() -> None:

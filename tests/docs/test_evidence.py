@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from deodar_papers import papers
+from tests.deodar_papers.spa.rows import PATH, all_rows
 from tests.docs.source import DOCS, ROOT, module
-from tests.papers.spa.rows import PATH, all_rows
 
 evidence = module(DOCS / "evidence.py")
 MADE = {

@@ -10,10 +10,10 @@ import pytest
 
 from deodar.cli import main
 from deodar_studio.catalogue import plots
+from tests.deodar_studio.page import Page, play, studio
+from tests.deodar_studio.test_guard import get
 from tests.house.source import ROOT
 from tests.plugins.conftest import EXAMPLE, Install
-from tests.server.page import Page, play, studio
-from tests.server.test_guard import get
 
 PLOT = "TITLE = 'Odd'\nFILE = 'odd.js'\nAXES = 2\n"
 

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from deodar import registry
 from deodar.declarations import Needed
 from deodar.element import Coupling
 from deodar.errors import DeodarError

@@ -1,0 +1,581 @@
+"""One model over the devices of two hosts: two processes of this computer with two devices each."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Generator, Sequence
+from pathlib import Path
+
+import jax
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler import host_link, hosts
+from deodar.compiler.host_link import HostLinks, meet
+from deodar.errors import HostsError, ParameterError, UnknownName
+from deodar.recording.record import about
+
+LIMIT = 300.0
+"""Seconds after which a process of a test is ended."""
+
+FLAG = "--xla_force_host_platform_device_count="
+
+VALUES = """
+import sys, numpy as np, deodar as dd
+from deodar.batch.output import RunOutput
+from deodar.errors import (
+    DeviceError, HostsError, NotFinite, OutputError, OutputExists, UnknownName, WorkerError
+)
+from deodar.recording.record import about
+from tests.deodar.compiler.test_shard import plane, volume
+
+host, port, folder = int(sys.argv[1]), sys.argv[2], sys.argv[3]
+if host >= 0:
+    dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
+
+def full(self):
+    raise OutputError("full")
+
+def line(tau=20.0, **given):
+    made = dd.Model("line")
+    x = dd.Axis("x", 0, 40, samples=41)
+    kernel = [dd.Gaussian(12, 3, normalized=True)]
+    u = made.add(dd.Field("u", [x], kernel=kernel, global_inhibition=0.02, noise=1.0, tau=tau, **given))
+    made.add(dd.GaussianStimulus("place", [x], center=20, sigma=3, amplitude=6)) >> u
+    return made
+
+def values(made, **given):
+    given = {"record": ["u"], "every": 20, "devices": "all", "progress": False, **given}
+    data = dd.simulate(made, 60, **given)
+    return data["u.activation"].values if "u.activation" in data else data.attrs
+
+found = {
+    "trials": values(line(), trials=6, precision="float64"),
+    "few": values(line(), trials=3),
+    "points": values(line(), sweep={"u.tau": [10.0, 15.0, 20.0, 25.0]}, trials=2),
+    "pieces": values(line(), trials=8, batch=4),
+    "waves": values(volume()),
+    "halo": values(plane(1.0, "zero")),
+    "noise": values(volume(kernel=[], noise=1.0, global_inhibition=0.0)),
+}
+found["alone"] = values(line(), trials=6, precision="float64", devices=None)
+session = dd.Session(volume(), devices="all", seed=3)
+session.run(10)
+kept = session.snapshot()
+session.inject("u", 2.0, 2)
+session.set("u.resting_level", -4.0)
+session.run(5)
+found["session"] = session.read("u")
+session.restore(kept)
+found["restored"] = session.read("u")
+np.savez(f"{folder}/found{host}.npz", **found)
+
+if host >= 0:
+    def fails(kind, text, call):
+        try:
+            call()
+        except kind as error:
+            assert text in str(error), error
+        else:
+            raise AssertionError(text)
+
+    out = values(volume(), out=f"{folder}/night.zarr", snapshots=20.0)
+    if host == 0:
+        assert np.array_equal(out, found["waves"])
+        made_by = about(dd.open_record(f"{folder}/night.zarr"))["made_by"]
+        assert (made_by["devices"], made_by["hosts"]) == ("4", "2"), made_by
+    else:
+        assert out == {"written_by": "host 0", "out": f"{folder}/night.zarr"}, out
+    # the script continues after errors of all hosts, and after an error of one
+    fails(NotFinite, "step", lambda: values(volume(kernel=[dd.Gaussian(1e38, 3.0)])))
+    fails(HostsError, "hosts 0 and 1 differ in the model", lambda: values(line(tau=15.0 + host), trials=4))
+    fails(HostsError, "differ in the arguments of simulate", lambda: values(line(), trials=4, seed=host))
+    kind, text = (UnknownName, "missing") if host else (HostsError, "host 1 has ended the run: UnknownName")
+    fails(kind, text, lambda: values(line(), trials=4, record=["missing"] if host else ["u"]))
+    kind, text = (HostsError, "host 0 has ended the run: OutputExists") if host else (OutputExists, "night")
+    fails(kind, text, lambda: values(volume(), out=f"{folder}/night.zarr"))
+    if host == 0:
+        close, RunOutput.close = RunOutput.close, full
+    kind, text = (HostsError, "host 0 has ended the run: OutputError") if host else (OutputError, "full")
+    fails(kind, text, lambda: values(line(), trials=4, out=f"{folder}/full.zarr"))
+    if host == 0:
+        RunOutput.close = close
+    fails(DeviceError, "Type a multiple of 2 up to 4", lambda: values(line(), trials=4, devices=3))
+    fails(HostsError, "a world on 2 hosts", lambda: values(line(), trials=4, world=dd.Arena("blocks")))
+    fails(WorkerError, "worker processes", lambda: values(line(), trials=4, workers=2))
+    fails(HostsError, "resuming a run on 2 hosts", lambda: dd.resume(f"{folder}/night.zarr", 80))
+    fails(HostsError, "the record of a session", lambda: session.record(f"{folder}/no.zarr", ["u"]))
+    calls = [lambda: session.run(5 + host), lambda: session.inject("u", 1.0 + host)]
+    session.run(5)
+    fails(HostsError, "differ in the calls of the session", calls[0])
+    fails(HostsError, "differ in what is injected", calls[1])
+    session.set("u.tau", 30.0 + host)
+    fails(HostsError, "differ in the calls of the session", session.step)
+    fails(HostsError, "follows the wall clock", lambda: session.run_live(5))
+    fails(HostsError, "joined already", lambda: dd.join_hosts("127.0.0.1:" + port, 2, host))
+    alone = dd.simulate(line(), 20 + host, progress=False)
+    assert alone.sizes["time"] == 1
+    assert np.array_equal(values(line(), trials=3), found["few"])
+print("good")
+"""
+
+ENDING = """
+import os, signal, sys, deodar as dd
+from deodar.compiler import host_link, hosts
+from deodar.errors import HostsError, Interrupted
+from tests.deodar.compiler.test_shard import plane
+
+host, port, how, trials = int(sys.argv[1]), sys.argv[2], sys.argv[3], int(sys.argv[4])
+host_link.SILENT, host_link.STUCK = 3.0, 1.0
+dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
+made = plane(1.0, "zero", (24, 8) if trials else (96, 40))
+
+def end(across=True):
+    print("now", flush=True)
+    os.kill(os.getpid(), getattr(signal, how))
+
+def shown(done):
+    if host and done > 1000 and trials:
+        end()
+    elif host and not trials:
+        # after the exchange before the next chunk, so that the other host waits in the program
+        hosts.calling = end
+
+try:
+    given = {"record": ["u"], "every": 100.0, "out": sys.argv[5]} if how == "SIGINT" else {}
+    dd.simulate(made, 1e8, trials=trials or None, devices="all", progress=shown, **given)
+except (HostsError, Interrupted) as error:
+    print(type(error).__name__, error)
+"""
+
+
+SESSION = """
+import sys, deodar as dd
+from deodar.errors import HostsError
+from deodar.session import run
+from tests.deodar.compiler.test_shard import volume
+
+class Broken:
+    left = 6
+
+    def perf_counter(self):
+        self.left -= 1
+        if not self.left:
+            raise OSError("the disk is gone")
+        return 0.001 * self.left
+
+host, port = int(sys.argv[1]), sys.argv[2]
+dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
+session = dd.Session(volume(), devices="all")
+session.run(10)
+if host:
+    run.time = Broken()
+try:
+    session.run(1e8)
+except (HostsError, OSError) as error:
+    print(type(error).__name__, error)
+"""
+
+
+JOINING = """
+import sys, deodar as dd
+from deodar.compiler import host_link
+
+host_link.STUCK = 1.0
+dd.join_hosts("127.0.0.1:" + sys.argv[2], 2, int(sys.argv[1]), timeout=5)
+"""
+
+
+def started(
+    script: str, host: int, devices: int, *arguments: str, **environment: str
+) -> subprocess.Popen[str]:
+    """Start a script as one host."""
+    environment = {**os.environ, "XLA_FLAGS": f"{FLAG}{devices}", "NPROC": "1", **environment}
+    command = [sys.executable, "-c", script, str(host), *arguments]
+    return subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    )
+
+
+def ended(processes: Sequence[subprocess.Popen[str]]) -> list[tuple[int, str, str]]:
+    """Return status and output of processes, none of which outlives the limit."""
+    try:
+        texts = [process.communicate(timeout=LIMIT) for process in processes]
+    finally:
+        for process in processes:
+            process.kill()
+    return [(process.returncode, *text) for process, text in zip(processes, texts, strict=True)]
+
+
+def free_port() -> str:
+    """Return the number of a port that is free."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return str(server.getsockname()[1])
+
+
+def test_two_hosts_compute_what_one_computes(tmp_path: Path) -> None:
+    port = free_port()
+    both = [started(VALUES, host, 2, port, str(tmp_path)) for host in (1, 0)]
+    for status, out, err in (*ended(both), *ended([started(VALUES, -1, 4, port, str(tmp_path))])):
+        assert (status, out) == (0, "good\n"), err
+    first, second, one = (np.load(tmp_path / f"found{k}.npz") for k in (0, 1, -1))
+    assert first["trials"].tobytes() == one["alone"].tobytes() == first["alone"].tobytes()
+    for name in one:
+        assert first[name].tobytes() == second[name].tobytes(), name
+        assert np.abs(one[name]).max() > 0.1, name
+        if name in ("waves", "halo", "session", "restored"):
+            assert np.abs(first[name] - one[name]).max() < 1e-4, name
+        else:
+            assert first[name].tobytes() == one[name].tobytes(), name
+
+
+@pytest.mark.parametrize(
+    ("how", "status", "text"),
+    [
+        ("SIGKILL", -9, "HostsError host 1 has ended"),
+        ("SIGINT", 0, "Interrupted stopped at"),
+    ],
+)
+def test_the_end_of_one_host_is_an_error_on_the_other(
+    how: str, status: int, text: str, tmp_path: Path
+) -> None:
+    port, out = free_port(), str(tmp_path / "night.zarr")
+    there, here = ended([started(ENDING, host, 2, port, how, "4", out) for host in (1, 0)])
+    assert here[0] == 0 and here[1].startswith(text), here[2]
+    assert there[0] == status, there[2]
+    if how == "SIGINT":
+        data = dd.open_record(out)
+        assert about(data)["complete"] is False and data.sizes["time"] > 10
+
+
+@pytest.mark.parametrize(("how", "seconds"), [("SIGKILL", 1.0), ("SIGSTOP", 3.0)])
+def test_a_divided_field_of_which_a_host_ends_or_stops_ends_on_the_others(how: str, seconds: float) -> None:
+    port = free_port()
+    there, here = (started(ENDING, host, 2, port, how, "0") for host in (1, 0))
+    try:
+        assert there.stdout is not None and there.stdout.readline() == "now\n"
+        began = time.monotonic()
+        _, err = here.communicate(timeout=LIMIT)
+        taken = time.monotonic() - began
+    finally:
+        there.kill()
+        here.kill()
+        there.communicate()
+    assert here.returncode == 1, err
+    assert err.splitlines()[-1] == "deodar: host 1 has ended, so this process ends", err
+    assert taken < seconds + 4 * host_link.BEAT
+
+
+def test_an_error_of_one_host_ends_the_session_of_the_others_with_its_reason() -> None:
+    port = free_port()
+    there, here = ended([started(SESSION, host, 2, port) for host in (1, 0)])
+    assert there[:2] == (0, "OSError the disk is gone\n"), there[2]
+    assert here[1].startswith("HostsError host 1 has ended the run: OSError: the disk is gone"), here[2]
+
+
+def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_path: Path) -> None:
+    port = free_port()
+    command = ["run", "example:selection", "--duration", "20", "--trials", "4", "--devices", "all"]
+    command += ["--precision", "float64", "--hosts", "auto", "--out", str(tmp_path / "night"), "--json"]
+    environment = {
+        "SLURM_JOB_ID": "7",
+        "SLURM_STEP_NODELIST": "127.0.0.1",
+        "SLURM_NTASKS": "2",
+        "JAX_COORDINATOR_PORT": port,
+        "PYTHONWARNINGS": "ignore",
+    }
+    both = [
+        started(
+            "import sys; from deodar.cli import main; sys.exit(main(sys.argv[2:]))",
+            host,
+            2,
+            *command,
+            **environment,
+            SLURM_PROCID=str(host),
+            SLURM_LOCALID=str(host),
+        )
+        for host in (1, 0)
+    ]
+    there, here = ended(both)
+    assert here[0] == there[0] == 0, here[2] + there[2]
+    assert json.loads(here[1])["complete"] is True and there[1] == ""
+    data = dd.open_record(tmp_path / "night")
+    assert data.sizes["trial"] == 4
+    alone = dd.simulate(dd.load("example:selection"), 20, trials=4, precision="float64", progress=False)
+    for name in alone.data_vars:
+        assert np.abs(data[name].values - alone[name].values).max() < 1e-10, name
+
+
+@contextlib.contextmanager
+def linked(timeout: float = 5.0, count: int = 2) -> Generator[list[HostLinks]]:
+    """Link hosts in this process."""
+    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+
+    def host(k: int) -> None:
+        found[k] = meet(address, count, k, timeout)[0]
+        found[k].begin()
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in reversed(range(count))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    try:
+        yield [found[k] for k in range(count)]
+    finally:
+        for links in found.values():
+            links.close()
+
+
+def at_once(links: Sequence[HostLinks], *said: tuple[str, object]) -> list[object]:
+    """Return what an exchange gives each host, or the text of its error."""
+    answers: list[object] = [None] * len(links)
+
+    def host(k: int) -> None:
+        try:
+            answers[k] = links[k].exchange(*said[k])
+        except HostsError as error:
+            answers[k] = str(error)
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in range(len(said))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return answers
+
+
+def test_hosts_exchange_what_they_say() -> None:
+    with linked() as links:
+        assert at_once(links, ("a", 1), ("a", [2.5, "x"])) == [[1, [2.5, "x"]]] * 2
+        here, there = at_once(links, ("a", 1), ("b", 1))
+        assert str(here).startswith("host 1 is at 'b' of its script, host 0 at 'a'")
+        assert str(there).startswith("host 0 is at 'a' of its script, host 1 at 'b'")
+        assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
+
+
+@pytest.mark.parametrize("leaving", [0, 1])
+def test_a_host_that_leaves_a_run_ends_it_on_the_others_which_may_begin_another(leaving: int) -> None:
+    with linked() as links:
+        links[leaving].leave("OutputError: full")
+        [answer] = at_once([links[1 - leaving]], ("a", 1))
+        assert str(answer).startswith(f"host {leaving} has ended the run: OutputError: full")
+        assert at_once(links, ("c", 1), ("c", 2)) == [[1, 2]] * 2
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_an_error_of_a_run_on_a_device_of_one_host_concerns_no_other(
+    index: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with linked() as links:
+        monkeypatch.setattr(hosts, "_joined", [links[index]])
+        with pytest.raises(UnknownName):
+            made = dd.load("example:selection")
+            dd.simulate(made, 1, record=["missing"], devices=1, device="cpu:0", progress=False)
+        assert not links[index].failed
+        assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
+
+
+def test_a_host_that_does_not_answer_is_named_on_all_hosts() -> None:
+    with linked(1.0, 3) as links:
+        first, second = at_once(links[:2], ("a", 1), ("a", 1))
+        assert str(first).startswith("a: host 2 has not answered for 1 s")
+        assert second == first
+        assert at_once(links[2:], ("a", 1)) == [first], "it finds that it comes too late"
+        assert at_once(links, ("b", 1), ("b", 2), ("b", 3)) == [[1, 2, 3]] * 3
+
+
+def test_a_first_host_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(host_link, "GRACE", 0.1)
+    with linked(1.0) as links:
+        [answer] = at_once(links[1:], ("a", 1))
+        assert str(answer).startswith("a: host 0 has not answered for 1 s")
+
+
+@pytest.mark.parametrize("ending", [0, 1])
+def test_a_host_whose_links_end_is_named_at_once(ending: int) -> None:
+    with linked() as links:
+        links[ending].close()
+        [answer] = at_once([links[1 - ending]], ("a", 1))
+        assert str(answer).startswith(f"host {ending} has ended")
+
+
+def test_a_host_that_does_not_come_is_named() -> None:
+    address = f"127.0.0.1:{free_port()}"
+    with pytest.raises(HostsError, match="host 1, 2 has not come"):
+        meet(address, 3, 0, 0.3)
+    with pytest.raises(HostsError, match=f"the first host cannot be reached at {address} within 0.3 s"):
+        meet(address, 3, 2, 0.3)
+
+
+@pytest.mark.parametrize("resets", [True, False])
+def test_a_stranger_at_the_port_does_not_end_the_first_host(
+    resets: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(host_link, "HELLO_SECONDS", 0.2)
+    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+    first = threading.Thread(target=lambda: found.update({0: meet(address, 2, 0, 10.0)[0]}))
+    first.start()
+    with reached(address) as stranger:
+        if resets:
+            stranger.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            stranger.close()
+        else:
+            assert stranger.recv(1) == b"", "who says nothing is sent away"
+    found[1] = meet(address, 2, 1, 10.0)[0]
+    first.join()
+    for link in found.values():
+        link.close()
+    assert len(found) == 2
+
+
+@pytest.mark.parametrize("resets", [True, False])
+def test_a_host_that_ends_while_it_waits_may_be_started_again(resets: bool) -> None:
+    address, found = f"127.0.0.1:{free_port()}", dict[int, HostLinks]()
+
+    def host(k: int) -> None:
+        found[k] = meet(address, 3, k, 10.0)[0]
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in (0, 1, 2)]
+    threads[0].start()
+    about = {"hosts": 3, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
+    with reached(address) as dead:
+        dead.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+        time.sleep(0.1)
+        with reached(address) as second:  # refused, because host 1 still waits
+            second.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+            assert b"host 1 is not one of 3, or has come already" in second.recv(1000)
+        if resets:
+            dead.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    for thread in threads[1:]:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for links in found.values():
+        links.close()
+    assert sorted(found) == [0, 1, 2]
+
+
+def reached(address: str) -> socket.socket:
+    """Return a connection to a port that is opened meanwhile."""
+    host, _, port = address.partition(":")
+    while True:
+        with contextlib.suppress(ConnectionRefusedError):
+            return socket.create_connection((host, int(port)), 5.0)
+        time.sleep(0.01)
+
+
+def opened_behind_a_firewall(port: int, backlog: int) -> socket.socket:
+    """Open a port; one that the system chooses refuses all connections."""
+    if port:
+        return socket.create_server(("127.0.0.1", port), backlog=backlog)
+    silent = socket.socket()
+    silent.bind(("127.0.0.1", 0))
+    return silent
+
+
+def test_a_port_for_jax_that_cannot_be_reached_is_named_on_all_hosts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(host_link, "_opened", opened_behind_a_firewall)
+    address, texts = f"127.0.0.1:{free_port()}", list[str]()
+
+    def host(k: int) -> None:
+        with pytest.raises(HostsError) as error:
+            meet(address, 3, k, 10.0)
+        texts.append(str(error.value))
+
+    threads = [threading.Thread(target=host, args=(k,)) for k in (2, 1, 0)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(texts) == 3 and len(set(texts)) == 1, texts
+    assert re.match(r"host 1 cannot reach port \d+ of host 0 \(Connection refused\)", texts[0])
+    assert "firewall of host 0" in texts[0]
+
+
+def test_a_host_that_ends_before_jax_starts_is_named() -> None:
+    address = f"127.0.0.1:{free_port()}"
+    about = {"hosts": 2, **host_link._versions()}  # pyright: ignore[reportPrivateUsage]
+
+    def host() -> None:
+        with reached(address) as dead:
+            dead.sendall(f"{json.dumps({'host': 1, 'about': about})}\n".encode())
+            assert b"port" in dead.recv(1000)
+
+    thread = threading.Thread(target=host)
+    thread.start()
+    with pytest.raises(HostsError, match="host 1 has ended"):
+        meet(address, 2, 0, 10.0)
+    thread.join()
+
+
+@pytest.mark.parametrize("ending", [0, 1])
+def test_a_host_that_ends_while_jax_starts_ends_the_other_with_its_name(ending: int) -> None:
+    port = free_port()
+    other = started(JOINING, 1 - ending, 2, port)
+    meet(f"127.0.0.1:{port}", 2, ending, 60.0)[0].close()
+    [(status, _, err)] = ended([other])
+    assert status == 1 and err.endswith(f"deodar: host {ending} has ended, so this process ends\n"), err
+
+
+def test_an_error_of_jax_at_its_start_closes_the_links(monkeypatch: pytest.MonkeyPatch) -> None:
+    def initialize(*_: object, **__: object) -> None:
+        raise RuntimeError("no port")
+
+    monkeypatch.setattr(jax.distributed, "initialize", initialize)
+    monkeypatch.setattr(jax.config, "update", lambda *_: None)  # pyright: ignore
+    monkeypatch.setattr("jax._src.xla_bridge.backends_are_initialized", lambda: False)
+    address, found = f"127.0.0.1:{free_port()}", list[HostLinks]()
+    other = threading.Thread(target=lambda: found.append(meet(address, 2, 0, 10.0)[0]))
+    other.start()
+    with pytest.raises(HostsError, match="JAX has not started on the hosts: RuntimeError: no port"):
+        dd.join_hosts(address, 2, 1, timeout=10)
+    other.join()
+    found[0].begin()
+    with pytest.raises(HostsError, match="host 1 has ended"):
+        found[0].exchange("a", 1)
+    found[0].close()
+    assert hosts.count() == 1
+
+
+def test_hosts_that_differ_are_refused() -> None:
+    address, texts = f"127.0.0.1:{free_port()}", list[str]()
+
+    def host(k: int, count: int) -> None:
+        with pytest.raises(HostsError) as error:
+            meet(address, count, k, 3.0)
+        texts.append(str(error.value))
+
+    threads = [threading.Thread(target=host, args=(k, count)) for k, count in ((1, 3), (0, 2))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(texts) == 2 and all("host 1 differs from host 0: {'hosts': 3" in text for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        (("node1", 2, 0), "expected HOST:PORT of the first host"),
+        (("node1:7007", 2, 2), "count and index are 2 and 2"),
+        (("node1:7007",), "count and index are None and None"),
+        (("auto", 2, 0), "count and index need the address"),
+    ],
+)
+def test_arguments_that_are_not_valid_are_named(given: tuple[object, ...], text: str) -> None:
+    with pytest.raises(ParameterError, match=text):
+        dd.join_hosts(*given)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
+        dd.simulate(dd.load("example:selection"), 1, progress=False)
+        dd.join_hosts("node1:7007", 2, 0)

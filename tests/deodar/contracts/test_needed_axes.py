@@ -1,0 +1,116 @@
+"""No element invents an axis: missing axes are an error or a problem."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.declarations import Needed
+from deodar.elements.history import History
+from deodar.elements.pattern import Pattern
+from deodar.errors import DocumentError, ParameterError
+from deodar.model import files
+from deodar.model.migrations import DEFAULTS_OF_1
+from deodar.numerics.axes import Axis
+from deodar.parameters import parameters
+from tests.deodar.contracts.build import KINDS
+
+AXES = {
+    (kind, p.name): p for kind, cls in KINDS.items() for p in parameters(cls) if p.form in ("axis", "axes")
+}
+NEEDED = [place for place, p in AXES.items() if isinstance(p.default, Needed)]
+SPACE = {"space": {"lower": 0, "upper": 100, "samples": 101}}
+
+
+@pytest.mark.parametrize(("kind", "name"), AXES)
+def test_axes_have_no_default_or_default_to_a_node(kind: str, name: str) -> None:
+    default = AXES[kind, name].default
+    assert isinstance(default, Needed) or default in ((), None), (
+        f"{kind} invents the axis {default}: declare it as needed(...)"
+    )
+
+
+INFERRED = [("Attractor", "axis"), ("PeakPosition", "axis")]
+"""Axes that are inferred from the source if they are not stated."""
+
+NEWER = [("AxisWeights", "axis")]
+"""Axes of kinds that documents of version 1 did not have."""
+
+
+def test_axes_that_had_a_default_before_are_required_or_inferred() -> None:
+    assert {*NEEDED, *INFERRED} - {*NEWER} == {
+        (kind, name) for kind, old in DEFAULTS_OF_1.items() for name in old
+    }
+    assert all(AXES[place].optional and AXES[place].default is None for place in INFERRED)
+
+
+@pytest.mark.parametrize(("kind", "name"), NEEDED)
+def test_a_missing_axis_is_an_error_that_states_what_to_write(kind: str, name: str) -> None:
+    for given in ({}, {name: None}):
+        with pytest.raises(ParameterError) as caught:
+            KINDS[kind](**given)
+        [problem] = caught.value.problems
+        assert problem.where == f"{kind}.{name}" and problem.what == f"{kind} needs {name}"
+        assert problem.fix.startswith(f"Write: {kind}(")
+
+
+def test_the_call_that_an_error_proposes_has_every_value_in_its_place() -> None:
+    with pytest.raises(
+        ParameterError, match=r"Pattern needs axes. Write: Pattern\(name, \[x\]\), where x is an Axis"
+    ):
+        Pattern("p")
+    with pytest.raises(
+        ParameterError,
+        match=r"History needs slots. Write: History\(name, \[x\], slot\), where x and slot are each an Axis",
+    ):
+        History("h", [Axis("x", 0, 1, 2)])
+
+
+@pytest.mark.parametrize(("kind", "name"), NEEDED)
+def test_a_document_without_the_axes_has_a_problem_that_names_an_axis_of_it(kind: str, name: str) -> None:
+    data = {"deodar": 3, "axes": SPACE, "elements": {"e": {"kind": kind}}}
+    with pytest.raises(DocumentError) as caught:
+        files.from_data(data, {})
+    [problem] = [p for p in caught.value.problems if p.where == f"e.{name}"]
+    assert problem.what == f"{kind} needs {name}" and f'"{name}": ' in problem.fix
+    assert '"space"' in problem.fix or name == "slots", problem.fix
+    with pytest.raises(DocumentError, match='"samples"'):
+        files.from_data({**data, "axes": {}}, {})
+
+
+@pytest.mark.parametrize(("kind", "name"), [p for p in [*NEEDED, *INFERRED] if p not in NEWER])
+def test_a_document_of_version_1_without_the_axes_keeps_its_meaning(kind: str, name: str) -> None:
+    body = {"kind": kind, **({"axes": []} if kind in ("History", "SampledHistory") else {})}
+    taken = {"x": {"lower": 0, "upper": 100, "samples": 101}}
+    doc = files.from_data({"deodar": 1, "axes": taken, "elements": {"e": body}}, {})
+    [entry] = doc.entries
+    found = getattr(entry.element, name)
+    assert (tuple(found) if isinstance(found, tuple) else (found,)) == tuple(
+        Axis(**axis) for axis in DEFAULTS_OF_1[kind][name]
+    )
+    again, arrays = files.to_data(doc)
+    assert again["deodar"] == 3 and files.from_data(json.loads(json.dumps(again)), arrays) == doc
+
+
+def test_a_document_of_version_1_runs_as_before() -> None:
+    """A stimulus with the old axis drives a field on the same axis."""
+    x = {"x": {"lower": 0, "upper": 20, "samples": 21}}
+    rows = [{"source": "p", "target": "u"}]
+    data = {
+        "deodar": 1,
+        "axes": x,
+        "elements": {"p": {"kind": "Pattern"}, "u": {"kind": "Field", "axes": ["x"]}},
+        "connections": rows,
+    }
+    model = dd.Model(document=files.from_data(data, {}))
+    shown = dd.simulate(model, 1, record=["p"])["p.output"].values[-1]
+    assert np.array_equal(shown, [float(k % 7 == 3) for k in range(21)])
+
+
+def test_a_document_of_version_1_that_states_its_axes_is_read_as_it_is() -> None:
+    data = {"deodar": 1, "axes": SPACE, "elements": {"e": {"kind": "SpaceCode", "axes": ["space"]}}}
+    [entry] = files.from_data(data, {}).entries
+    assert entry.element.axes == (Axis("space", 0, 100, 101),)  # type: ignore[attr-defined]

@@ -1,0 +1,115 @@
+"""Every kind runs: its values stay finite, alone and in a batch, with the declared shapes."""
+
+from __future__ import annotations
+
+import jax
+import numpy as np
+import pytest
+
+from deodar.compiler.functions import Functions, StepArguments
+from deodar.element import Setting, Time
+from deodar.leaves import leaves
+from deodar.model import find
+from deodar.numerics.axes import shape
+from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, node, record, session
+
+STEPS = 1000
+
+
+@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
+def test_finite_for_a_thousand_steps_from_init_also_in_a_hundred_trials(kind):
+    model = around(any_example(kind), noisy=True)
+    outs = node(model).outs
+    ports = [f"example.{port}" for port in outs]
+    data, alone = (
+        record(model, STEPS * 0.5, ports, trials=trials, every=STEPS * 0.25, dt=0.5) for trials in (100, None)
+    )
+    for port, axes in zip(ports, outs.values(), strict=True):
+        values, single = data[port].values, alone[port].values
+        assert values.shape == (100, 3, *shape(axes))
+        assert np.isfinite(values).all()
+        assert np.isfinite(single).all()
+        # the second of two equal axes has the port's path in its name
+        assert [str(d).rsplit(".", 1)[-1] for d in data[port].dims[2:]] == [a.name for a in axes]
+        for axis in axes:
+            np.testing.assert_array_equal(data[axis.name].values, axis.points)
+        # trial 0 alone and in the batch: the same noise; other programs add in another order
+        np.testing.assert_allclose(values[0], single, rtol=2e-3, atol=2e-3 * max(1.0, abs(single).max()))
+
+
+@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
+def test_every_port_can_be_read_and_has_the_axes_it_declares(kind):
+    model = around(any_example(kind))
+    here, s = node(model), session(model)
+    s.step(1)
+    entry = model["example"]
+    for port in find.readable(model.entry(entry.id)):
+        axes = here.outs[port] if port in here.outs else here.ins[port]
+        assert s.read(f"example.{port}").shape == shape(axes), port
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("kind", [*KINDS, *PARTS])
+def test_one_copy_has_exactly_the_declared_outputs(kind, precision):
+    """The element's own functions, outside a program: shapes and precision of outputs and of the state."""
+    element = any_example(kind)
+    here = node(around(element))
+    at = Setting(here.ins, here.outs, np.dtype(precision))
+    with jax.enable_x64(precision == "float64"):
+        zeros = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
+        if element.external:
+            zeros[element.external] = np.zeros(shape(here.outs["output"]), at.dtype)
+        zeros |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
+        noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
+        time = Time.at(0.0, 1.0, at.dtype)
+        state = element.init(at)
+        functions = Functions(here, {})
+        constants = functions.hoist(element, at, functions.prepare(element, at))
+        read = StepArguments(state, zeros, constants, noise)
+        out = jax.eval_shape(lambda: functions.output(element, at, read, time))
+        assert {port: np.shape(v) for port, v in out.items()} == {
+            port: shape(axes) for port, axes in here.outs.items()
+        }
+        assert {port: v.dtype for port, v in out.items()} == dict.fromkeys(here.outs, at.dtype)
+        assert element.stateful == bool(state)
+        new = jax.eval_shape(lambda: functions.advance(element, at, read, time))
+        assert {k: (np.shape(v), v.dtype) for k, v in new.items()} == {
+            k: (np.shape(v), v.dtype) for k, v in state.items()
+        }
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_outputs_that_depend_on_inputs_of_the_same_step_are_declared(kind):
+    """A port that declares no input of the same instant must not depend on one."""
+    element = any_example(kind)
+    model = around(element)
+    s = session(model)
+    s.step(3)
+    seen = {port: s.read(f"example.{port}") for port in node(model).outs}
+    for port in element.ports():
+        s.set(f'"to {port}".amplitude', 0.2)
+    for port, before in seen.items():
+        passes = type(element).direct.get(port, ())
+        if not passes:
+            assert np.array_equal(s.read(f"example.{port}"), before), port
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_element_runs_at_a_step_of_its_own(kind):
+    """Every kind may run at a multiple of the step; its state then changes at that multiple only."""
+    element = any_example(kind)
+    model = around(element, every=3)
+    data = record(model, 12, [f"example.{port}" for port in node(model).outs], every=1, dt=1.0)
+    for variable in data.data_vars.values():
+        values = variable.values.reshape(13, -1)
+        assert np.isfinite(values).all()
+        if element.stateful:
+            moved = np.flatnonzero((values[1:] != values[:-1]).any(axis=1)) + 1
+            assert (moved % 3 == 0).all()
+
+
+def test_examples_have_parameters_in_range():
+    for kind in (*KINDS, *PARTS):
+        for path, value, p in leaves(any_example(kind)):
+            assert p.lower is None or np.min(value) >= p.lower, path
+            assert p.upper is None or np.max(value) <= p.upper, path

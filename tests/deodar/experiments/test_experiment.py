@@ -1,0 +1,458 @@
+"""Experiments as data: files, designs, batches and single trials with the same rows, and errors before the
+first trial.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+import hashlib
+import json
+import warnings
+
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import DocumentError, OutputExists, ParameterError, RunWarning
+from deodar.experiments import experiment as module
+from deodar.experiments.actions import End, Move, Place, Push, Ramp, Record, Remove, Reset, Set, Snapshot
+from deodar.experiments.events import All, AnyOf, Appears, Crosses, Leaves, Reached, Vanishes, Within
+from deodar.experiments.experiment import Experiment
+from deodar.experiments.factor import Factor, assign
+from deodar.experiments.measures import Measure
+from deodar.experiments.results import ROWS, load_results
+from deodar.experiments.run import run_trial
+from deodar.recording import files
+from tests.deodar.experiments.robots import decider, room, straight
+
+
+def line():
+    """Return a field in which two inputs, from 20 ms on, create one peak."""
+    x = dd.Axis("x", 0, 100, 51)
+    model = dd.Model("choice")
+    u = model.add(
+        dd.Field(
+            "u", [x], tau=10, resting_level=-5, kernel=[dd.Gaussian(1.2, 5)], global_inhibition=0.6, noise=1.0
+        )
+    )
+    for name, center in (("left", 30), ("right", 70)):
+        (
+            model.add(dd.GaussianStimulus(name, [x], center=center, sigma=5, amplitude=6, windows=[(20, 80)]))
+            >> u
+        )
+    return model
+
+
+def choice(**changes):
+    """Return an experiment with this field."""
+    given = {
+        "trials": 4,
+        "conditions": [
+            Appears("detected", "u", threshold=1.0, ends=False),
+            Appears("left up", "u", near=30, radius=8, ends=False),
+            Vanishes("gone", "u"),
+        ],
+        "factors": [
+            Factor("strength", [6.0, 7.0], "left.amplitude"),
+            Factor("place", {"a": {"right.center": 70}, "b": {"right.center": 60}}),
+        ],
+        "measures": [
+            Measure("where", "u.activation", "place", "detected"),
+            Measure("end", "u.activation", "mean"),
+        ],
+    }
+    return Experiment("choice", line(), 150, precision="float64", **(given | changes))
+
+
+def test_a_saved_experiment_is_equal_when_loaded(tmp_path):
+    full = choice(
+        actions=[
+            Push(10, "u", 1.0, 5),
+            Set(50, "u.resting_level", -6, when="detected"),
+            Snapshot(30, "middle", ["u.activation"]),
+            Reset(70, keep_learned=True),
+        ],
+        record=["u.activation"],
+        every=5,
+        seed=3,
+        design="shuffled",
+    )
+    full.save(tmp_path / "e.json")
+    again = Experiment.load(tmp_path / "e.json")
+    assert dc.replace(again, model=full.model) == full
+    assert again.model == str(tmp_path / "e.model.json") and not again.check()
+    with pytest.raises(OutputExists):
+        full.save(tmp_path / "e.json")
+
+
+def test_the_schema_contains_every_kind():
+    found = Experiment.schema()
+    kinds = [part["properties"]["kind"]["const"] for part in found["properties"]["actions"]["items"]["oneOf"]]
+    assert {"Set", "Ramp", "Push", "Place", "Move", "Remove", "Record", "Snapshot", "Reset", "End"} == set(
+        kinds
+    )
+    assert (
+        found["properties"]["conditions"]["additionalProperties"]["oneOf"][0]["properties"]["level"]["type"]
+        == "number"
+    )
+    json.dumps(found)
+
+
+def test_a_batch_gives_the_rows_of_single_trials():
+    experiment = choice()
+    together = experiment.run()
+    assert experiment.setup().batched and len(experiment.setup().pieces()) == 1
+    # the action changes nothing, but prevents a batch
+    alone = dc.replace(experiment, actions=[Set(149, "u.quadrature", "point")])
+    assert not alone.setup().batched
+    single = alone.run()
+    for name in ("outcome", "strength", "place"):
+        assert together[name].values.tolist() == single[name].values.tolist()
+    for name in ("detected", "left up", "gone", "where", "end", "duration"):
+        np.testing.assert_allclose(together[name].values, single[name].values, atol=1e-9)
+    assert len(set(together["detected"].values.tolist())) > 4
+    assert all(
+        27 < where < 33 or 55 < where < 65
+        for where in together["where"].sel(trial=together["place"] == "b").values.tolist()
+    )
+
+
+def test_factors_that_cannot_be_swept_have_separate_batches():
+    experiment = choice(
+        factors=[Factor("width", [4.0, 6.0], "u.kernel.0.sigma"), Factor("noise", [0.0, 1.0], "u.noise")]
+    )
+    assert sorted(map(len, experiment.setup().pieces())) == [8, 8] and experiment.setup().swept == ["u.noise"]
+    assert experiment.run().sizes["trial"] == 16
+
+
+def test_factors_are_assigned_to_trials_by_the_design():
+    factors = [Factor("a", [1, 2], "x"), Factor("b", [1, 2, 3], "y")]
+    crossed = assign(factors, "crossed", 2, 0)
+    assert crossed[:3] == [(0, 0), (0, 0), (0, 1)] and len(crossed) == 12
+    shuffled = assign(factors, "shuffled", 2, 0)
+    assert (
+        sorted(shuffled)
+        == crossed
+        != shuffled
+        == assign(factors, "shuffled", 2, 0)
+        != assign(factors, "shuffled", 2, 1)
+    )
+    drawn = assign(factors, "random", 300, 5)
+    assert len(drawn) == 300 and min(drawn.count(cell) for cell in set(crossed)) > 25
+
+
+def test_combined_conditions_are_detected_and_the_missing_one_is_named():
+    both = [
+        Appears("left up", "u", near=30, radius=8, ends=False),
+        Appears("right up", "u", near=95, radius=4, ends=False),
+    ]
+    conditions = [
+        All("both", ["left up", "right up"]),
+        AnyOf("either", ["left up", "right up"], ends=False),
+        *both,
+        Reached("late", 40, ends=False),
+    ]
+    data = choice(conditions=conditions, factors=[], measures=[]).run()
+    assert set(data["outcome"].values) == {"time"} and set(data["awaited"].values) == {"both"}
+    np.testing.assert_array_equal(data["either"], np.fmin(data["left up"], data["right up"]))
+    assert (data["late"] == 40).all() and np.isnan(data["both"]).all()
+
+
+def test_a_stopped_experiment_resumes_with_the_same_table(tmp_path, monkeypatch):
+    monkeypatch.setattr("deodar.experiments.setup.MOST_COPIES", 5)
+    experiment = choice()
+    whole = experiment.run(tmp_path / "whole")
+    assert len(experiment.setup().pieces()) == 4
+
+    def stop(standing):
+        if standing.rows >= 8:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        experiment.run(tmp_path / "part", progress=stop)
+    file = tmp_path / "part" / ROWS
+    file.write_bytes(file.read_bytes()[:-40])  # as if a kill had truncated the last line
+    assert 4 <= load_results(tmp_path / "part").sizes["trial"] < 16
+    assert experiment.run(tmp_path / "part").identical(whole)
+    for name in ("trials.csv", ROWS):
+        assert sorted((tmp_path / "part" / name).read_text().splitlines()) == sorted(
+            (tmp_path / "whole" / name).read_text().splitlines()
+        )
+    assert load_results(tmp_path / "whole").identical(whole) and files.load_record(
+        tmp_path / "whole" / "trials.nc"
+    ).identical(whole)
+    with pytest.raises(OutputExists, match="another experiment: trials differ"):
+        dc.replace(experiment, trials=5).run(tmp_path / "whole")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.txt").write_text("all of it")
+    with pytest.raises(OutputExists, match="not the folder of an experiment"):
+        experiment.run(tmp_path / "mine")
+
+
+def test_a_stopped_experiment_whose_model_is_of_an_older_version_is_resumed(tmp_path):
+    experiment = choice(trials=1)
+    whole = experiment.run(tmp_path / "out")
+    model, rows = tmp_path / "out" / "model.json", tmp_path / "out" / ROWS
+    old = model.read_text().replace('"deodar": 3', '"deodar": 2')
+    first, *others = rows.read_text().splitlines()
+    about = json.loads(first)
+    about["about"]["model"] = hashlib.sha256(old.encode()).hexdigest()
+    model.write_text(old)
+    rows.write_text("\n".join([json.dumps(about), *others[:-1]]) + "\n")
+    assert experiment.run(tmp_path / "out")["outcome"].identical(whole["outcome"])
+    model.write_text(old.replace('"beta": 4.0', '"beta": 5.0'))
+    with pytest.raises(OutputExists, match="another experiment: model differ"):
+        experiment.run(tmp_path / "out")
+
+
+def test_the_path_of_a_field_alone_means_its_activation():
+    parts = {
+        "conditions": [Crosses("up", "u", ends=False)],
+        "measures": [Measure("end", "u")],
+        "actions": [Snapshot(10, "then", ["u"])],
+    }
+    short, full = (choice(record=[path], factors=[], trials=1, **parts) for path in ("u", "u.activation"))
+    assert [
+        v.place(short.model.document)[1] for v in (short.conditions[0].views[0], short.measures[0].view)
+    ] == ["activation"] * 2
+    assert full.setup().rows([0]) == short.setup().rows([0])
+
+
+def test_records_of_a_field_alone_hold_its_activation(tmp_path):
+    choice(actions=[Snapshot(10, "then", ["u"])], record=["u"], factors=[], measures=[], trials=1).run(
+        tmp_path / "out"
+    )
+    for name in ("000000.nc", "000000-then.nc"):
+        assert list(files.load_record(tmp_path / "out" / "records" / name).data_vars) == ["u.activation"]
+
+
+def version_1(folder, experiment):
+    """Save an experiment, as version 1 wrote it: a path without a port meant the output."""
+    experiment.save(folder / "e.json")
+    data = json.loads((folder / "e.json").read_text()) | {"experiment": 1, "record": ["u"]}
+    data["measures"] = {
+        "end": {"of": "u"},
+        "pushed": {"of": "left"},
+        "high": {"of": "u.activation"},
+        "where": {"of": "pose"},
+    }
+    data["conditions"] = {"up": {"kind": "Crosses", "of": "u"}, "both": {"kind": "All", "of": ["up"]}}
+    data["actions"] = [{"kind": "Snapshot", "at": 3, "label": "then", "of": ["u", "u.input"]}]
+    (folder / "e.json").write_text(json.dumps(data))
+    return folder / "e.json"
+
+
+def test_a_file_of_version_1_means_the_output_by_the_path_of_a_field_alone(tmp_path):
+    found = Experiment.load(version_1(tmp_path, choice()))
+    assert found.record == ("u.output",) and [m.of for m in found.measures] == [
+        "u.output",
+        "left",
+        "u.activation",
+        "pose",
+    ]
+    assert found.conditions[0].of == "u.output" and found.conditions[1].of == ("up",)
+    assert found.actions[0].of == ("u.output", "u.input")
+
+
+@pytest.mark.parametrize("version", [1, 2])
+def test_a_file_of_an_older_version_calls_the_object_of_an_action_thing(tmp_path, version):
+    actions = [Place(2, "box", (50, 20), (4, 30)), Move(3, "box", (60, 20)), Remove(4, "box")]
+    choice(actions=actions, world="arena:blocks").save(tmp_path / "e.json")
+    data = json.loads((tmp_path / "e.json").read_text())
+    assert data["experiment"] == 3 and [action["object"] for action in data["actions"]] == ["box"] * 3
+    for action in data["actions"]:
+        action["thing"] = action.pop("object")
+    (tmp_path / "e.json").write_text(json.dumps(data | {"experiment": version}))
+    assert Experiment.load(tmp_path / "e.json").actions == tuple(actions)
+    # also without the model, which converts the paths of version 1
+    assert Experiment.from_data(data | {"experiment": version, "model": "missing.json"}).actions == tuple(
+        actions
+    )
+    (tmp_path / "e.json").write_text(json.dumps(data))
+    with pytest.raises(DocumentError, match=r"actions\.0\.thing: Place has no such parameter"):
+        Experiment.load(tmp_path / "e.json")
+
+
+def test_a_stopped_experiment_of_version_1_is_resumed(tmp_path):
+    new = choice(trials=1, measures=[Measure("end", "u.output")])
+    whole = new.run(tmp_path / "out")
+    first, *rows = (tmp_path / "out" / ROWS).read_text().splitlines()
+    about = json.loads(first)
+    about["about"] |= {"experiment": 1, "measures": {"end": {"of": "u"}}}
+    (tmp_path / "out" / ROWS).write_text("\n".join([json.dumps(about), *rows[:-1]]) + "\n")
+    assert new.run(tmp_path / "out").drop_attrs().identical(whole.drop_attrs())
+    with pytest.raises(OutputExists, match="another experiment: measures differ"):
+        choice(trials=1, measures=[Measure("end", "u")]).run(tmp_path / "out")
+
+
+def test_actions_switch_records_on_and_off_and_store_snapshots(tmp_path):
+    actions = [
+        Record(30),
+        Record(10, on=False, when="detected"),
+        Snapshot(0, "then", ["u.activation"], when="detected"),
+    ]
+    data = choice(actions=actions, record=["u.activation"], every=5, factors=[], trials=1).run(
+        tmp_path / "out"
+    )
+    assert data.sizes["trial"] == 1
+    record, then = (
+        files.load_record(tmp_path / "out" / "records" / name) for name in ("000000.nc", "000000-then.nc")
+    )
+    at = float(data["detected"][0])
+    assert record["time"].values.tolist() == list(np.arange(35, at + 11, 5)) and then[
+        "time"
+    ].values.tolist() == [at]
+    np.testing.assert_array_equal(then["u.activation"][0], record["u.activation"].sel(time=at))
+
+
+def test_push_ramp_and_reset_change_the_run():
+    model = dd.Model("node")
+    model.add(dd.Field("u", [], tau=10, resting_level=-1))
+    still = {"watch": ["u.activation"], "precision": "float64"}
+    pushed = run_trial(model, 60, actions=[Push(10, "u", 3.0, 20)], **still).values["u.activation"]
+    assert (
+        pushed[10] == -1
+        and pushed[30] == pushed.max() == pytest.approx(-1 + 3 * (1 - 0.9**20))
+        and pushed[31] < pushed[30]
+    )
+    up = Crosses("up", "u.activation", 0.5, ends=False)
+    after = run_trial(
+        model, 60, events=[up], actions=[Push(10, "u", 3.0, 20), Push(4, "u", -9.0, 5, when="up")], **still
+    )
+    moment = int(after.events["up"])
+    below = after.values["u.activation"]
+    np.testing.assert_array_equal(below[: moment + 5], pushed[: moment + 5])
+    assert below[moment + 9] == pytest.approx(pushed[moment + 9] - 9 * (1 - 0.9**5))
+    ramped = run_trial(
+        model,
+        60,
+        actions=[Ramp(10, "u.resting_level", 3.0, 20, start=-1.0), Reset(50), End(55, "enough")],
+        **still,
+    )
+    u, h = [-1.0], [-1.0 + 4.0 * min(max(t - 10, 0), 20) / 20 for t in range(60)]
+    for t in range(50):
+        u.append(u[-1] + (h[t] - u[-1]) / 10)
+    np.testing.assert_allclose(ramped.values["u.activation"][:50], u[:50], atol=1e-12)
+    assert (
+        ramped.values["u.activation"][51] == pytest.approx(-1 + 4 / 10)
+        and ramped.outcome == "enough"
+        and ramped.duration == 55
+    )
+
+
+def test_objects_of_a_world_are_moved_after_an_event():
+    moved = Experiment(
+        "robot",
+        straight(),
+        300,
+        world=room(),
+        conditions=[Crosses("far", "pose", 60, ends=False), Crosses("touched", "touching", 0.5)],
+        actions=[Move(5, "far", (88, 20), when="far")],
+    )
+    data = moved.run()
+    assert not moved.setup().batched and data["outcome"].values.tolist() == ["touched"]
+    assert float(data["touched"][0]) < float(dc.replace(moved, actions=[]).run()["touched"][0])
+
+
+def test_workers_give_the_same_table(tmp_path, monkeypatch):
+    experiment = Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])
+    here = experiment.run()
+    assert experiment.run(tmp_path / "out", workers=1).drop_attrs().identical(here.drop_attrs())
+
+
+def test_very_many_steps_in_total_issue_a_warning(monkeypatch):
+    experiment = Experiment("d", decider(), 50, 4)
+    monkeypatch.setattr(module, "LONG_STEPS", 200)
+    with pytest.warns(
+        RunWarning,
+        match=r"200 steps in total \(4 trials of at most 50 steps of dt = 1\): a smaller number may be meant",
+    ) as told:
+        experiment.run()
+    assert [t.filename for t in told] == [__file__]
+    monkeypatch.setattr(module, "LONG_STEPS", 201)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        experiment.run()
+
+
+@pytest.mark.parametrize(
+    ("changes", "where", "what"),
+    [
+        ({"conditions": [Appears("a", "v")]}, "conditions.a", "nothing is called 'v'"),
+        ({"conditions": [Appears("a", "u", near=300, radius=2)]}, "conditions.a", "no sample lies within 2"),
+        ({"conditions": [All("a", ["b"])]}, "a", "no event 'b'"),
+        ({"conditions": [All("a", ["b"]), All("b", ["a"])]}, "a", "depends on itself"),
+        ({"conditions": [Reached("a", 500)]}, "conditions.a", "can never hold"),
+        ({"measures": [Measure("m", "u.activation", when="nothing")]}, "m", "no event 'nothing'"),
+        ({"actions": [Set(5, "u.tua", 3)]}, "actions.0", "has no parameter 'tua'"),
+        ({"actions": [Set(5, "u.tau", 3, when="found")]}, "actions.0.when", "no condition 'found'"),
+        ({"actions": [Set(500, "u.tau", 3)]}, "actions.0", "is never done"),
+        ({"actions": [Move(5, "box", (1, 2))]}, "actions.0", "the action Move needs a world"),
+        ({"actions": [Record(5)]}, "actions.0", "nothing is recorded"),
+        ({"factors": [Factor("f", [1.0], "left.amplitud")]}, "factors.f", "has no parameter 'amplitud'"),
+        ({"factors": [Factor("f", [-1.0], "u.tau")]}, "factors.f", "lower bound"),
+        ({"factors": [Factor(n, [5.0], "u.tau") for n in "fg"]}, "factors.g", "which the factor f sets too"),
+        ({"record": ["w.output"]}, "record", "nothing is called 'w.output'"),
+        ({"world": "arena:nowhere.json"}, "", "nowhere.json"),
+        ({"every": 0.5}, "every", "not a multiple"),
+        ({"world": "arena:blocks", "conditions": [Within("a", 7.0)]}, "conditions.a", "so it always holds"),
+        ({"world": "arena:blocks", "conditions": [Leaves("a", 7.0)]}, "conditions.a", "so it never holds"),
+    ],
+)  # fmt: skip
+def test_invalid_experiments_are_refused_before_any_trial_runs(tmp_path, changes, where, what):
+    experiment = choice(**({"conditions": [], "factors": [], "measures": []} | changes))
+    with pytest.raises(dd.errors.DeodarError) as refused:
+        experiment.run(tmp_path / "out")
+    assert what in str(refused.value) and where in str(refused.value)
+    assert not (tmp_path / "out").exists() and experiment.check()
+
+
+def test_all_problems_of_a_file_are_reported_at_once(tmp_path):
+    file = tmp_path / "e.json"
+    data = {
+        "experiment": 1,
+        "name": "e",
+        "model": "m.json",
+        "limit": 5,
+        "conditions": {"a": {"kind": "Apears", "field": "u"}},
+    }
+    data |= {
+        "actions": [{"kind": "Set", "at": 3, "path": "u.tau"}],
+        "factors": {"f": {"levels": []}},
+        "measures": {"m": {"off": "u"}},
+    }
+    file.write_text(json.dumps(data))
+    with pytest.raises(DocumentError) as refused:
+        Experiment.load(file)
+    told = str(refused.value)
+    assert (
+        "Did you mean 'Appears'" in told
+        and "a Set needs 'value'" in told
+        and "holds no levels" in told
+        and "Did you mean 'of'" in told
+    )
+    file.write_text(json.dumps(data | {"experiment": 4}))
+    with pytest.raises(DocumentError, match="another version"):
+        Experiment.load(file)
+    file.write_text("{}")
+    with pytest.raises(DocumentError, match="is not an experiment"):
+        Experiment.load(file)
+    file.write_text(json.dumps({"experiment": 1, "name": "e", "model": "m.json"}))
+    with pytest.raises(DocumentError, match="an Experiment needs 'limit'"):
+        Experiment.load(file)
+
+
+def test_duplicate_names_of_columns_are_refused():
+    with pytest.raises(ParameterError, match="'outcome' is a column of every table"):
+        choice(conditions=[Appears("outcome", "u")], measures=[])
+    with pytest.raises(ParameterError, match="'a' is the name of two columns"):
+        choice(conditions=[Appears("a", "u")], measures=[Measure("a", "u")])
+
+
+def test_a_whole_number_of_an_open_parameter_is_written_in_one_way():
+    def written(*levels):
+        actions, factors = [Set(1, "u.tau", levels[0])], [Factor("f", levels, "u.tau")]
+        return json.dumps(Experiment("e", "m.json", 1, actions=actions, factors=factors).to_data())
+
+    assert written(1.0, 2.5) == written(1, 2.5)
+    assert '"levels": [1, 2.5]' in written(1.0, 2.5) and '"value": 1}' in written(1.0, 2.5)

@@ -1,0 +1,283 @@
+"""Document time after 30 days at a step of 1 ms: in single precision every event occurs in the same step
+as in double precision.
+"""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable
+
+import jax
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.compiler.functions import Functions, StepArguments
+from deodar.couplings.delay_line import DelayLine
+from deodar.couplings.reward_gate import RewardGate
+from deodar.element import Element, Setting, Time
+from deodar.elements.boost import Boost
+from deodar.elements.history import History
+from deodar.elements.moving_gaussian import MovingGaussian
+from deodar.elements.sampled_history import SampledHistory
+from deodar.elements.time_series import TimeSeries
+from deodar.errors import TimeError
+from deodar.leaves import leaves
+from deodar.model.model import Model
+from deodar.numerics.axes import shape
+from deodar.parameters import parameters
+from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, example, node
+
+DAY = 86_400_000.0
+RING = dd.Axis("phi", 0, 360, 36, periodic=True)
+
+
+def begun(t0: float, dt: float = 1.0) -> Model:
+    model = dd.Model("late", dt=dt)
+    model.describe(t0=t0)
+    return model
+
+
+def both(model: Model, path: str, duration: float = 12.0, **others: object) -> tuple[np.ndarray, np.ndarray]:
+    single, double = (
+        dd.simulate(model, duration, record=[path], precision=p, **others)[path].values
+        for p in ("float32", "float64")
+    )
+    assert single.dtype == np.float32
+    return single, double
+
+
+@pytest.mark.parametrize("t0", [2.0**24, 3 * DAY, 30 * DAY - 20, 30 * DAY + 0.25, 400 * DAY])
+def test_a_window_of_two_steps_lasts_two_steps_at_late_times(t0: float) -> None:
+    model = begun(t0)
+    model.add(Boost("s", amplitude=2.0, windows=[(t0 + 3, t0 + 5), (t0 + 8, t0 + 9)]))
+    single, double = both(model, "s.output")
+    assert single.tolist() == double.tolist() == [0, 0, 0, 2, 2, 0, 0, 0, 2, 0, 0, 0, 0]
+
+
+def test_a_window_that_is_changed_swept_or_linked_keeps_its_digits() -> None:
+    t0 = 30 * DAY
+    model = begun(t0)
+    model.add(Boost("s", windows=[(t0 + 3, t0 + 5)]))
+    sweep = {"s.windows.0.start": [t0 + 2, t0 + 3, t0 + 4]}
+    seen = dd.simulate(model, 6, record=["s.output"], sweep=sweep)["s.output"].values
+    assert seen.sum(1).tolist() == [3, 2, 1]
+    session = dd.Session(model)
+    session.step(4)
+    assert session.read("s.output") == 1
+    session.set("s.windows.0.start", t0 + 5)
+    assert session.read("s.output") == 0
+    session.set("s.windows.0.stop", t0 + 6)
+    session.step()
+    assert session.read("s.output") == 1
+    model.parameter("begin", t0 + 1)
+    model.link("s.windows.0.start", "begin")
+    assert both(model, "s.output", 6)[0].tolist() == [0, 1, 1, 1, 1, 0, 0]
+
+
+@pytest.mark.parametrize("velocity", [0.1, -1 / 3])
+def test_a_stimulus_moves_in_every_step_at_late_times(velocity: float) -> None:
+    t0 = 30 * DAY
+    model = begun(t0)
+    model.add(
+        MovingGaussian(
+            "s", [RING], center=20.0, sigma=30.0, velocity=velocity, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]
+        )
+    )
+    single, double = both(model, "s.output")
+    np.testing.assert_allclose(single, double, atol=2e-6)
+    time = t0 + np.arange(13)
+    distance = RING.points - (20 + velocity * time + np.interp(time, [t0, t0 + 6], [0, 60]))[:, None]
+    distance -= 360 * np.round(distance / 360)
+    np.testing.assert_allclose(single, np.exp(-0.5 * (distance / 30) ** 2), atol=1e-5)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "hold"])
+@pytest.mark.parametrize("period", [0.0, 7.1, DAY])
+def test_a_time_series_is_exact_at_late_times(interpolation: str, period: float) -> None:
+    t0 = 30 * DAY
+    times = (t0 if period == 0.0 else 0.0) + np.array([1.0, 3.0, 3.5, 6.0])
+    model = begun(t0, dt=0.5)
+    model.add(TimeSeries("s", [], times, [1.0, 2.0, -3.0, 5.0], interpolation=interpolation, period=period))
+    single, double = both(model, "s.output", 15)
+    np.testing.assert_allclose(single, double, atol=1e-5)
+    assert double.std() > 1
+
+
+def test_a_history_keeps_its_interval_at_late_times() -> None:
+    model = begun(30 * DAY)
+    source = model.add(TimeSeries("s", [], 30 * DAY + np.arange(40.0), np.arange(40.0)))
+    source >> model.add(History("h", [], dd.Axis("slot", 0, 9, 10), interval=3.0))
+    single, double = both(model, "h.output", 31)
+    np.testing.assert_array_equal(single, double)
+    assert (np.diff(double[-1]) == -3).all()
+
+
+def test_a_step_that_is_not_a_binary_fraction_is_counted_exactly() -> None:
+    """With a step of 0.1 ms, a window opens in the right step 2^26 steps after the start."""
+    t0 = 2.0**26 * 0.1
+    model = begun(t0, dt=0.1)
+    model.add(Boost("s", windows=[(t0 + 0.3, t0 + 0.5)]))
+    single, double = both(model, "s.output", 0.8)
+    assert single.tolist() == double.tolist() == [0, 0, 0, 1, 1, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_times_that_cannot_be_distinguished_are_refused(precision: str) -> None:
+    model = begun(2.0**45)
+    model.add(dd.Field("u", []))
+    with pytest.raises(
+        TimeError,
+        match=(
+            r"time 3.51844e\+13 ms is 3.52e\+13 steps of dt = 1 from time 0; times are exact up to 1.76e\+13"
+        ),
+    ):
+        dd.simulate(model, 10, precision=precision)
+    with pytest.raises(TimeError, match="times are exact up to"):
+        dd.Session(model, precision=precision)
+    model.describe(t0=0)
+    session = dd.Session(model, precision=precision)
+    with pytest.raises(TimeError, match=r"at most 1\.76"):
+        session.run(2.0**45)
+
+
+MULTIPLY_THE_STEP = {
+    ("Attractor", "fastest"),
+    ("AttractorVelocity", "fastest"),
+    ("Integrator", "rate"),
+    ("AdaptiveWeights", "rate"),
+    ("Hebbian", "rate"),
+    ("Hebbian", "decay"),
+}
+"""Rates that multiply the step and never the elapsed time: single precision is sufficient."""
+
+
+WINDOWED = sorted(kind for kind, cls in KINDS.items() if any(p.name == "windows" for p in parameters(cls)))
+"""Kinds with windows that switch them on and off."""
+
+
+def windowed(kind: str, t0: float) -> Model:
+    """Return the example of a kind, on in two windows, with a source for each input."""
+    model = around(dc.replace(example(kind), windows=[(t0 + 3, t0 + 5), (t0 + 8, t0 + 9)]))  # type: ignore[call-arg]
+    model.describe(t0=t0)
+    return model
+
+
+def alone(t0: float, element: Element, given: np.ndarray | None = None) -> Model:
+    """Return an element called `example`, with a time series from t0 on as its input."""
+    model = begun(t0)
+    model.add(element)
+    if given is not None:
+        model.add(TimeSeries("s", [], t0 + np.arange(len(given)), given)) >> model["example"]
+    return model
+
+
+RISING = np.arange(15.0)
+SLOTS = dd.Axis("slot", 0, 2, 3)
+SCENES: dict[str, Callable[[float], Model]] = {
+    "DelayLine": lambda t0: alone(t0, DelayLine("example", [], 4.0, 4), RISING),
+    "History": lambda t0: alone(t0, History("example", [], SLOTS, interval=3.0), RISING),
+    "MovingGaussian": lambda t0: alone(
+        t0,
+        MovingGaussian(
+            "example", [RING], center=20.0, sigma=30.0, velocity=0.1, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]
+        ),
+    ),
+    "RewardGate": lambda t0: alone(t0, RewardGate(duration=4.0, name="example"), (RISING == 3) * 1.0),
+    "SampledHistory": lambda t0: alone(
+        t0, SampledHistory("example", [], SLOTS, t0 + np.array([2.0, 5.0, 9.0])), RISING
+    ),
+    "TimeSeries": lambda t0: alone(
+        t0, TimeSeries("example", [], t0 + np.array([1.0, 3.0, 3.5, 6.0]), [1.0, 2.0, -3.0, 5.0])
+    ),
+}
+"""For each kind that reads time, other than by windows, a model with an event within twelve steps after t0.
+"""
+
+LONG = 30 * DAY + 7
+LASTING: dict[str, Callable[[], Model]] = {
+    "DelayLine": lambda: alone(0.0, DelayLine("example", [], LONG, 2, initial=-1.0), RISING + 5),
+    "History": lambda: alone(0.0, History("example", [], SLOTS, interval=LONG), RISING + 5),
+    "RewardGate": lambda: alone(0.0, RewardGate(duration=LONG, name="example"), (RISING == 0) * 1.0),
+    "TimeSeries": lambda: alone(
+        0.0, TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=LONG)
+    ),
+}
+"""For each kind with a duration, a model whose output changes after a duration of 30 days and 7 ms."""
+
+
+class Watched(Time):
+    """A time that records whether it was read, and not only the step."""
+
+    read: set[str] = set()
+
+    @property
+    def wide(self) -> object:
+        self.read.add("wide")
+        return super().wide
+
+
+def reads_time(kind: str) -> bool:
+    """Return whether a step of the example of a kind depends on the time."""
+    given = example(kind)
+    element = dc.replace(given, windows=[(1, 2)]) if kind in WINDOWED else given  # type: ignore[call-arg]
+    here = node(around(element))
+    at = Setting(here.ins, here.outs, np.dtype("float32"))
+    inputs = {port: np.zeros(shape(axes), at.dtype) for port, axes in here.ins.items()}
+    if element.external:
+        inputs[element.external] = np.zeros(shape(here.outs["output"]), at.dtype)
+    inputs |= {p: np.zeros(shape(here.outs[p]), at.dtype) for p in element.reads_own_output}
+    noise = None if element.noise_axes() is None else np.ones(shape(element.noise_axes()), at.dtype)  # type: ignore[arg-type]
+    time = Watched.at(0.0, 1.0, at.dtype)
+
+    def step() -> object:
+        state, functions = element.init(at), Functions(here, {})
+        constants = functions.hoist(element, at, functions.prepare(element, at))
+        read = StepArguments(state, inputs, constants, noise)
+        return functions.output(element, at, read, time), functions.advance(element, at, read, time)
+
+    Watched.read.clear()
+    jax.eval_shape(step)
+    return bool(Watched.read)
+
+
+def test_every_kind_that_reads_time_is_tested() -> None:
+    found = {kind for kind in KINDS if reads_time(kind)}
+    lasting = {kind for kind, cls in KINDS.items() if any(p.role == "duration" for p in parameters(cls))}
+    assert found | lasting == {*WINDOWED, *SCENES}, "a kind that reads time needs an entry in SCENES"
+    assert lasting == set(LASTING), "a kind with a duration needs an entry in LASTING"
+
+
+@pytest.mark.parametrize("kind", sorted({*WINDOWED, *SCENES}))
+def test_the_output_of_a_kind_does_not_depend_on_the_start_time(kind: str) -> None:
+    scene = SCENES.get(kind, lambda t0: windowed(kind, t0))
+    seen, late = (
+        dd.simulate(scene(t0), 12, dt=1, record=["example.output"])["example.output"].values
+        for t0 in (0.0, 30 * DAY)
+    )
+    assert np.abs(np.diff(seen, axis=0)).max() > 0.01
+    np.testing.assert_allclose(late, seen, atol=1e-5 * np.abs(seen).max())
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("kind", LASTING)
+def test_a_run_of_a_month_ends_at_the_exact_step(kind: str, precision: str) -> None:
+    session = dd.Session(LASTING[kind](), precision=precision)
+    session.step(5)
+    then = session.snapshot()
+    # kinds that count steps in their state do not count the days between
+    session.restore(dc.replace(then, clock=then.clock.after(int(30 * DAY) - 5)))
+    seen: list[float] = []
+    for _ in range(12):
+        seen.append(float(np.ravel(session.read("example.output"))[0]))
+        session.step()
+    assert len(set(seen[:7])) == 1 and seen[7] != seen[6]
+
+
+def test_every_parameter_that_is_a_time_or_duration_is_declared_exact() -> None:
+    for name, cls in {**KINDS, **PARTS}.items():
+        found = {p.name: p for p in parameters(cls)}
+        found |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}
+        for p in found.values():
+            assert p.exact or p.role not in ("moment", "duration"), (name, p.name)
+            assert p.exact or "/time" not in p.unit or (name, p.name) in MULTIPLY_THE_STEP, (name, p.name)

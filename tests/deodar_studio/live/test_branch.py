@@ -1,0 +1,303 @@
+"""Runs that continue from an earlier moment have the bits of an undisturbed session."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import jax
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.errors import ParameterError, RecordError
+from deodar.model import edit
+from deodar.model.document import Document
+from deodar_studio.live import branch_states
+from deodar_studio.live.branch_states import BranchStates, size
+from deodar_studio.live.engine import Injection
+from deodar_studio.live.trace import TraceRequest
+from tests.deodar.session.models import mixed
+from tests.deodar.worlds.test_recording import driving
+from tests.deodar_studio.live.test_engine import Driven
+
+
+def bits(session: dd.Session) -> dict[str, bytes]:
+    """Return the whole state of a session, as bytes."""
+    session.scene()  # the world advances to the present
+    kept = session.snapshot()
+    out = {
+        f"{ident}.{held}.{name}": values.tobytes()
+        for ident, pair in kept.states.items()
+        for held, row in enumerate(pair)
+        for name, values in row.items()
+    }
+    out["clock"] = repr((kept.clock.tick, kept.clock.time, kept.seed)).encode()
+    if kept.world is not None:
+        out["world"] = b"".join(np.asarray(a).tobytes() for a in jax.tree.leaves(kept.world.world))
+        out["objects"] = repr(kept.world.objects).encode()
+    return out
+
+
+class Branching(Driven):
+    """An engine whose states are stored at every exchange, each of `stride` steps."""
+
+    def __init__(self, model: dd.Model, world: Any = None) -> None:
+        super().__init__()
+        self.model = model
+        self.do(lambda: self.engine.load(dd.Session(model, seed=3, world=world)))
+        self.ident = next(e.id for e in model.document.entries if isinstance(e.element, dd.Field))
+        self.place = (self.ident, "activation")
+        self.do(lambda: self.engine.show([self.place], [TraceRequest(self.place)]))
+        self.until(lambda: self.place in self.engine.published.arrays)  # its reader is compiled
+
+    def step(self, n: int, stride: int = 7) -> None:
+        for done in range(0, n, stride):
+            tick = self.session.tick + min(stride, n - done)
+            self.do(lambda done=done: self.engine.step(min(stride, n - done)))
+            self.until(lambda tick=tick: self.session.tick == self.engine.published.tick == tick)
+
+    def branch(self, time: float) -> Document:
+        return self.do(lambda: self.engine.branch(time))
+
+    @property
+    def session(self) -> dd.Session:
+        found = self.engine.session
+        assert found is not None
+        return found
+
+
+@pytest.fixture
+def made() -> Iterator[Callable[..., Branching]]:
+    all: list[Branching] = []
+
+    def make(model: dd.Model, world: Any = None) -> Branching:
+        all.append(Branching(model, world))
+        return all[-1]
+
+    yield make
+    for one in all:
+        one.engine.close()
+
+
+def test_a_branch_has_the_bits_of_an_undisturbed_session(made: Callable[..., Branching]) -> None:
+    one = made(mixed())
+    one.step(70)
+    for tick in (63, 35, 14):  # each time from what remains of the past
+        one.branch(tick)
+        script = dd.Session(mixed(), seed=3)
+        script.step(tick)
+        assert bits(one.session) == bits(script), tick
+        one.step(20)
+        script.step(20)
+        assert bits(one.session) == bits(script), tick
+        one.branch(tick)
+    span = one.engine.ring.span()
+    assert span is not None and span.last == 14 and one.session.tick == 14
+    assert one.engine.traces[TraceRequest(one.place)].since(0)[-1, 0] == 14
+
+
+def test_changes_before_the_moment_are_made_again_at_their_ticks(made: Callable[..., Branching]) -> None:
+    """A live value, another program, a step and an injected input: each lies after the stored state."""
+    one, script = made(mixed()), dd.Session(mixed(), seed=3)
+    states = one.engine.states
+    one.step(7)
+    assert states.ticks[0] == 0
+    states._due = 1e9  # no further state: everything is computed from the start
+    docs: list[Document] = [one.session.document]
+
+    def change(path: str, value: Any) -> None:
+        docs.append(edit.change_all(docs[-1], {path: value}))
+        one.do(lambda: one.engine.adopt(one.model, docs[-1]))
+        one.until(lambda: one.session.document == docs[-1] and not one.engine.busy)
+
+    change("u.resting_level", -4.0)
+    one.step(7)
+    one.do(lambda: one.engine.inject(Injection(one.ident, np.full(31, 2.0))))
+    one.step(7)
+    one.do(lambda: one.engine.inject(None))
+    change("u.sigmoid", dd.Step())
+    one.step(7)
+    docs.append(edit.describe(docs[-1], dt=0.5))
+    one.do(lambda: one.engine.adopt(one.model, docs[-1]))
+    one.step(14)
+    later = bits(one.session)
+
+    script.step(7)
+    script.set("u.resting_level", -4.0)
+    script.step(7)
+    script.inject("u", np.full(31, 2.0), 7)
+    script.set("u.sigmoid", dd.Step())
+    script.step(7)
+    script.edit(docs[-1])
+    script.dt = 0.5
+    script.step(7)
+    time = script.time
+    found = one.branch(time)
+    assert states is one.engine.states and states.ticks == [0]
+    assert found == docs[-1]
+    assert one.session.dt == script.dt == 0.5
+    assert bits(one.session) == bits(script)
+    one.step(7)
+    script.step(7)
+    assert bits(one.session) == bits(script) == later
+
+
+def test_a_moment_before_an_edit_has_the_parameters_of_that_moment(made: Callable[..., Branching]) -> None:
+    one = made(mixed())
+    one.step(14)
+    before = one.session.document
+    one.do(lambda: one.engine.adopt(one.model, edit.change_all(before, {"u.resting_level": -9.0})))
+    one.step(14)
+    assert one.branch(7) == before
+    script = dd.Session(mixed(), seed=3)
+    script.step(7)
+    assert bits(one.session) == bits(script)
+
+
+def test_a_branch_of_a_world_has_its_objects_and_its_motion(made: Callable[..., Branching]) -> None:
+    one, script = made(driving(), dd.Arena("blocks")), dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
+    scene = script.scene()
+    assert scene is not None
+    name = next(box.name for box in scene.boxes if not box.fixed)
+    one.step(14)
+    one.engine.states._due = 1e9
+    place = (0.9, 0.4)
+    one.do(lambda: one.engine.rearrange(lambda session: session.place("late", place, (0.04, 0.04))))
+    one.do(lambda: one.engine.rearrange(lambda session: session.remove(name)))
+    one.step(14)
+    script.step(14)
+    script.place("late", place, (0.04, 0.04))
+    script.remove(name)
+    script.step(7)
+    one.branch(script.time)
+    assert bits(one.session) == bits(script)
+    one.step(30)
+    script.step(30)
+    assert bits(one.session) == bits(script)
+    one.branch(7 * 16)
+    first = dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
+    first.step(7)
+    assert bits(one.session) == bits(first), "the object is back"
+    trail = one.engine.track.trail.places
+    assert trail[0] == one.engine.ring.at(0)[1].trail.places[0]  # type: ignore[index]
+
+
+def test_a_branch_returns_to_the_world_of_its_moment(made: Callable[..., Branching]) -> None:
+    one = made(driving(), dd.Arena("blocks"))
+    one.step(14)
+    one.engine.states._due = 1e9
+    one.do(lambda: one.engine.see(dd.Arena("large")))
+    one.step(14)
+    after = bits(one.session)
+    one.step(7)
+    one.branch(28 * 16)
+    assert bits(one.session) == after and "large" in str(one.session.world.describe())  # type: ignore[union-attr]
+    one.branch(7 * 16)
+    script = dd.Session(driving(), seed=3, world=dd.Arena("blocks"))
+    script.step(7)
+    assert bits(one.session) == bits(script)
+
+
+def test_a_moment_before_the_first_element_is_restored(made: Callable[..., Branching]) -> None:
+    one = made(mixed())
+    full, empty = one.session.document, Document("nothing yet")
+    one.do(lambda: one.engine.adopt(one.model, empty))
+    one.until(lambda: one.session.document == empty and not one.engine.busy)
+    one.do(lambda: one.engine.show([], []))
+    one.do(one.engine.reset)
+    one.step(14)
+    one.do(lambda: one.engine.see(dd.Arena("blocks")))
+    one.do(lambda: one.engine.adopt(one.model, full))
+    one.until(lambda: one.session.document == full and not one.engine.busy)
+    one.step(14)
+    after = bits(one.session)
+    one.step(7)
+    one.branch(28)
+    assert bits(one.session) == after
+    assert one.branch(7) == empty and one.session.tick == 7 and one.session.world is None
+
+
+def test_a_refused_return_to_a_moment_keeps_the_edit_that_is_being_compiled(
+    made: Callable[..., Branching],
+) -> None:
+    one = made(mixed())
+    one.step(7)
+    wrong = dc.replace(one.do(one.engine.snapshot), precision="float64")
+    one.engine.states._too_large = 2**40
+
+    def adopt_and_return(coming: Document, back: Callable[[], Any], error: type[Exception]) -> None:
+        one.engine.adopt(one.model, coming)  # in one call, so that its compilation has not ended
+        with pytest.raises(error):
+            back()
+
+    for sigmoid, back, error in (
+        (dd.Step(), lambda: one.engine.branch(7), RecordError),
+        (dd.Absolute(), lambda: one.engine.restore(wrong), ParameterError),
+    ):
+        coming = edit.change_all(one.session.document, {"u.sigmoid": sigmoid})
+        one.do(lambda coming=coming, back=back, error=error: adopt_and_return(coming, back, error))
+        one.until(lambda coming=coming: one.session.document == coming and not one.engine.busy)
+
+
+def test_a_world_that_cannot_be_read_again_is_named(made: Callable[..., Branching]) -> None:
+    class Window(dd.Arena):
+        repeatable = False
+
+    one = made(driving(), Window("blocks"))
+    one.step(14)
+    before = bits(one.session)
+    with pytest.raises(RecordError, match="the world Window cannot be read again"):
+        one.branch(0)
+    assert bits(one.session) == before
+
+
+def test_memory_is_bounded_and_a_moment_that_is_gone_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(branch_states, "SHARE", 1e9)
+    session = dd.Session(mixed())
+    one = size(session.snapshot())
+    assert one > 0
+    states = BranchStates(interval=0.0, most=6 * one)
+    for _ in range(40):
+        states.follow(session)
+        session.step(3)
+        assert states.nbytes <= 6 * one
+    assert states.ticks[0] == 0 and len(states.ticks) >= 4, "thinned, from the start on"
+    small = BranchStates(most=one)
+    small.follow(session)
+    with pytest.raises(RecordError, match="a state of it takes"):
+        small.branch(session, session.tick, lambda *_: None)
+    with pytest.raises(RecordError, match="no state before it is kept"):
+        BranchStates().branch(session, 0, lambda *_: None)
+
+
+def test_an_error_while_a_moment_is_computed_leaves_the_present_state() -> None:
+    session = dd.Session(mixed())
+    states = BranchStates()
+    states.follow(session)
+    session.step(50)
+    before = bits(session)
+
+    def stop(done: int, steps: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        states.branch(session, 20, stop)
+    assert bits(session) == before
+    states.branch(session, 20, lambda *_: None)
+    script = dd.Session(mixed())
+    script.step(20)
+    assert bits(session) == bits(script)
+
+
+def test_progress_counts_the_steps() -> None:
+    session = dd.Session(mixed())
+    states = BranchStates()
+    states.follow(session)
+    session.step(5000)
+    said: list[tuple[int, int]] = []
+    states.branch(session, 4000, lambda *at: said.append(at))
+    assert said[-1] == (4000, 4000) and len(said) > 2
+    assert [done for done, _ in said] == sorted(done for done, _ in said)
+    assert dc.asdict(session.snapshot().clock)["tick"] == 4000

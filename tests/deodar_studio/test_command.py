@@ -1,0 +1,204 @@
+"""`deodar studio`, started as by a user."""
+
+from __future__ import annotations
+
+import http.client
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
+
+import pytest
+
+from deodar.cli import main
+from deodar_studio.web import app, serve
+from deodar_studio.web.service import Service
+from tests.deodar_studio.page import play, studio
+
+
+def fetch(address: str) -> tuple[int, bytes]:
+    """Return status and content of the page at an address."""
+    connection = http.client.HTTPConnection("127.0.0.1", urlsplit(address).port, timeout=600)
+    try:
+        there = urlsplit(address)
+        connection.request(
+            "GET", "/", headers={"Cookie": f"deodar_token_{there.port}={there.query.removeprefix('token=')}"}
+        )
+        answer = connection.getresponse()
+        return answer.status, answer.read()
+    finally:
+        connection.close()
+
+
+def start(folder: Path, *words: str) -> tuple[subprocess.Popen[str], str]:
+    """Start a studio in a process of its own; return it and the address that it prints."""
+    environment = os.environ | {"DEODAR_STATE": str(folder / "state")}
+    command = [sys.executable, "-m", "deodar", "studio", "--no-browser", "--port", "0", *words]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder, env=environment
+    )
+    assert process.stdout is not None
+    return process, process.stdout.readline().split()[-1]
+
+
+def test_the_studio_prints_its_address_responds_and_ends_with_ctrl_c(tmp_path: Path) -> None:
+    process, address = start(tmp_path)
+    try:
+        there = urlsplit(address)
+        assert there.hostname == "127.0.0.1" and len(there.query.removeprefix("token=")) == 32
+        assert b"<title>" in fetch(address)[1]
+    finally:
+        process.send_signal(signal.SIGINT)
+        _, told = process.communicate(timeout=600)
+    assert process.returncode == 0 and told == ""
+
+
+def test_a_file_is_opened_by_a_relative_path_and_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    shutil.copy(Path(__file__).parents[2] / "examples" / "node.json", tmp_path / "folder")
+    (tmp_path / "link.json").symlink_to(tmp_path / "folder" / "node.json")
+    for name in ("folder/node.json", "link.json"):
+        process, address = start(tmp_path, name)
+        try:
+            play(address, lambda p: p.until(lambda: p.document and p.document["file"] == "node.json"))
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=600)
+
+
+def test_no_token_starts_the_studio_without_a_token(tmp_path: Path) -> None:
+    process, address = start(tmp_path, "--no-token")
+    try:
+        assert urlsplit(address).query == "" and b"<title>" in fetch(address)[1]
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=600)
+
+
+class FakeServer:
+    """A server that answers at an address and ends."""
+
+    def __init__(self, address: str, ready: Callable[[str], None], ended: Callable[[], None]) -> None:
+        self.address, self.ready, self.ended = address, ready, ended
+
+    def run(self, sockets: list[socket.socket]) -> None:
+        self.ready(self.address)
+        self.ended()
+
+
+def opened_at(
+    address: str, browser: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, opens: Callable[[str], None]
+) -> list[str]:
+    """Start a studio that answers at an address; return the addresses that it prints."""
+    said: list[str] = []
+    monkeypatch.setattr(serve.webbrowser, "open", opens)
+    monkeypatch.setattr(serve, "prepare", lambda *given: (FakeServer(address, *given[-2:]), None))
+    serve.serve(Service(folder, port=0), browser, said.append)
+    return said
+
+
+def test_the_browser_is_opened_when_the_studio_responds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    for browser in (True, False):
+        assert opened_at("http://here/", browser, tmp_path, monkeypatch, opened.append) == ["http://here/"]
+    assert opened == ["http://here/"]
+
+
+def test_the_token_is_not_in_the_command_line_of_the_browser(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Other users of the machine can read it there."""
+    files: list[Path] = []
+
+    def opens(address: str) -> None:
+        assert "secret" not in address
+        file = Path(url2pathname(urlsplit(address).path))
+        assert file.stat().st_mode & 0o777 == 0o600 and file.parent.stat().st_mode & 0o777 == 0o700
+        assert 'content="0; url=http://here/?token=secret&amp;x=&quot;"' in file.read_text()
+        files.append(file)
+
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    address = 'http://here/?token=secret&x="'
+    assert opened_at(address, True, tmp_path, monkeypatch, opens) == [address]
+    assert len(files) == 1 and list(tmp_path.iterdir()) == []
+
+
+def test_without_space_for_a_temporary_file_no_browser_is_opened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "gone"))
+    assert opened_at("http://here/?token=secret", True, tmp_path, monkeypatch, opened.append) == [
+        "http://here/?token=secret"
+    ]
+    assert opened == [] and "the browser is not opened" in caplog.text
+
+
+def test_the_redirect_file_is_removed_when_the_studio_is_terminated(tmp_path: Path) -> None:
+    """A script replaces the browser: it writes its argument and the content of the file."""
+    browser = tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/told\ncat "${{1#file://}}" > {tmp_path}/page\n')
+    browser.chmod(0o700)
+    (tmp_path / "tmp").mkdir()
+    environment = os.environ | {
+        "DEODAR_STATE": str(tmp_path / "state"),
+        "TMPDIR": str(tmp_path / "tmp"),
+        "BROWSER": str(browser),
+    }
+    command = [sys.executable, "-m", "deodar", "studio", "--port", "0"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, text=True, cwd=tmp_path, env=environment
+    ) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().split()[-1]
+        assert b"<title>" in fetch(address)[1]  # the browser is opened before the first request is answered
+        process.send_signal(signal.SIGTERM)
+        process.wait(600)
+    assert address in (tmp_path / "page").read_text()
+    assert urlsplit(address).query not in (tmp_path / "told").read_text()
+    assert list((tmp_path / "tmp").glob("deodar-studio-*")) == []
+
+
+def test_a_port_in_use_is_reported(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        assert main(["studio", "--no-browser", "--port", str(taken.getsockname()[1])]) == 1
+    assert "--port 0" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["--port", "70000"], ["--port", "x"], ["gone/x.json"]])
+def test_invalid_calls_end_with_status_2(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stopped:
+        main(["studio", "--no-browser", *words])
+    assert stopped.value.code == 2
+
+
+def test_an_unknown_world_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["studio", "--no-browser", "--world", "pictur:x.png"]) == 1
+    assert "picture" in capsys.readouterr().err
+
+
+def test_a_missing_page_is_an_error_that_states_what_to_type(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(app, "STATIC", tmp_path)
+    monkeypatch.setenv("DEODAR_STATE", str(tmp_path))
+    with studio(tmp_path) as address:
+        status, content = fetch(address)
+    assert status == 503 and b"python studio/build.py build" in content

@@ -1,0 +1,334 @@
+"""The world from above, over a real socket: the messages to the page, and moves by the user."""
+
+from __future__ import annotations
+
+import base64
+import math
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+import deodar as dd
+from deodar.elements.boost import Boost
+from deodar.elements.motor import Motor
+from deodar.worlds.arena.arena import Arena
+from deodar_robots.zenoh.served_world import ServedWorld
+from tests.deodar_studio.page import Page, page, play, studio
+
+LAYOUT: dict[str, Any] = {
+    "arena": {"x": [0, 3], "y": [0, 2]},
+    "boxes": [{"name": "crate", "center": [0.8, 1.5], "size": [0.2, 0.2], "color": [0.7, 0.5, 0.3]}],
+    "start": [0.2, 1.0],
+    "goal": [2.5, 0.5],
+}
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    """Save a model of a robot that drives straight on."""
+    model = dd.Model("driving", dt=64)
+    for name in ("left", "right"):
+        model.add(Boost(f"go {name}", [], 1000.0)) >> model.add(Motor(name, [], name))
+    dd.save(model, tmp_path / "driving.json")
+    return tmp_path / "driving.json"
+
+
+def scene(one: Page) -> dict[str, Any]:
+    return one.said["scene"]["scene"]
+
+
+def box(one: Page, name: str) -> dict[str, Any]:
+    return next((b for b in scene(one)["boxes"] if b["name"] == name), {})
+
+
+def path(one: Page) -> list[list[float]]:
+    """Return all positions that the page received, as a page stores them."""
+    out: list[list[float]] = []
+    for message in one.all:
+        if message["type"] == "bodies":
+            out = ([] if message["fresh"] else out) + message["path"]
+    return out
+
+
+async def shown(one: Page) -> None:
+    await one.runs()
+    await one.until(lambda: one.said.get("scene", {}).get("scene"))
+
+
+def test_the_page_receives_the_world_and_the_path_of_the_robot(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        assert scene(one)["unit"] == "m" and scene(one)["border"] == [0, 0, 3, 2]
+        assert box(one, "crate") == {
+            "name": "crate",
+            "x": 0.8,
+            "y": 1.5,
+            "width": 0.2,
+            "height": 0.2,
+            "color": [0.7, 0.5, 0.3],
+            "fixed": False,
+        }
+        assert scene(one)["marks"] == [{"name": "goal", "x": 2.5, "y": 0.5, "fixed": False}]
+        assert one.said["scene"]["camera"], "an e-puck has one"
+        assert one.said["scene"]["can_place"] and one.said["scene"]["picture"] is None
+        assert "bodies" not in one.said, "it did not ask"
+        await one.do("watch_world", on=True)
+        await one.do("speed", factor=None)
+        await one.do("step", n=60)
+        await one.until(lambda: one.clock["tick"] == 60 and one.said["bodies"]["bodies"][0]["x"] > 0.5)
+        body = one.said["bodies"]["bodies"][0]
+        assert body["name"] == "e-puck" and body["radius"] == pytest.approx(0.037)
+        gaps = [math.dist(a, b) for a, b in zip(path(one), path(one)[1:], strict=False)]
+        assert (
+            path(one)[0] == pytest.approx([0.2, 1.0])
+            and len(gaps) > 5
+            and math.dist(path(one)[-1], (body["x"], body["y"])) < 0.02
+        )
+        scenes = [m for m in one.all if m["type"] == "scene" and m["scene"]]
+        assert len(scenes) == 1, "a scene without motion is sent once"
+        async with page_of(one) as late:
+            await late.do("watch_world", on=True)
+            await late.until(lambda: path(late) == path(one))
+        await one.do("reset")
+        await one.until(lambda: path(one) == [pytest.approx([0.2, 1.0])])
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        page_of.address = address  # type: ignore[attr-defined]
+        play(address, story)
+
+
+def page_of(one: Page) -> Any:
+    """Connect a further page to the same studio."""
+    return page(page_of.address)  # type: ignore[attr-defined]
+
+
+def test_an_object_moved_during_the_run_stops_the_robot(file: Path) -> None:
+    arena = Arena(LAYOUT)
+
+    async def story(one: Page) -> None:
+        await shown(one)
+        await one.do("watch_world", on=True)
+        await one.do("speed", factor=8)
+        await one.do("play")
+        await one.do("move_object", name="crate", x=1.2, y=1.0)
+        await one.until(lambda: box(one, "crate")["x"] == 1.2)
+        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.06)
+        tick = one.clock["tick"]
+        await one.until(lambda: one.clock["tick"] > tick + 30)
+        assert one.said["bodies"]["bodies"][0]["x"] == pytest.approx(1.1 - 0.037, abs=2e-3), (
+            "it is in front of the crate"
+        )
+        await one.do("move_object", name="goal", x=2.0, y=0.4)
+        await one.until(lambda: scene(one)["marks"][0]["x"] == 2.0)
+        await one.do("remove_object", name="crate")
+        await one.until(lambda: not scene(one)["boxes"])
+        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] > 1.3)
+        await one.do("place_object", name="block", x=1.0, y=0.3, width=0.1, height=0.2, color=[0, 0, 1])
+        await one.until(lambda: box(one, "block").get("height") == 0.2)
+        assert box(one, "block")["color"] == [0, 0, 1]
+
+    with studio(file.parent, file, world=arena) as address:
+        play(address, story)
+    assert [t.name for t in arena.objects.permanent()] == ["block"]
+
+
+def test_a_position_that_does_not_fit_is_refused_and_the_object_does_not_move(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        for request, said in [
+            ({"type": "move_object", "name": "crate", "x": 0.2, "y": 1.0}, "cover 'e-puck'"),
+            ({"type": "move_object", "name": "crate", "x": 9, "y": 1.0}, "outside the border"),
+            ({"type": "move_object", "name": "goal", "x": 0.8, "y": 1.5}, "inside 'crate'"),
+            ({"type": "move_object", "name": "crat", "x": 1, "y": 1}, "'crat'"),
+            ({"type": "remove_object", "name": "goal"}, "is a mark"),
+            ({"type": "place_object", "name": "flat", "x": 1, "y": 1, "width": 0.1, "height": 0}, "no area"),
+            (
+                {"type": "place_object", "name": "b", "x": 1, "y": 1, "width": 1, "height": 1, "color": [2]},
+                "red, green and blue",
+            ),
+        ]:
+            (problem,) = (await one.ask(**request))["problems"]
+            assert said in problem["what"], problem
+        assert box(one, "crate")["x"] == 0.8
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        play(address, story)
+
+
+def test_an_eye_shows_its_events_and_nothing_can_be_placed(file: Path) -> None:
+    model = dd.Model("turning", dt=10)
+    model.add(Boost("to the right", [], 1200.0)) >> model.add(Motor("pan", [], "pan"))
+    dd.save(model, file.parent / "turning.json")
+
+    async def story(one: Page) -> None:
+        await shown(one)
+        assert one.said["scene"]["picture"] == {"name": "events", "columns": 128, "rows": 128}
+        assert not one.said["scene"]["can_place"]
+        await one.do("watch_world", on=True)
+        await one.until(lambda: "bodies" in one.said)
+        before = one.said["bodies"]["picture"]
+        assert len(base64.b64decode(before)) == 3 * 128 * 128
+        await one.do("step", n=4)
+        await one.until(lambda: one.said["bodies"]["picture"] != before)
+        (problem,) = (await one.ask("place_object", name="a", x=900, y=900, width=9, height=9))["problems"]
+        assert "nothing can be placed in the world Eye" in problem["what"]
+
+    with studio(file.parent, file.parent / "turning.json", world=dd.Eye()) as address:
+        play(address, story)
+
+
+def test_a_document_without_a_world_has_no_scene(root: Path) -> None:
+    async def story(one: Page) -> None:
+        await one.open("open_file", path="node.json")
+        await one.do("watch_world", on=True)
+        assert one.said["scene"] == {
+            "type": "scene",
+            "scene": None,
+            "note": "",
+            "camera": False,
+            "solid": False,
+            "can_place": False,
+            "picture": None,
+        }
+        (problem,) = (await one.ask("move_object", name="crate", x=1, y=1))["problems"]
+        assert "no world with a view from above" in problem["what"] and "--world" in problem["fix"]
+
+    with studio(root) as address:
+        play(address, story)
+
+
+def test_the_past_of_the_world_is_shown_with_the_path_up_to_that_moment(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        await one.do("watch_world", on=True)
+        for tick in range(5, 61, 5):
+            await one.do("step", n=5)
+            await one.until(lambda tick=tick: one.clock["tick"] == tick and one.clock["timeline"])
+        await one.until(lambda: one.clock["timeline"]["last"] == 60 * 64)
+        there, length = one.said["bodies"]["bodies"][0]["x"], len(path(one))
+        await one.do("seek", time=20 * 64)
+        await one.until(lambda: one.clock["timeline"]["time"] == 20 * 64)
+        then = one.said["bodies"]["bodies"][0]["x"]
+        assert 0.2 < then < there - 0.1
+        assert 1 < len(path(one)) < length and path(one)[-1][0] == pytest.approx(then, abs=0.02)
+        await one.do("seek", time=None)
+        await one.until(lambda: one.said["bodies"]["bodies"][0]["x"] == there and len(path(one)) == length)
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        play(address, story)
+
+
+def test_a_world_in_another_unit_of_length_is_refused_and_its_warnings_are_shown(tmp_path: Path) -> None:
+    model = dd.Model("planning", dt=64)
+    plane = [dd.Axis("x", 0, 120, 25, unit="cm"), dd.Axis("y", 0, 80, 17, unit="cm")]
+    place = model.add(dd.Sensor("place", [dd.Axis("of", 0, 1, 2)], sensor="place"))
+    place >> model.add(dd.SpaceCode(plane, 5.0, name="own place"))
+    model.add(dd.Sensor("map", plane, sensor="obstacles"))
+    dd.save(model, tmp_path / "planning.json")
+
+    async def story(one: Page) -> None:
+        await one.runs()
+        (problem,) = one.document["problems"]
+        assert "100 times too small" in problem["what"] and "unit=cm" in problem["fix"], problem
+        assert problem["element"], "the box of the element shows it"
+        await one.do("use_world", kind="Arena", path="blocks", settings={"unit": "cm"})
+        await one.runs()
+        await one.until(lambda: not one.document["problems"] and one.said["scene"]["scene"])
+        answer = await one.ask("use_world", kind="Arena", path="blocks", settings={"unit": "mm"})
+        assert "10 times too large" in answer["problems"][0]["what"]
+        assert one.said["scene"]["scene"]["unit"] == "cm", "the world in use stays"
+        await one.do("use_world", kind="Arena", path="z", settings={"unit": "cm"})
+        await one.until(lambda: "barely overlap" in one.document["problems"][0]["what"])
+        assert {p["severity"] for p in one.document["problems"]} == {"warning"}
+
+    with studio(tmp_path, tmp_path / "planning.json", world=Arena("blocks")) as address:
+        play(address, story)
+
+
+def test_a_preview_shows_a_world_and_the_sensors_that_the_model_lacks(tmp_path: Path) -> None:
+    model = dd.Model("seeing", dt=40)
+    plane = [dd.Axis("x", 0, 1, 8), dd.Axis("y", 0, 1, 6), dd.Axis("color", 0, 2, 3)]
+    model.add(dd.Sensor("eye", plane, sensor="picture"))
+    dd.save(model, tmp_path / "seeing.json")
+    video = cv2.VideoWriter(str(tmp_path / "red.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 25, (64, 48))
+    for _ in range(3):
+        video.write(np.full((48, 64, 3), (0, 0, 255), np.uint8))
+    video.release()
+    blue = np.full((48, 64, 3), (255, 0, 0), np.uint8)
+    cv2.imwrite(str(tmp_path / "blue.png"), blue)
+    record = dd.simulate(model, 120, world=dd.Picture(tmp_path / "blue.png"), record=["eye.output"])
+    dd.save_record(record, tmp_path / "run.nc")
+
+    async def preview(one: Page, kind: str, path: str, **settings: Any) -> dict[str, Any]:
+        answer = await one.ask("preview_world", kind=kind, path=path, settings=settings)
+        assert answer["problems"] == [], answer
+        return answer["preview"]
+
+    async def story(one: Page) -> None:
+        await one.runs()
+        before = one.clock["world"]
+        for kind, path, color in [("Picture", "blue.png", 2), ("Video", "red.avi", 0)]:
+            found = await preview(one, kind, path)
+            pixels = np.frombuffer(base64.b64decode(found["pixels"]), np.uint8)
+            pixels = pixels.reshape(found["height"], found["width"], 3)
+            assert found["sensors"] == ["picture"] and found["missing"] == [] and found["scene"] is None
+            assert pixels[..., color].min() > 240 and np.delete(pixels, color, axis=2).max() < 15, kind
+        found = await preview(one, "Recording", "run.nc")
+        assert found["sensors"] == ["picture"] and found["missing"] == [] and found["motors"] == []
+        found = await preview(one, "Arena", "z", unit="cm")
+        assert found["scene"]["unit"] == "cm" and found["missing"] == ["picture"]
+        for kind, path, said in [
+            ("Video", "nothing.avi", "no such video"),
+            ("Video", "../red.avi", "outside"),
+            ("Recording", "blue.png", "blue.png"),
+            ("Nothing", "blue.png", "Nothing"),
+        ]:
+            (problem,) = (await one.ask("preview_world", kind=kind, path=path, settings={}))["problems"]
+            assert said in f"{problem['where']} {problem['what']}", problem
+        assert one.clock["world"] == before, "a preview does not change the world"
+
+    with studio(tmp_path, tmp_path / "seeing.json") as address:
+        play(address, story)
+
+
+def test_the_page_shows_the_link_with_a_robot_in_another_process_and_a_pause_stops_it(file: Path) -> None:
+    served = ServedWorld(Arena(LAYOUT), "epuck", "live")
+    world = dd.Zenoh(at=served.endpoint, patience=5.0)
+
+    async def another_link(one: Page) -> None:
+        sent = one.said["robot_link"]
+        await one.until(lambda: one.said["robot_link"] != sent)
+
+    async def story(one: Page) -> None:
+        await one.runs()
+        await one.until(lambda: one.said.get("robot_link", {}).get("robot") == "epuck")
+        await one.do("play")
+        await one.until(lambda: one.said["robot_link"]["round_trip"] > 0)
+        assert one.said["robot_link"]["lost"] == 0 and 0 <= one.said["robot_link"]["age"] < 5000
+        await one.until(lambda: served.server.counts["accepted"] > 10)
+        await one.do("pause")
+        await one.until(lambda: not one.clock["running"])
+        await another_link(one)  # commands that were under way have arrived
+        accepted = served.server.counts["accepted"]
+        await another_link(one)
+        assert served.server.counts["accepted"] == accepted, "no command comes while the run is paused"
+
+    try:
+        with studio(file.parent, file, world=world) as address:
+            play(address, story)
+    finally:
+        world.close()
+        served.close()
+
+
+def test_a_world_in_the_same_process_has_no_link(file: Path) -> None:
+    async def story(one: Page) -> None:
+        await shown(one)
+        await one.do("step", n=5)
+        assert "robot_link" not in one.said
+
+    with studio(file.parent, file, world=Arena(LAYOUT)) as address:
+        play(address, story)
