@@ -15,7 +15,7 @@ ifeq ($(LONG),no)
   SHORT := and not long
 endif
 
-.PHONY: demo test whole quick optimised browser fast lint types studio page docs schema bench native lowest lock audit clean
+.PHONY: demo test test-core whole quick optimised browser fast lint types studio page docs schema bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
@@ -29,12 +29,21 @@ whole: .venv/installed-test
 	VITEST_MAX_WORKERS=1 $(MAKE) -j 2 quick browser
 	$(MAKE) optimised
 
-# tests whose programs are compiled in a quicker way than deodar does, and those that need optimised programs
+# tests whose programs are compiled in a quicker way than deodar does, and those that need optimised programs; those
+# of the engine with the packages beside it hidden
+REST := tests --ignore tests/deodar
+
 quick: .venv/installed-test
-	$(BIN)/python -m pytest $(SPREAD) --durations 30 -m "not default_program $(SHORT)"
+	$(BIN)/python tools/engine_alone.py $(SPREAD) --durations 20 -m "not default_program $(SHORT)"
+	$(BIN)/python -m pytest $(SPREAD) --durations 20 -m "not default_program $(SHORT)" $(REST)
 
 optimised: .venv/installed-test
-	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m "default_program $(SHORT)" --default-programs
+	$(BIN)/python tools/engine_alone.py $(SPREAD) --durations 10 -m "default_program $(SHORT)" --default-programs
+	$(BIN)/python -m pytest $(SPREAD) --durations 10 -m "default_program $(SHORT)" --default-programs $(REST)
+
+# for those who work on the engine: its tests alone, without those that take long
+test-core: .venv/installed-test
+	$(BIN)/python tools/engine_alone.py $(SPREAD) -m "not default_program and not long"
 
 # the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
 # time, so `make test` runs them beside others; one file at a time there, because pytest uses two cores too

@@ -30,6 +30,10 @@ def test_every_package_is_in_the_wheel() -> None:
     assert listed == [f"src/{package}" for package in packages.packages()]
 
 
+def test_every_package_is_typed_for_those_who_import_it() -> None:
+    assert [name for name in packages.packages() if not (packages.SRC / name / "py.typed").is_file()] == []
+
+
 def test_every_package_states_its_words() -> None:
     assert set(packages.WORDS) == set(packages.packages()) - {"deodar"}
 
