@@ -17,7 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
-SAMPLES = Path(__file__).parent.parent / "tests" / "importers" / "cosivina"
+SAMPLES = Path(__file__).parent.parent / "tests" / "deodar_interop" / "importers" / "cosivina"
 PORT = {"presetSceneRepresentation": 34.0}
 """Steps a second of the Python port, where they were measured."""
 

@@ -36,9 +36,9 @@ from deodar_interop.importers.cosivina.classes import CLASSES
 from deodar_interop.importers.cosivina.classes.missing import MISSING
 
 ROOT = Path(__file__).parent.parent
-SAMPLES = ROOT / "tests" / "importers" / "cosivina"
-ARCHITECTURES = ROOT / "tests" / "importers" / "cedar" / "data"
-SIMULATIONS = ROOT / "tests" / "importers" / "dnf_composer"
+SAMPLES = ROOT / "tests" / "deodar_interop" / "importers" / "cosivina"
+ARCHITECTURES = ROOT / "tests" / "deodar_interop" / "importers" / "cedar" / "data"
+SIMULATIONS = ROOT / "tests" / "deodar_interop" / "importers" / "dnf_composer"
 EXAMPLES = ROOT / "examples"
 
 SECONDS = 60.0

@@ -88,10 +88,8 @@ def main() -> None:
         began = time.monotonic()
         status = passed = failed = 0
         with busy(args.busy):
-            for call in [args.tests] if args.tests else suite.CALLS:
-                tests = subprocess.Popen(
-                    [sys.executable, "-m", "pytest", *call], cwd=ROOT, stdout=subprocess.PIPE, text=True
-                )
+            for call in [(*suite.PYTEST, *args.tests)] if args.tests else suite.CALLS:
+                tests = subprocess.Popen([sys.executable, *call], cwd=ROOT, stdout=subprocess.PIPE, text=True)
                 assert tests.stdout is not None
                 report = ""
                 for line in tests.stdout:

@@ -430,7 +430,7 @@ def tree(commit: str, into: Path) -> Path:
         files.extractall(into, filter="data")
     shutil.rmtree(into / "tests")
     shutil.copytree(ROOT / "tests", into / "tests")
-    if (page := ROOT / "src" / "deodar" / "server" / "static").exists():
+    if (page := ROOT / "src" / "deodar_studio" / "static").exists():
         shutil.copytree(page, into / page.relative_to(ROOT))
     return into
 

@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+PYTEST = ("-m", "pytest")
+ENGINE = ("tools/engine_alone.py",)
+"""The programs: all packages, and the engine alone."""
+
 SPREAD = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder")
 """Files over two processes, in the order that `tests/conftest.py` gives them."""
 
+REST = ("tests", "--ignore", "tests/deodar")
+"""What the engine alone does not test."""
+
+QUICK = ("-m", "not default_program")
+OPTIMISED = ("-m", "default_program", "--default-programs")
+
 CALLS = (
-    (*SPREAD, "-m", "not default_program"),
-    (*SPREAD, "-m", "default_program", "--default-programs"),
+    (*ENGINE, *SPREAD, *QUICK),
+    (*PYTEST, *SPREAD, *QUICK, *REST),
+    (*ENGINE, *SPREAD, *OPTIMISED),
+    (*PYTEST, *SPREAD, *OPTIMISED, *REST),
 )
 
-FAST = (*SPREAD, "-m", "fast")
+FAST = (*PYTEST, *SPREAD, "-m", "fast")

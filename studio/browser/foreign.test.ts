@@ -10,7 +10,10 @@ import { shot, startStudio, type Studio } from "./studio";
 
 const SCENE = "presetSceneRepresentation.json";
 const ELEMENTS = 180; // the 168 of the file, and the kernels, equal inputs and sums that the importer makes
-const CONTENT = readFileSync(join(import.meta.dirname, "../../tests/deodar_interop/importers/cosivina", SCENE), "utf8");
+const CONTENT = readFileSync(
+  join(import.meta.dirname, "../../tests/deodar_interop/importers/cosivina", SCENE),
+  "utf8",
+);
 
 interface Part {
   label: string;

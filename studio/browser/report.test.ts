@@ -10,7 +10,10 @@ import { box, button, file, panel, reopen } from "./hands";
 import type { Observer } from "./observer";
 import { shot, startStudio, type Studio } from "./studio";
 
-const SAMPLE = join(import.meta.dirname, "../../tests/deodar_interop/importers/cedar/data/elementaryBehavior.json");
+const SAMPLE = join(
+  import.meta.dirname,
+  "../../tests/deodar_interop/importers/cedar/data/elementaryBehavior.json",
+);
 const GROUP = "Elementary behavior";
 
 /** The sample with an unknown step, an unknown parameter and a value without meaning. */

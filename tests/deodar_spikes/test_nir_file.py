@@ -216,7 +216,7 @@ def test_a_file_that_takes_too_long_is_refused(content: bytes, monkeypatch: pyte
 
 def test_damaged_files_are_read_or_refused(content: bytes, tmp_path: Path) -> None:
     (tmp_path / "whole.nir").write_bytes(content)
-    script = ROOT / "tests" / "neuromorphic" / "fuzz.py"
+    script = ROOT / "tests" / "deodar_spikes" / "fuzz.py"
     done = subprocess.run(
         [sys.executable, script, tmp_path / "whole.nir", "3", "40"],
         capture_output=True,

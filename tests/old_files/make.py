@@ -24,8 +24,6 @@ import sys
 import warnings
 from pathlib import Path
 
-from deodar.server.files.state_store import StateStore
-
 import deodar as dd
 from deodar.couplings.peak_position import PeakPosition
 from deodar.couplings.weights import Weights
@@ -38,6 +36,7 @@ from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.recording import files
+from deodar_studio.files.state_store import StateStore
 
 
 def choice(version: int) -> dd.Model:

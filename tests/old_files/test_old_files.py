@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from deodar.server.files.state_store import StateStore
 
 import deodar as dd
 from deodar.cli import main
@@ -19,6 +18,7 @@ from deodar.errors import OutputExists
 from deodar.model import document
 from deodar.recording.provenance import made_by
 from deodar.recording.repeat import repeat
+from deodar_studio.files.state_store import StateStore
 
 OLD = Path(__file__).parent / "version_1"
 X = dd.Axis("x", 0, 20, samples=21)

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import deodar as dd
 from deodar.errors import DeodarError
-from deodar.importers.opening import Imported, tools
+from deodar.importers.opening import Imported
+from deodar.importers.tools import IMPORTERS
 from deodar.model.check import problems
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
@@ -29,7 +30,7 @@ def tried(
     """
     data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
     try:
-        done = tools()[tool].read(data, "file.json", bugs, beside)
+        done = IMPORTERS[tool].read(data, "file.json", bugs, beside)
     except DeodarError as error:
         assert str(error) and "Traceback" not in str(error)
         return None

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import sys
-import types
 from pathlib import Path
 
 import pytest
 
 import deodar as dd
-from deodar import registry
 from deodar.errors import DocumentError
-from deodar.importers.imported import Imported
-from deodar.importers.opening import read, tool_of, tools
-from deodar.importers.report import ImportReport
+from deodar.importers.opening import read, tool_of
+from deodar.importers.tools import IMPORTERS
 from tests.deodar_interop.importers.cosivina.files import SAMPLES
 
 
 def test_importers_are_found_in_their_folders():
-    assert "cosivina" in tools()
-    assert all(callable(tool.sniff) and callable(tool.read) for tool in tools().values())
+    assert "cosivina" in IMPORTERS
+    assert all(callable(tool.sniff) and callable(tool.read) for tool in IMPORTERS.values())
 
 
 def test_documents_of_deodar_need_no_importer(tmp_path):
@@ -43,26 +39,3 @@ def test_a_path_without_a_file_is_an_error(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DocumentError):
         dd.load(path)
-
-
-def test_a_new_folder_adds_an_importer(tmp_path, monkeypatch):
-    other = types.ModuleType("deodar.importers.other")
-    other.NAME = "other"
-    other.sniff = lambda head: head.startswith(b"OTHER")
-    other.read = lambda content, name, bugs, beside: Imported(
-        dd.Model(content.decode().split()[1]), ImportReport("other", name, [])
-    )
-    modules = registry.modules
-    monkeypatch.setitem(sys.modules, "deodar.importers.other", other)
-    monkeypatch.setattr(
-        registry,
-        "modules",
-        lambda room: [*modules(room), *(["deodar.importers.other"] if room == "importers" else [])],
-    )
-    (tmp_path / "file.txt").write_text("OTHER model")
-    assert dd.load(tmp_path / "file.txt").name == "model" and set(tools()) == {
-        "cedar",
-        "cosivina",
-        "dnf-composer",
-        "other",
-    }

@@ -46,8 +46,7 @@ def toy(monkeypatch, tmp_path):
 
     paper.jobs, paper.report, paper.BY_CONDITION = jobs, report, ("runs",)
     paper.about = lambda quick: {"paper": "toy", "quick": quick, "runs": {"d": 6}}
-    monkeypatch.setattr(papers, "names", lambda: ["toy"])
-    monkeypatch.setattr(papers, "paper", lambda name: paper)
+    monkeypatch.setattr(papers, "PAPERS", {"toy": paper})
     monkeypatch.chdir(tmp_path)
     return paper
 
@@ -142,7 +141,7 @@ def test_a_folder_with_other_content_is_not_changed(toy, capsys, tmp_path):
 
 def test_an_unknown_paper_is_reported(capsys):
     assert cli.main(["reproduce", "spaa"]) == 1
-    assert "there is no paper 'spaa' to reproduce. Did you mean 'spa'?" in capsys.readouterr().err
+    assert "there is no paper called 'spaa'. Did you mean 'spa'?" in capsys.readouterr().err
 
 
 def test_durations_are_printed_in_words():

@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DeodarError, DocumentError
-from tests.deodar.importers import hostile
+from tests.deodar_interop.importers import hostile
 
 BOOST, FIELD = "cedar.processing.sources.Boost", "cedar.dynamics.NeuralField"
 ACTION = "cedar.proc.experiment.action"

@@ -11,7 +11,7 @@ import pytest
 from deodar.errors import DocumentError
 from deodar.importers.opening import Imported, read
 from deodar_interop.importers.cedar import file
-from tests.deodar.importers import hostile
+from tests.deodar_interop.importers import hostile
 from tests.deodar_interop.importers.cedar.models import every_type
 
 DATA = Path(__file__).parent / "data"

@@ -10,10 +10,11 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError
-from deodar.importers.opening import Imported, read, tools
+from deodar.importers.opening import Imported, read
+from deodar.importers.tools import IMPORTERS
 from deodar.model.check import problems
 from deodar_interop.importers.cosivina import file
-from tests.deodar.importers import hostile
+from tests.deodar_interop.importers import hostile
 from tests.deodar_interop.importers.cosivina.files import SAMPLES, element, text, written
 
 FIELD = {"size": [1, 10], "tau": 10, "h": -5, "beta": 4}
@@ -57,7 +58,7 @@ def test_a_file_that_is_not_of_cosivina_is_an_error(content, says, tmp_path):
     path.write_bytes(content)
     if says:
         with pytest.raises(DocumentError) as caught:
-            tools()["cosivina"].read(content, "x.json", False)
+            IMPORTERS["cosivina"].read(content, "x.json", False)
         assert says in str(caught.value) and "\n" not in str(caught.value)
         with pytest.raises(DocumentError, match=r"x\.json"):
             dd.load(path)

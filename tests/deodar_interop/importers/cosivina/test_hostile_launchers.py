@@ -16,7 +16,7 @@ from deodar_interop.importers import cosivina
 from deodar_interop.importers.cosivina import read
 from deodar_interop.importers.cosivina.launchers import evaluate
 from deodar_interop.importers.cosivina.launchers.launcher import is_launcher
-from tests.deodar.importers import hostile
+from tests.deodar_interop.importers import hostile
 from tests.deodar_interop.importers.cosivina.scripts import PAIR, built, imported, launcher, parameters
 
 sys.path.insert(0, str(Path(__file__).parents[4] / "benchmarks"))

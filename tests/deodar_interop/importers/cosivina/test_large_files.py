@@ -15,7 +15,7 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.plan import plan
-from deodar.importers.opening import tools
+from deodar.importers.tools import IMPORTERS
 from deodar.model import files
 from tests.deodar_interop.importers.cosivina.files import element, text
 
@@ -85,7 +85,7 @@ def test_work_grows_with_the_number_of_inputs(made):
         models: list[dd.Model] = []
         found.setdefault("import", []).append(
             lines(
-                lambda c=content, m=models: m.append(tools()["cosivina"].read(c, "large.json", False).model)
+                lambda c=content, m=models: m.append(IMPORTERS["cosivina"].read(c, "large.json", False).model)
             )
         )
         model = models[0]
@@ -117,9 +117,9 @@ def test_work_grows_with_the_number_of_connections_that_a_script_makes():
 
 
 def test_a_source_that_occurs_many_times_becomes_one_gain():
-    done = tools()["cosivina"].read(text(from_one(20_000)).encode(), "large.json", False)
+    done = IMPORTERS["cosivina"].read(text(from_one(20_000)).encode(), "large.json", False)
     assert done.report.faithful and len(done.model.document.entries) == 3
-    once = tools()["cosivina"].read(text(from_one(1)).encode(), "large.json", False)
+    once = IMPORTERS["cosivina"].read(text(from_one(1)).encode(), "large.json", False)
     rest = FIELD["h"]
     u, v = (
         dd.simulate(m, 1, every=1, record=["u.activation"], precision="float64")["u.activation"].values[-1]

@@ -13,11 +13,12 @@ import pytest
 import deodar as dd
 from deodar.elements.placeholder import Placeholder
 from deodar.errors import DocumentError
-from deodar.importers.opening import Imported, read, tools
+from deodar.importers.opening import Imported, read
+from deodar.importers.tools import IMPORTERS
 from deodar.model.check import problems
 from deodar_interop.importers.dnf_composer import element as elements
 from deodar_interop.importers.dnf_composer import file
-from tests.deodar.importers import hostile
+from tests.deodar_interop.importers import hostile
 from tests.deodar_interop.importers.dnf_composer.files import (
     BELL,
     FIELD,
@@ -76,7 +77,7 @@ def test_mutations_without_problems_run():
 )
 def test_what_is_no_simulation_is_an_error(content, says):
     with pytest.raises(DocumentError) as caught:
-        tools()["dnf-composer"].read(content, "x.dnf")
+        IMPORTERS["dnf-composer"].read(content, "x.dnf")
     assert says in str(caught.value) and "\n" not in str(caught.value)
 
 

@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.importers.opening import read, tools
+from deodar.importers.opening import read
+from deodar.importers.tools import IMPORTERS
 from deodar.model.check import problems
 from deodar.model.paths import display
 from tests.deodar_interop.importers.dnf_composer.files import HERE, SAMPLES, without_noise
@@ -61,7 +62,7 @@ def test_every_listed_step_agrees(path, tmp_path):
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda p: p.stem)
 def test_a_sample_is_recognised_and_by_one_importer(path):
     head = path.read_bytes()
-    assert [name for name, tool in tools().items() if tool.sniff(head)] == ["dnf-composer"]
+    assert [name for name, tool in IMPORTERS.items() if tool.sniff(head)] == ["dnf-composer"]
 
 
 def test_names_step_axes_and_notes_are_taken_from_the_file():
