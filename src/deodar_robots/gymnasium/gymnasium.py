@@ -16,10 +16,10 @@ from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._settings import number
-from deodar_robots.gymnasium import spaces
+from deodar_robots.gymnasium import space_parts
 from deodar_robots.gymnasium.argument import parse_argument, require_registered
 from deodar_robots.gymnasium.package import errors_in, made, package
-from deodar_robots.gymnasium.spaces import SpacePart
+from deodar_robots.gymnasium.space_parts import SpacePart
 
 AT_END = ("reset", "hold")
 REWARD, DONE = "reward", "done"
@@ -115,8 +115,8 @@ class Gymnasium(World):
         self._seed, self._trials = 0, (0,)
         self._copies = [_Copy(self._made())]
         env = self._copies[0].env
-        self._parts = spaces.parts(env.observation_space, "observation", self.name)
-        self._actions = spaces.parts(env.action_space, "action", self.name)
+        self._parts = space_parts.parts(env.observation_space, "observation", self.name)
+        self._actions = space_parts.parts(env.action_space, "action", self.name)
         taken = [name for name in OWN_SENSORS if name in self._parts]
         if taken:
             raise WorldError(
@@ -180,7 +180,7 @@ class Gymnasium(World):
             given[name] = np.reshape(numbers[at : at + size], self._actions[name].shape)
             at += size
         with errors_in(self.name, "step"):
-            found = copy.env.step(spaces.joined(self._actions, given))
+            found = copy.env.step(space_parts.joined(self._actions, given))
             copy.observation, reward, terminated, truncated, _ = found
             copy.reward = float(reward)
         copy.actions.append(numbers)

@@ -12,7 +12,7 @@ from gymnasium import spaces
 import deodar as dd
 from deodar.errors import MissingExtra, WorldError
 from deodar.recording.opened import again, named
-from deodar_robots.gymnasium.spaces import SpacePart, parts
+from deodar_robots.gymnasium.space_parts import SpacePart, parts
 from tests.deodar_robots.gymnasium.environments import Counting, Wrong
 
 CAR = "MountainCarContinuous-v0"
