@@ -66,9 +66,9 @@ def report(rows: Mapping[str, Row], quick: bool) -> Report:
     """Return claims, figures, tables and numbers of the stored trials."""
     # start-up time: these bring JAX
     from deodar_papers._report import Report
-    from deodar_papers.spa import figures, sentences, tables, targets, variations
-    from deodar_papers.spa.runs import Runs
+    from deodar_papers.spa import figures, sentences, tables, targets, unstated_settings
+    from deodar_papers.spa.condition_runs import Runs
 
     runs = Runs(rows, quick)
-    said = [*targets.claims(runs), *sentences.claims(runs), *variations.claims(runs)]
+    said = [*targets.claims(runs), *sentences.claims(runs), *unstated_settings.claims(runs)]
     return Report(said, figures.draw(runs), tables.write(runs), tables.numbers(runs))

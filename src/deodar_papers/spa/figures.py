@@ -22,8 +22,8 @@ from deodar_papers.figures.routes import (
     speeds_figure,
 )
 from deodar_papers.spa.cases import OBSTACLES
+from deodar_papers.spa.condition_runs import METHODS, Runs, between, count
 from deodar_papers.spa.route import NONE, NORTH, SOUTH, SWITCH
-from deodar_papers.spa.runs import METHODS, Runs, between, count
 from deodar_papers.spa.targets import MAZE
 from deodar_papers.spa.trials import KEPT
 

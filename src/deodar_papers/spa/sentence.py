@@ -14,7 +14,7 @@ from deodar.analysis.claims import Claim, ClaimKind, Origin
 from deodar.analysis.statistics import rounded
 from deodar.experiments.rows import Row
 from deodar.numerics.intervals import Interval
-from deodar_papers.spa.runs import SOURCE, count
+from deodar_papers.spa.condition_runs import SOURCE, count
 
 START = "the start of case 3, which the paper does not print"
 PLACES = f"{START}, and its second location, which was read off a run of deodar"

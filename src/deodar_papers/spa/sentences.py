@@ -16,8 +16,8 @@ from deodar.analysis.statistics import anova, difference_interval, equivalent, m
 from deodar.architectures.spa import place
 from deodar.experiments.rows import Row
 from deodar_papers.spa import cases
+from deodar_papers.spa.condition_runs import METHODS, Runs, between, count, numbers
 from deodar_papers.spa.route import NORTH, SOUTH, SWITCH
-from deodar_papers.spa.runs import METHODS, Runs, between, count, numbers
 from deodar_papers.spa.sentence import ALIKE, PLACES, REFLECTION, START, Sentence
 from deodar_papers.spa.targets import MAZE
 from deodar_papers.spa.trials import KEPT, LASTS

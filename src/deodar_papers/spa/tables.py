@@ -12,9 +12,9 @@ from deodar.analysis.statistics import wilson
 from deodar.architectures.spa import NOISE
 from deodar_papers._report import NOT_RUN
 from deodar_papers.spa import cases
+from deodar_papers.spa.condition_runs import METHODS, Runs, count
+from deodar_papers.spa.condition_runs import numbers as entries
 from deodar_papers.spa.route import NONE, NORTH, SOUTH, SWITCH
-from deodar_papers.spa.runs import METHODS, Runs, count
-from deodar_papers.spa.runs import numbers as entries
 from deodar_papers.spa.targets import MAZE
 
 HEAD = (

@@ -6,8 +6,8 @@ import numpy as np
 
 from deodar.analysis.claims import Claim
 from deodar.analysis.statistics import mean_interval, ratio_interval
+from deodar_papers.spa.condition_runs import LONG, SOURCE, Runs, between
 from deodar_papers.spa.route import NORTH, SOUTH, SWITCH
-from deodar_papers.spa.runs import LONG, SOURCE, Runs, between
 from deodar_papers.spa.sentence import ALIKE, REFLECTION, START, Sentence
 
 SUCCESS = {("z", "low"): 0.95, ("z", "high"): 0.95, ("large", "low"): 0.90, ("large", "high"): 0.85}

@@ -8,8 +8,8 @@ import pytest
 
 from deodar.analysis.claims import failed, results
 from deodar_papers import spa
-from deodar_papers.spa import sentences, targets, variations
-from deodar_papers.spa.runs import SOURCE, Runs
+from deodar_papers.spa import sentences, targets, unstated_settings
+from deodar_papers.spa.condition_runs import SOURCE, Runs
 from deodar_papers.spa.sentence import Sentence
 from deodar_papers.spa.targets import claims
 from tests.deodar_papers.spa.rows import all_rows
@@ -29,7 +29,7 @@ def only(found, words):
 def said(change, quick=False):
     """Return all claims of the report, by name."""
     runs = Runs(all_rows(quick, change), quick)
-    return {c.name: c for part in (targets, sentences, variations) for c in part.claims(runs)}
+    return {c.name: c for part in (targets, sentences, unstated_settings) for c in part.claims(runs)}
 
 
 def test_all_required_claims_hold_for_rows_as_in_the_paper():

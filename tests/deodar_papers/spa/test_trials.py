@@ -12,7 +12,7 @@ import pytest
 import deodar as dd
 from deodar.analysis.paths import path_length
 from deodar_papers.spa import cases, trials
-from deodar_papers.spa.runs import Runs
+from deodar_papers.spa.condition_runs import Runs
 from tests.house.source import ROOT
 
 

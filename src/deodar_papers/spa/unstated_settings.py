@@ -10,7 +10,7 @@ from __future__ import annotations
 from deodar.analysis.claims import Claim
 from deodar.analysis.statistics import mean_interval
 from deodar_papers.spa import cases
-from deodar_papers.spa.runs import Runs, count
+from deodar_papers.spa.condition_runs import Runs, count
 from deodar_papers.spa.sentence import ALIKE, Sentence
 from deodar_papers.spa.targets import MAZE
 
