@@ -9,13 +9,6 @@ a window, in the words of the toolbox for MATLAB, as pinned sliders and presets 
 from __future__ import annotations
 
 from deodar_interop.compat.cosivina import options
-from deodar_interop.compat.cosivina.controls import (
-    GlobalControlButton,
-    ParameterDropdownSelector,
-    ParameterSlider,
-    ParameterSwitchButton,
-    PresetSelector,
-)
 from deodar_interop.compat.cosivina.elements import (
     BoostStimulus,
     CustomStimulus,
@@ -52,6 +45,13 @@ from deodar_interop.compat.cosivina.window import (
     TilePlot,
     TimeDisplay,
     XYPlot,
+)
+from deodar_interop.compat.cosivina.window_controls import (
+    GlobalControlButton,
+    ParameterDropdownSelector,
+    ParameterSlider,
+    ParameterSwitchButton,
+    PresetSelector,
 )
 
 __all__ = [

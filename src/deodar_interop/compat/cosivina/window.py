@@ -12,8 +12,8 @@ from deodar.importers.imported import Imported
 from deodar.importers.report import ImportReport, Line
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar_interop.compat.cosivina.controls import WindowControl
 from deodar_interop.compat.cosivina.simulator import Simulator
+from deodar_interop.compat.cosivina.window_controls import WindowControl
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.panel import LauncherPanel
 from deodar_interop.importers.cosivina.plots import PlotRequest, with_plots

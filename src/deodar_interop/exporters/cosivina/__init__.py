@@ -16,6 +16,6 @@ HELP = "a simulator of cosivina"
 def write(model: Model, name: str) -> Exported:
     """Return the file of a simulator, and the report."""
     # start-up time: this brings JAX
-    from deodar_interop.exporters.cosivina import simulator
+    from deodar_interop.exporters.cosivina import simulator_file
 
-    return simulator.write(model, name)
+    return simulator_file.write(model, name)

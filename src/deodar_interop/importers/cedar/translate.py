@@ -17,13 +17,13 @@ from deodar.model.model import Model
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar import file
+from deodar_interop.importers.cedar.box_layout import layout
 from deodar_interop.importers.cedar.classes import CLASSES, DECLARED, LOOPED
 from deodar_interop.importers.cedar.classes.missing import placeholder
 from deodar_interop.importers.cedar.clock import clock
 from deodar_interop.importers.cedar.file import CedarFile, CedarStep, StepPath
 from deodar_interop.importers.cedar.grid import Counts, SampleGrid, TooManySamples
-from deodar_interop.importers.cedar.layout import layout
-from deodar_interop.importers.cedar.links import linked
+from deodar_interop.importers.cedar.parameter_links import linked
 from deodar_interop.importers.cedar.piece import Refused, SourceStep, StepPiece
 from deodar_interop.importers.cedar.sequence import sequence
 from deodar_interop.importers.cedar.side_file import SideFile

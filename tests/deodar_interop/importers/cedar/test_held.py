@@ -7,7 +7,7 @@ import pytest
 from deodar.model.document import Document
 from deodar_interop.importers.cedar import file, translate
 from deodar_interop.importers.cedar.held import held
-from deodar_interop.importers.cedar.links import linked
+from deodar_interop.importers.cedar.parameter_links import linked
 from deodar_interop.importers.cedar.trial_values import TrialParameters
 from tests.deodar_interop.importers.cedar.models import Many, Model, gauss
 

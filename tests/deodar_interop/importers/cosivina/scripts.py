@@ -10,7 +10,7 @@ from deodar.importers.imported import Imported
 from deodar_interop.importers.cosivina import read
 from deodar_interop.importers.cosivina.launchers.launcher import plain, simulator_file
 from deodar_interop.importers.cosivina.launchers.objects import BuiltSimulator
-from deodar_interop.importers.cosivina.launchers.running import ScriptReader
+from deodar_interop.importers.cosivina.launchers.script_reader import ScriptReader
 
 PAIR = """% two nodes that watch a line
 n = 60;

@@ -16,8 +16,8 @@ from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 from deodar.numerics.sigmoids.step import Step
 from deodar_interop.exporters.cosivina.classes.kernels import shift_input
+from deodar_interop.exporters.cosivina.classes.logistic import logistic
 from deodar_interop.exporters.cosivina.classes.shapes import diagonal_sum, sum_dimension
-from deodar_interop.exporters.cosivina.classes.sigmoids import logistic
 from deodar_interop.exporters.cosivina.classes.stimuli import periods, timed_boosts
 from deodar_interop.exporters.cosivina.draft import Given, Unwritable
 

@@ -17,9 +17,9 @@ from deodar.numerics.sigmoids.absolute import Absolute
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.border import border
 from deodar_interop.importers.cedar.composition import Composition
+from deodar_interop.importers.cedar.convolution_kernels import kernels, too_long
 from deodar_interop.importers.cedar.file import members, text
 from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.kernels import kernels, too_long
 from deodar_interop.importers.cedar.piece import InputSlot, OutputSlot, Refused, SourceStep, StepPiece
 from deodar_interop.importers.cedar.transfer import transferred
 from deodar_interop.importers.cedar.values import StepValues, number

@@ -21,8 +21,8 @@ from deodar.numerics.sigmoids.linear import Linear
 from deodar_interop.importers._piece import Unfit
 from deodar_interop.importers.cedar.border import border
 from deodar_interop.importers.cedar.composition import Composition, StepSignal
+from deodar_interop.importers.cedar.convolution_kernels import kernels, too_long
 from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.kernels import kernels, too_long
 from deodar_interop.importers.cedar.piece import InputSlot, OutputSlot, SourceStep, StepPiece, sizes
 from deodar_interop.importers.cedar.sigmoids import sigmoid
 from deodar_interop.importers.cedar.transfer import special, transferred

@@ -10,8 +10,8 @@ from deodar.numerics.kernels._base import Kernel
 from deodar_interop.importers.cedar.border import CedarBorder, border
 from deodar_interop.importers.cedar.classes.algebra import largest, projected
 from deodar_interop.importers.cedar.composition import Composition, StepSignal
+from deodar_interop.importers.cedar.convolution_kernels import kernels, too_long
 from deodar_interop.importers.cedar.grid import Counts
-from deodar_interop.importers.cedar.kernels import kernels, too_long
 from deodar_interop.importers.cedar.piece import SourceStep, StepPiece
 
 REDUCTIONS = ("SUM", "MAXIMUM")

@@ -12,7 +12,7 @@ from deodar_interop.importers.cosivina.classes import CLASSES
 from deodar_interop.importers.cosivina.components import components
 from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS, OUTPUTS, parameters_of
 from deodar_interop.importers.cosivina.file import Simulator
-from deodar_interop.importers.cosivina.launchers import arrays
+from deodar_interop.importers.cosivina.launchers import matlab_values
 from deodar_interop.importers.cosivina.launchers.expressions import NotRead
 from deodar_interop.importers.cosivina.launchers.objects import (
     BuiltElement,
@@ -52,13 +52,13 @@ def simulator(script: ElementBuilder, arguments: ElementArguments) -> BuiltSimul
     """Return the simulator of a call `Simulator(name, value, ...)`."""
     built = BuiltSimulator()
     for name, value in zip(arguments[::2], arguments[1::2], strict=False):
-        match arrays.string(known(name)):
+        match matlab_values.string(known(name)):
             case "file":
-                load(script, built, arrays.string(known(value)))
+                load(script, built, matlab_values.string(known(value)))
             case "deltaT":
-                built.step = arrays.real(known(value))
+                built.step = matlab_values.real(known(value))
             case "tZero":
-                built.start = arrays.real(known(value))
+                built.start = matlab_values.real(known(value))
             case other:
                 script.say(f"the setting {other!r} of a simulator is not read")
     return built
@@ -93,8 +93,8 @@ def add_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementA
     """Add an element, with its inputs and its targets."""
     call = argument(arguments, 0)
     if not isinstance(call, ClassCall):
-        raise NotRead(f"an element is expected, not {arrays.described(call)}")
-    label = arrays.string(argument(call.arguments, 0))
+        raise NotRead(f"an element is expected, not {matlab_values.described(call)}")
+    label = matlab_values.string(argument(call.arguments, 0))
     if not label.strip():
         raise NotRead("the label of an element is empty")
     if label in sim.elements:
@@ -163,12 +163,12 @@ def sources(
 
 
 def _labels(arguments: ElementArguments, k: int) -> list[str]:
-    return arrays.names_of(argument(arguments, k))
+    return matlab_values.names_of(argument(arguments, k))
 
 
 def add_connection(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> None:
     """Connect elements that exist."""
-    target = arrays.string(argument(arguments, 2))
+    target = matlab_values.string(argument(arguments, 2))
     if target not in sim.elements:
         raise NotRead(f"no element has the label {target!r}")
     sim.elements[target].inputs += sources(script, sim, arguments, 0, target)
@@ -178,9 +178,9 @@ def set_parameters(script: ElementBuilder, sim: BuiltSimulator, arguments: Eleme
     """Change parameters of elements."""
     labels, names = _labels(arguments, 0), _labels(arguments, 1)
     values = argument(arguments, 2)
-    listed = list(values.reshape(-1, order="F")) if arrays.is_cells(values) else [values]
-    if not arrays.is_cells(values) and len(names) > 1:
-        listed = [arrays.number(v) for v in arrays.numbers(values).reshape(-1)]
+    listed = list(values.reshape(-1, order="F")) if matlab_values.is_cells(values) else [values]
+    if not matlab_values.is_cells(values) and len(names) > 1:
+        listed = [matlab_values.number(v) for v in matlab_values.numbers(values).reshape(-1)]
     labels = labels * len(names) if len(labels) == 1 else labels
     if not len(labels) == len(names) == len(listed):
         raise NotRead(
@@ -203,8 +203,8 @@ def set_parameter(script: ElementBuilder, built: BuiltElement, name: str, value:
 
 def load_settings(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Take over the parameters of a file; return that it was read."""
-    load(script, sim, arrays.string(argument(arguments, 0)))
-    return arrays.flag(True)
+    load(script, sim, matlab_values.string(argument(arguments, 0)))
+    return matlab_values.flag(True)
 
 
 def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
@@ -232,7 +232,7 @@ def load(script: ElementBuilder, sim: BuiltSimulator, name: str) -> None:
 
 def get_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Return an element."""
-    label = arrays.string(argument(arguments, 0))
+    label = matlab_values.string(argument(arguments, 0))
     if label not in sim.elements:
         raise NotRead(f"no element has the label {label!r}")
     return sim.elements[label]
@@ -240,25 +240,27 @@ def get_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementA
 
 def get_parameter(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Return the value of a parameter."""
-    built, name = get_element(script, sim, arguments), arrays.string(argument(arguments, 1))
+    built, name = get_element(script, sim, arguments), matlab_values.string(argument(arguments, 1))
     return value_of(built, name)
 
 
 def value_of(built: BuiltElement, name: str) -> Any:
     """Return a parameter of an element as a value of the script."""
     if name == "label":
-        return arrays.text(built.label)
+        return matlab_values.text(built.label)
     if name not in built.values:
         raise NotRead(f"{built.label!r} is a {built.kind} without a parameter {name!r}")
     value = built.values[name]
     if isinstance(value, np.ndarray) and value.ndim >= 2:
         return value
-    return arrays.text(value) if isinstance(value, str) else np.atleast_2d(np.asarray(value, dtype=float))
+    return (
+        matlab_values.text(value) if isinstance(value, str) else np.atleast_2d(np.asarray(value, dtype=float))
+    )
 
 
 def is_element(script: ElementBuilder, sim: BuiltSimulator, arguments: ElementArguments) -> Any:
     """Return whether an element has a label."""
-    return arrays.flag(arrays.string(argument(arguments, 0)) in sim.elements)
+    return matlab_values.flag(matlab_values.string(argument(arguments, 0)) in sim.elements)
 
 
 # ---------------------------------------------------------------------------------------------------- windows
@@ -284,7 +286,7 @@ def connect(script: ElementBuilder, gui: BuiltWindow, arguments: ElementArgument
 def _call(arguments: ElementArguments, what: str) -> ClassCall:
     call = argument(arguments, 0)
     if not isinstance(call, ClassCall):
-        raise NotRead(f"{what} is expected, not {arrays.described(call)}")
+        raise NotRead(f"{what} is expected, not {matlab_values.described(call)}")
     return call
 
 

@@ -8,9 +8,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from deodar_interop.importers.cosivina.launchers import arrays
+from deodar_interop.importers.cosivina.launchers import matlab_values
 from deodar_interop.importers.cosivina.launchers.expressions import NotRead
-from deodar_interop.importers.cosivina.launchers.functions import FUNCTIONS, RANDOM
+from deodar_interop.importers.cosivina.launchers.matlab_functions import FUNCTIONS, RANDOM
 from deodar_interop.importers.cosivina.launchers.objects import ClassCall, MissingValue
 from deodar_interop.importers.cosivina.launchers.tree import (
     BinaryNode,
@@ -122,9 +122,9 @@ class Evaluator:
     def _value(self, node: ScriptNode) -> Any:
         match node:
             case NumberNode(value):
-                return arrays.number(value)
+                return matlab_values.number(value)
             case TextNode(value):
-                return arrays.text(value)
+                return matlab_values.text(value)
             case NameNode(name):
                 return self._name(name)
             case UnaryNode(operator, operand):
@@ -132,8 +132,10 @@ class Evaluator:
             case BinaryNode(operator, left, right):
                 return self._binary(operator, left, right)
             case RangeNode(first, step, last):
-                by = 1.0 if step is None else arrays.real(self.value(step))
-                return arrays.counted(arrays.real(self.value(first)), by, arrays.real(self.value(last)))
+                by = 1.0 if step is None else matlab_values.real(self.value(step))
+                return matlab_values.counted(
+                    matlab_values.real(self.value(first)), by, matlab_values.real(self.value(last))
+                )
             case ListNode(cells, rows):
                 return self._list(cells, rows)
             case IndexNode():
@@ -149,8 +151,8 @@ class Evaluator:
         if name == "end" and self.ends:
             value, place, count = self.ends[-1]
             if count == 1:
-                return arrays.number(value.size)
-            return arrays.number(value.shape[place] if place < value.ndim else 1)
+                return matlab_values.number(value.size)
+            return matlab_values.number(value.shape[place] if place < value.ndim else 1)
         return self.call(name, ())
 
     def call(self, name: str, arguments: Sequence[Any]) -> Any:
@@ -169,36 +171,38 @@ class Evaluator:
             if not isinstance(value, np.ndarray) or value.ndim != 2:
                 raise NotRead("only a matrix is transposed")
             return value.T
-        numbers = arrays.numbers(value)
+        numbers = matlab_values.numbers(value)
         return -numbers if operator == "-" else numbers == 0 if operator == "~" else numbers
 
     def _binary(self, operator: str, left: ScriptNode, right: ScriptNode) -> Any:
         first = self.value(left)
         if operator in ("&&", "||"):
-            if arrays.is_true(first) != (operator == "&&"):
-                return arrays.flag(operator == "||")
-            return arrays.flag(arrays.is_true(self.value(right)))
+            if matlab_values.is_true(first) != (operator == "&&"):
+                return matlab_values.flag(operator == "||")
+            return matlab_values.flag(matlab_values.is_true(self.value(right)))
         second = self.value(right)
-        one, other = arrays.numbers(first), arrays.numbers(second)
+        one, other = matlab_values.numbers(first), matlab_values.numbers(second)
         if operator in ("*", "/", "\\") and one.size != 1 and other.size != 1:
             if operator != "*" or one.ndim != 2 or other.ndim != 2 or one.shape[1] != other.shape[0]:
                 raise NotRead(f"matrices of these sizes are not computed with {operator!r}")
-            arrays.require_size(float(one.shape[0]) * other.shape[1])
-            arrays.require_size(float(one.size) * other.shape[1] / 100)
+            matlab_values.require_size(float(one.shape[0]) * other.shape[1])
+            matlab_values.require_size(float(one.size) * other.shape[1] / 100)
             return one @ other
         if operator == "^" and (one.size != 1 or other.size != 1):
             raise NotRead("powers of matrices are not computed")
-        arrays.require_size(math.prod(np.broadcast_shapes(one.shape, other.shape)))
+        matlab_values.require_size(math.prod(np.broadcast_shapes(one.shape, other.shape)))
         return OPERATORS[operator](one, other)
 
     def _list(self, cells: bool, rows: Sequence[Sequence[ScriptNode]]) -> Any:
         if not cells:
-            return arrays.joined([[self.value(entry) for entry in row] for row in rows])
+            return matlab_values.joined([[self.value(entry) for entry in row] for row in rows])
         found = [[self.tolerant(entry) for entry in row] for row in rows]
         if len({len(row) for row in found}) > 1:
             raise NotRead("its rows have different lengths")
         return (
-            np.concatenate([arrays.cells(row) for row in found]) if found else np.empty((0, 0), dtype=object)
+            np.concatenate([matlab_values.cells(row) for row in found])
+            if found
+            else np.empty((0, 0), dtype=object)
         )
 
     # ------------------------------------------------------------------------------------ calls and indices
@@ -207,8 +211,8 @@ class Evaluator:
         target = node.target
         if isinstance(target, NameNode) and target.name not in self.scope and not node.braces:
             if target.name == "exist" and node.arguments:
-                name = arrays.string(self.value(node.arguments[0]))
-                return arrays.flag(name in self.scope)
+                name = matlab_values.string(self.value(node.arguments[0]))
+                return matlab_values.flag(name in self.scope)
             return self.call(target.name, self.arguments(node.arguments))
         if isinstance(target, MemberNode) and not node.braces:
             holder = self.value(target.target)
@@ -218,14 +222,14 @@ class Evaluator:
         else:
             value = self.value(target)
         if not isinstance(value, np.ndarray):
-            raise NotRead(f"{arrays.described(value)} has no entries")
+            raise NotRead(f"{matlab_values.described(value)} has no entries")
         indices = self.indices(value, node.arguments)
         if not node.arguments:
             return value
-        found = arrays.index_of(value, indices)
+        found = matlab_values.index_of(value, indices)
         if not node.braces:
             return found
-        if not arrays.is_cells(value) or found.size != 1:
+        if not matlab_values.is_cells(value) or found.size != 1:
             raise NotRead("braces are the index of one cell")
         return found.reshape(-1)[0]
 
@@ -246,7 +250,7 @@ class Evaluator:
         for node in nodes:
             if isinstance(node, IndexNode) and node.braces and node.arguments == (WholeNode(),):
                 found = self.tolerant(node.target)
-                out += list(found.reshape(-1, order="F")) if arrays.is_cells(found) else [found]
+                out += list(found.reshape(-1, order="F")) if matlab_values.is_cells(found) else [found]
             else:
                 out.append(self.tolerant(node))
         return out
@@ -257,7 +261,7 @@ class Evaluator:
                 raise NotRead(f"the structure has no field {name!r}")
             return holder[name]
         if isinstance(holder, np.ndarray):
-            raise NotRead(f"{arrays.described(holder)} has no member {name!r}")
+            raise NotRead(f"{matlab_values.described(holder)} has no member {name!r}")
         if isinstance(holder, ClassCall):
             raise NotRead(f"the property {name!r} of {holder.name} is not read")
         return self.host.member(holder, name)

@@ -15,9 +15,9 @@ from deodar.importers.imported import Imported
 from deodar.importers.report import Line
 from deodar.model.document import Document
 from deodar_interop.importers.cosivina import file
-from deodar_interop.importers.cosivina.launchers.controls import control_of, plot_of
 from deodar_interop.importers.cosivina.launchers.objects import BuiltSimulator, BuiltWindow
-from deodar_interop.importers.cosivina.launchers.running import ScriptReader, decoded
+from deodar_interop.importers.cosivina.launchers.script_controls import control_of, plot_of
+from deodar_interop.importers.cosivina.launchers.script_reader import ScriptReader, decoded
 from deodar_interop.importers.cosivina.panel import LauncherPanel
 from deodar_interop.importers.cosivina.plots import with_plots
 from deodar_interop.importers.cosivina.translate import Translation, translated

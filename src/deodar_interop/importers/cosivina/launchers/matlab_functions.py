@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar_interop.importers.cosivina.launchers.arrays import (
+from deodar_interop.importers.cosivina.launchers.expressions import NotRead
+from deodar_interop.importers.cosivina.launchers.matlab_values import (
     cells,
     counted,
     described,
@@ -27,7 +28,6 @@ from deodar_interop.importers.cosivina.launchers.arrays import (
     text,
     whole,
 )
-from deodar_interop.importers.cosivina.launchers.expressions import NotRead
 
 FunctionArguments = Sequence[Any]
 

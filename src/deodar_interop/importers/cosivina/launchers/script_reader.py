@@ -13,11 +13,11 @@ from deodar.importers._beside import Beside, is_plain
 from deodar.importers.report import Line
 from deodar_interop.importers.cosivina import file
 from deodar_interop.importers.cosivina.constructors import CONSTRUCTORS
-from deodar_interop.importers.cosivina.launchers import arrays, blocks, builders
+from deodar_interop.importers.cosivina.launchers import blocks, builders, matlab_values
 from deodar_interop.importers.cosivina.launchers.builders import SIMULATOR_METHODS, WINDOW_METHODS, known
 from deodar_interop.importers.cosivina.launchers.evaluate import FAILURES, Budget, Evaluator, Exhausted
 from deodar_interop.importers.cosivina.launchers.expressions import NotRead, expression
-from deodar_interop.importers.cosivina.launchers.functions import FUNCTIONS, RANDOM
+from deodar_interop.importers.cosivina.launchers.matlab_functions import FUNCTIONS, RANDOM
 from deodar_interop.importers.cosivina.launchers.objects import (
     BuiltElement,
     BuiltSimulator,
@@ -256,8 +256,8 @@ class ScriptReader:
                 return values * count if len(values) == 1 else values
             if name == "size" and name not in scope and len(node.arguments) == 1:
                 found = self._evaluator(scope).value(node)
-                sizes = [arrays.number(v) for v in found.reshape(-1)]
-                return sizes[:count] + [arrays.number(1)] * (count - len(sizes))
+                sizes = [matlab_values.number(v) for v in found.reshape(-1)]
+                return sizes[:count] + [matlab_values.number(1)] * (count - len(sizes))
             function = self._function(name)
             if function is not None and name not in scope:
                 return self._call_function(function, self._evaluator(scope).arguments(node.arguments))
@@ -278,9 +278,9 @@ class ScriptReader:
         if isinstance(target, IndexNode):
             old = self._old(target.target, scope)
             if old is not None and not isinstance(old, np.ndarray):
-                raise NotRead(f"{arrays.described(old)} has no entries")
+                raise NotRead(f"{matlab_values.described(old)} has no entries")
             if target.braces:
-                value = arrays.cells([value])
+                value = matlab_values.cells([value])
                 old = np.empty((0, 0), dtype=object) if old is None else old
             if not isinstance(value, np.ndarray):
                 raise NotRead("an entry of an array is a number, a text or a cell")
@@ -288,9 +288,9 @@ class ScriptReader:
             indices = evaluator.indices(np.zeros((0, 0)) if old is None else old, target.arguments)
             try:
                 if old is not None and not target.braces and value.shape == (0, 0):
-                    new = arrays.without(old, indices)
+                    new = matlab_values.without(old, indices)
                 else:
-                    new = arrays.put_at(old, indices, value)
+                    new = matlab_values.put_at(old, indices, value)
             except FAILURES as error:
                 raise NotRead(f"it cannot be computed ({error})") from None
             self._put(target.target, self._budget.made(new), scope)
@@ -320,15 +320,15 @@ class ScriptReader:
     def _set_property(self, holder: Any, name: str, value: Any) -> None:
         if isinstance(holder, BuiltSimulator):
             if name == "deltaT":
-                holder.step = arrays.real(value)
+                holder.step = matlab_values.real(value)
             elif name == "tZero":
-                holder.start = arrays.real(value)
+                holder.start = matlab_values.real(value)
             elif name != "t":
                 raise NotRead(f"the property {name!r} of a simulator is not read")
         elif isinstance(holder, BuiltElement):
             builders.set_parameter(self, holder, name, value)
         elif not isinstance(holder, BuiltWindow):
-            raise NotRead(f"the property {name!r} of {arrays.described(holder)} is not read")
+            raise NotRead(f"the property {name!r} of {matlab_values.described(holder)} is not read")
 
     # ------------------------------------------------------------------------------------------------- blocks
 
@@ -363,7 +363,7 @@ class ScriptReader:
         condition = expression(loop.condition)
         for _ in range(MOST_REPEATED):
             self._budget.step()
-            if not arrays.is_true(self._evaluator(scope).value(condition)):
+            if not matlab_values.is_true(self._evaluator(scope).value(condition)):
                 return
             try:
                 self._body(loop.body, scope)
@@ -390,7 +390,7 @@ class ScriptReader:
         for condition, body in choice.branches:
             if condition:
                 try:
-                    holds = arrays.is_true(self._evaluator(scope).value(expression(condition)))
+                    holds = matlab_values.is_true(self._evaluator(scope).value(expression(condition)))
                 except NotRead as error:
                     raise NotRead(f"whether its condition holds is not known ({error})") from None
                 if not holds:
@@ -409,9 +409,11 @@ class ScriptReader:
                 return
 
     def _is_case(self, subject: Any, case: Any) -> bool:
-        options = list(case.reshape(-1)) if arrays.is_cells(case) else [case]
+        options = list(case.reshape(-1)) if matlab_values.is_cells(case) else [case]
         return any(
-            np.array_equal(subject, option) if arrays.is_text(subject) == arrays.is_text(option) else False
+            np.array_equal(subject, option)
+            if matlab_values.is_text(subject) == matlab_values.is_text(option)
+            else False
             for option in options
         )
 
@@ -445,7 +447,7 @@ class ScriptReader:
         raise NotRead(f"{name!r} is neither a variable nor a function that is read")
 
     def _structure(self, arguments: Sequence[Any]) -> dict[str, Any]:
-        names = [arrays.string(known(name)) for name in arguments[::2]]
+        names = [matlab_values.string(known(name)) for name in arguments[::2]]
         return dict(zip(names, arguments[1::2], strict=False))
 
     def _function(self, name: str) -> ScriptFunction | None:
@@ -461,7 +463,7 @@ class ScriptReader:
             for name in function.arguments
         }
         scope.update(zip(function.arguments, arguments, strict=False))
-        scope["nargin"] = arrays.number(len(arguments))
+        scope["nargin"] = matlab_values.number(len(arguments))
         self._inside(function.name, lambda: self._body(function.body, scope))
         unset = MissingValue(f"{function.name} does not give it")
         return [scope.get(name, unset) for name in function.results]
@@ -493,13 +495,13 @@ class ScriptReader:
         if isinstance(target, BuiltSimulator):
             match name:
                 case "deltaT":
-                    return arrays.number(target.step)
+                    return matlab_values.number(target.step)
                 case "tZero" | "t":
-                    return arrays.number(target.start)
+                    return matlab_values.number(target.start)
                 case "nElements":
-                    return arrays.number(len(target.elements))
+                    return matlab_values.number(len(target.elements))
                 case "elementLabels":
-                    return arrays.cells([arrays.text(label) for label in target.elements])
+                    return matlab_values.cells([matlab_values.text(label) for label in target.elements])
                 case _:
                     pass
         return self.method(target, name, ())

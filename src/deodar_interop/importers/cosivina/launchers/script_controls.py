@@ -17,10 +17,10 @@ from deodar_interop.importers.cosivina.controls import (
     SwitchControl,
     Targets,
 )
-from deodar_interop.importers.cosivina.launchers import arrays
+from deodar_interop.importers.cosivina.launchers import matlab_values
 from deodar_interop.importers.cosivina.launchers.builders import argument
 from deodar_interop.importers.cosivina.launchers.expressions import NotRead
-from deodar_interop.importers.cosivina.launchers.functions import shown
+from deodar_interop.importers.cosivina.launchers.matlab_functions import shown
 from deodar_interop.importers.cosivina.launchers.objects import ClassCall, MissingValue
 from deodar_interop.importers.cosivina.plots import PlotRequest
 
@@ -30,7 +30,7 @@ ControlArguments = Sequence[Any]
 def control_of(call: ClassCall) -> Control:
     """Return the control of a call of its class."""
     first = call.arguments[0] if call.arguments else None
-    label = arrays.string(first) if isinstance(first, np.ndarray) and _is_line(first) else call.name
+    label = matlab_values.string(first) if isinstance(first, np.ndarray) and _is_line(first) else call.name
     if call.name not in CONTROLS:
         return LostControl(label, call.name, f"line {call.line}: deodar has no such control")
     try:
@@ -43,25 +43,25 @@ def plot_of(call: ClassCall) -> PlotRequest:
     """Return the visualization of a call of its class."""
     labels, components = (call.arguments[k] if k < len(call.arguments) else None for k in (0, 1))
     try:
-        shown = tuple(zip(arrays.names_of(labels), arrays.names_of(components), strict=False))
+        shown = tuple(zip(matlab_values.names_of(labels), matlab_values.names_of(components), strict=False))
     except NotRead:
         shown = ()
     return PlotRequest(call.name, shown, f"line {call.line}")
 
 
 def _is_line(value: np.ndarray) -> bool:
-    return arrays.is_text(value) and value.shape[0] == 1
+    return matlab_values.is_text(value) and value.shape[0] == 1
 
 
 def _targets(arguments: ControlArguments) -> Targets:
-    labels, names = (arrays.names_of(argument(arguments, k)) for k in (1, 2))
+    labels, names = (matlab_values.names_of(argument(arguments, k)) for k in (1, 2))
     if not labels or len(labels) != len(names):
         raise NotRead(f"{len(labels)} labels and {len(names)} parameters do not fit together")
     return tuple(zip(labels, names, strict=True))
 
 
 def _slider(label: str, arguments: ControlArguments) -> Control:
-    ends = arrays.numbers(argument(arguments, 3)).reshape(-1)
+    ends = matlab_values.numbers(argument(arguments, 3)).reshape(-1)
     if ends.size != 2:
         raise NotRead(f"its range has {ends.size} numbers")
     factor = argument(arguments, 5)
@@ -70,7 +70,7 @@ def _slider(label: str, arguments: ControlArguments) -> Control:
         _targets(arguments),
         float(ends[0]),
         float(ends[1]),
-        arrays.real(factor) if factor.size else 1.0,
+        matlab_values.real(factor) if factor.size else 1.0,
     )
 
 
@@ -84,31 +84,31 @@ def _values(value: Any, count: int) -> tuple[Any, ...]:
     """Return one value for each parameter; None for one that is not known."""
     if isinstance(value, np.ndarray) and value.size != count:
         raise NotRead(f"it has {value.size} values for {count} parameters")
-    if arrays.is_cells(value):
+    if matlab_values.is_cells(value):
         return tuple(_value(cell) for cell in value.reshape(-1, order="F"))
-    return tuple(float(v) for v in arrays.numbers(value).reshape(-1, order="F"))
+    return tuple(float(v) for v in matlab_values.numbers(value).reshape(-1, order="F"))
 
 
 def _value(cell: Any) -> Any:
     if isinstance(cell, MissingValue):
         return None
-    if arrays.is_text(cell):
-        return arrays.string(cell)
-    found = arrays.numbers(cell)
+    if matlab_values.is_text(cell):
+        return matlab_values.string(cell)
+    found = matlab_values.numbers(cell)
     return float(found.reshape(-1)[0]) if found.size == 1 else found.tolist()
 
 
 def _dropdown(label: str, arguments: ControlArguments) -> Control:
     targets = _targets(arguments)
     given = argument(arguments, 3)
-    each = list(given.reshape(-1, order="F")) if arrays.is_cells(given) else [given]
+    each = list(given.reshape(-1, order="F")) if matlab_values.is_cells(given) else [given]
     if len(each) != len(targets):
         raise NotRead(f"it has {len(each)} lists of values for {len(targets)} parameters")
     columns = [_column(values) for values in each]
     if not columns[0] or any(len(column) != len(columns[0]) for column in columns):
         raise NotRead("its lists of values have different lengths")
     labels = argument(arguments, 4)
-    choices = arrays.names_of(labels) if labels.size else [_shown(v) for v in columns[0]]
+    choices = matlab_values.names_of(labels) if labels.size else [_shown(v) for v in columns[0]]
     if len(choices) != len(columns[0]):
         raise NotRead(f"it has {len(choices)} names for {len(columns[0])} values")
     return DropdownControl(label, targets, tuple(choices), tuple(zip(*columns, strict=True)))
@@ -117,9 +117,9 @@ def _dropdown(label: str, arguments: ControlArguments) -> Control:
 def _column(values: Any) -> list[Any]:
     if isinstance(values, MissingValue):
         raise NotRead(values.why)
-    if arrays.is_cells(values):
+    if matlab_values.is_cells(values):
         return [_value(cell) for cell in values.reshape(-1, order="F")]
-    return [float(v) for v in arrays.numbers(values).reshape(-1, order="F")]
+    return [float(v) for v in matlab_values.numbers(values).reshape(-1, order="F")]
 
 
 def _shown(value: Any) -> str:
@@ -128,17 +128,17 @@ def _shown(value: Any) -> str:
 
 def _files(label: str, arguments: ControlArguments) -> Control:
     folder, files, labels = (argument(arguments, k) for k in (2, 3, 4))
-    names = arrays.names_of(files)
-    choices = arrays.names_of(labels) if labels.size else names
+    names = matlab_values.names_of(files)
+    choices = matlab_values.names_of(labels) if labels.size else names
     if not names or len(names) != len(choices):
         raise NotRead(f"it has {len(choices)} names for {len(names)} files")
-    before = arrays.string(folder).rstrip("/\\") if folder.size else ""
+    before = matlab_values.string(folder).rstrip("/\\") if folder.size else ""
     paths = [f"{before}/{name}" if before else name for name in names]
     return FilesControl(label, tuple(choices), tuple(paths))
 
 
 def _button(label: str, arguments: ControlArguments) -> Control:
-    return ButtonControl(label, arrays.string(argument(arguments, 2)))
+    return ButtonControl(label, matlab_values.string(argument(arguments, 2)))
 
 
 CONTROLS: Mapping[str, Callable[[str, ControlArguments], Control]] = {
