@@ -337,20 +337,22 @@ def timed(made: Any, file: Path, count: int) -> tuple[float, float, float]:
     """
     from deodar.batch.cluster import Cluster
     from deodar.batch.on_cluster import ClusterPool
-    from deodar.experiments import packed
+    from deodar.experiments import packed_experiment
     from deodar.experiments.jobs import Job, run_jobs
     from deodar.experiments.rows import Rows
 
     setup, began, first = made.setup(), time.perf_counter(), list[float]()
-    handed = packed.PackedExperiment.of(setup)
+    handed = packed_experiment.PackedExperiment.of(setup)
     jobs = [
         Job(
-            tuple(f"{k:06}" for k in piece), packed.work, {"handed": handed, "trials": piece, "records": None}
+            tuple(f"{k:06}" for k in piece),
+            packed_experiment.work,
+            {"handed": handed, "trials": piece, "records": None},
         )
         for piece in setup.pieces()
     ]
     with ClusterPool(Cluster(f"local:{count}")) as pool:
-        pool.everywhere(packed.prepare, handed)
+        pool.everywhere(packed_experiment.prepare, handed)
         start, began = time.perf_counter() - began, time.perf_counter()
 
         def told(progress: Any) -> None:

@@ -29,7 +29,7 @@ from typing import Any
 import deodar as dd
 from deodar.errors import DeodarError
 from deodar.importers.opening import read, tool_of
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_interop.importers.cosivina.classes import CLASSES
@@ -307,8 +307,8 @@ def _own(path: Path) -> Model:
 def _checked(model: Model) -> None:
     """What is open can be checked, and written and read again."""
     model.check()
-    data, arrays = files.to_data(model.document)
-    again: Document = files.from_data(json.loads(json.dumps(data)), arrays)
+    data, arrays = document_files.to_data(model.document)
+    again: Document = document_files.from_data(json.loads(json.dumps(data)), arrays)
     if again != model.document:
         raise Broken("written and read again it is another model")
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from deodar import codec
 from deodar.errors import DeodarError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.check import problems
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -120,9 +120,9 @@ def attack(count: int, seed: int) -> Outcome:
     for k in range(count):
         text = mutated(random_, random_.choice(small))
         try:
-            document = files.from_data(codec.read(text), {})
+            document = document_files.from_data(codec.read(text), {})
             problems(document)
-            again = files.from_data(json.loads(files.dumps(document)[0]), {})
+            again = document_files.from_data(json.loads(document_files.dumps(document)[0]), {})
             if again != document:
                 outcome.errors.append(f"{k}: what is written differs from what was read: {text[:2000]}")
             outcome.read += 1

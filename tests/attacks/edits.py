@@ -24,7 +24,7 @@ from deodar.elements.boost import Boost
 from deodar.errors import DeodarError
 from deodar.importers import presets
 from deodar.leaves import get
-from deodar.model import edit, files, plain_values
+from deodar.model import document_files, edit, plain_values
 from deodar.model.document import Document
 from deodar_studio.views import view
 from tests.deodar_studio.page import Page, page, studio
@@ -209,7 +209,7 @@ def _other(doc: Document, m: dict[str, Any]) -> Document:
         case "describe":
             return edit.describe(doc, **{key: m[key] for key in ("name", "notes") if key in m})
         case _:
-            return presets.applied(doc, files.from_data(json.loads(m["text"]), {}))[0]
+            return presets.applied(doc, document_files.from_data(json.loads(m["text"]), {}))[0]
 
 
 async def attack(address: str, pages: int, edits: int, seed: int) -> Outcome:

@@ -19,7 +19,7 @@ import msgspec
 import deodar as dd
 from deodar.errors import DeodarError
 from deodar.importers import presets
-from deodar.model import building, clipboard, edit, files, script
+from deodar.model import building, clipboard, document_files, edit, script
 from deodar.model.building import Around
 from deodar.model.document import Document, Entry
 from deodar_studio.catalogue import templates
@@ -219,7 +219,7 @@ def _named(draw: Draw, doc: Document, parameter: str) -> Entry:
 
 def written(doc: Document) -> tuple[str, bytes | None]:
     """Return the bytes of a document's files."""
-    return files.dumps(doc, "walk")
+    return document_files.dumps(doc, "walk")
 
 
 def whole(doc: Document) -> Any:

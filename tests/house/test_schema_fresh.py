@@ -14,7 +14,7 @@ import pytest
 
 from deodar import registry
 from deodar.element import Element
-from deodar.model import files, output, schema
+from deodar.model import document_files, output, schema
 from deodar.model.model import Model
 from tests.house.source import ROOT, texts
 
@@ -82,12 +82,12 @@ def test_the_schema_refuses_what_load_refuses() -> None:
         data = json.loads(model.to_json())
         change(data)
         assert list(VALIDATOR.iter_errors(data))
-        with pytest.raises(files.DeodarError):
-            files.from_data(data, {})
+        with pytest.raises(document_files.DeodarError):
+            document_files.from_data(data, {})
 
 
 def test_committed_documents_are_valid_and_have_no_problems() -> None:
     for path in _documents():
         VALIDATOR.validate(json.loads(path.read_text(encoding="utf-8")))
-        model = Model(document=files.load(path), trusted=False)
+        model = Model(document=document_files.load(path), trusted=False)
         assert not model.check(), path.relative_to(ROOT)

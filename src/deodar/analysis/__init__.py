@@ -11,12 +11,11 @@ from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.locus import Locus, LocusPoint
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.maps.map_result import RegimeMap
-from deodar.analysis.memory import Memory, forgetting, outlives
-from deodar.analysis.paths import clearance, path_divergence, path_length, path_until
 from deodar.analysis.peaks import Peak, Peaks, peaks
 from deodar.analysis.phase import FixedPoint, Phase, phase
 from deodar.analysis.ramp import Branch, SettledRamp, ramp
 from deodar.analysis.regimes import Regimes, regimes
+from deodar.analysis.robot_paths import clearance, path_divergence, path_length, path_until
 from deodar.analysis.selection import Selection, selection
 from deodar.analysis.settle import Settled, settle
 from deodar.analysis.shortest import Grid, arena_grid, shortest_path
@@ -25,6 +24,7 @@ from deodar.analysis.thresholds import Thresholds, Transition, descend, threshol
 from deodar.analysis.tuning.centring import RegionSize
 from deodar.analysis.tuning.response import FieldResponse, SettledBatch
 from deodar.analysis.tuning.tuned import Tuned
+from deodar.analysis.working_memory import Memory, forgetting, outlives
 
 __all__ = [
     "Bifurcation",

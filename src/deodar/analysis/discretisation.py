@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping
 
 from deodar.analysis.isolated import Isolated, isolate
-from deodar.analysis.memory import forgetting, suppression
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Transition, thresholds
+from deodar.analysis.working_memory import forgetting, suppression
 from deodar.elements.field import Field
 from deodar.numerics.axes import Axis
 from deodar.numerics.kernels.custom import Custom

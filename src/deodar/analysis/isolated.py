@@ -28,7 +28,7 @@ from deodar.numerics import interaction
 from deodar.numerics.axes import Axes, shape
 from deodar.numerics.processor import on_cpu
 from deodar.session.session import Session
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 
 InputKind = Literal["input", "boost"]
 """The input that is varied: the strength of the localised input, or a homogeneous boost (on a node the two

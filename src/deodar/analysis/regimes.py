@@ -11,7 +11,6 @@ import numpy as np
 
 from deodar.analysis.discretisation import discretisation, obstacle
 from deodar.analysis.isolated import Isolated, Isolation, isolate
-from deodar.analysis.memory import Memory, forgetting, outlives, suppression
 from deodar.analysis.peaks import Peak, Peaks
 from deodar.analysis.preshape import SHARES, Boosted, boosted
 from deodar.analysis.ramp import SettledRamp, ramp
@@ -19,6 +18,7 @@ from deodar.analysis.selection import Selection, separation
 from deodar.analysis.selection import selection as measured_selection
 from deodar.analysis.settle import LIMIT
 from deodar.analysis.thresholds import Thresholds, Transition, thresholds
+from deodar.analysis.working_memory import Memory, forgetting, outlives, suppression
 from deodar.codec import JsonObject
 from deodar.elements.field import Field
 from deodar.model.model import Model

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from deodar.analysis.paths import clearance
+from deodar.analysis.robot_paths import clearance
 from deodar.errors import AnalysisError
 
 SLACK = 1e-6

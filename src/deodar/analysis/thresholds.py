@@ -10,7 +10,7 @@ import numpy as np
 
 from deodar.analysis.isolated import InputKind, Isolated
 from deodar.analysis.settle import LIMIT
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 
 MOST_DOUBLINGS = 8
 JUMP = 20.0

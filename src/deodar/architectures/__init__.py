@@ -10,12 +10,12 @@ from deodar.architectures.change_detection import LENGTH as TRIAL_LENGTH
 from deodar.architectures.change_detection import TEST as TEST_WINDOW
 from deodar.architectures.change_detection import change_detection, change_trial
 from deodar.architectures.color_search import color_search
+from deodar.architectures.corridor_plan import START as PLAN_START
+from deodar.architectures.corridor_plan import plan
 from deodar.architectures.event_selection import event_selection
 from deodar.architectures.feature_space import binding, feature_space
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.architectures.looking import looking
-from deodar.architectures.plan import START as PLAN_START
-from deodar.architectures.plan import plan
 from deodar.architectures.pointing import pointing
 from deodar.architectures.reference_frame import reference_frame, remapping
 from deodar.architectures.saliency import saliency

@@ -12,11 +12,11 @@ from deodar.batch import sent
 from deodar.batch.cluster import Cluster
 from deodar.batch.compute import compute
 from deodar.batch.on_cluster import ClusterPool
-from deodar.batch.output import OutputPart, RunOutput
-from deodar.batch.packed import PackedModel, require_portable
+from deodar.batch.packed_model import PackedModel, require_portable
 from deodar.batch.pieces import EMPTY, PieceResult
-from deodar.batch.request import SimulationRequest
+from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import PieceMessage, SentOutput, SentPart, SentState
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import WorkerError
 from deodar.model.model import Model
 from deodar.session.interrupt import SecondInterrupt

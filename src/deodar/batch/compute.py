@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from deodar.batch import pieces
-from deodar.batch.output import OutputPart, RunOutput, Sampling
 from deodar.batch.points import Points
 from deodar.batch.progress import Shown, bar
-from deodar.batch.request import SimulationRequest
+from deodar.batch.run_file import OutputPart, RunOutput, Sampling
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.compiler import device as devices
 from deodar.compiler import division, hosts
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import Executable, executable
 from deodar.compiler.program import Port
 from deodar.elements.field import Field

@@ -11,7 +11,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.batch.points import POINT, Sweep, dimensions
-from deodar.batch.request import SimulationRequest
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import NotFinite, ParameterError
 from deodar.parameters import show
 from deodar.recording.provenance import KEY

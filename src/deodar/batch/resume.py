@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_pieces import in_pool, require_one_kind
 from deodar.batch.on_cluster import ClusterPool
-from deodar.batch.output import RunOutput
 from deodar.batch.pieces import cut
 from deodar.batch.points import POINT
 from deodar.batch.progress import Shown
-from deodar.batch.request import SimulationRequest
+from deodar.batch.run_file import RunOutput
 from deodar.batch.simulate import warned
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.compiler import device as devices
 from deodar.compiler import hosts
 from deodar.errors import RecordError, WorkerError

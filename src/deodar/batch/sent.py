@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from deodar.batch.output import CHECKPOINT, PIECE_CHECKPOINT, RunOutput, StoredState, Writer
+from deodar.batch.run_file import CHECKPOINT, PIECE_CHECKPOINT, RunOutput, StoredState, Writer
 from deodar.model.document import Document
 from deodar.session import checkpoint
 from deodar.session.run import Run

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_pieces import run as on_cluster
 from deodar.batch.compute import Spread, compute
-from deodar.batch.output import OutputElsewhere, RunOutput
 from deodar.batch.points import Sweep
 from deodar.batch.progress import Shown
-from deodar.batch.request import SimulationRequest
+from deodar.batch.run_file import OutputElsewhere, RunOutput
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.batch.workers import run as in_workers
 from deodar.compiler import device as places
 from deodar.compiler import hosts

@@ -16,12 +16,12 @@ from pathlib import Path
 
 from deodar.batch import sent
 from deodar.batch.compute import compute
-from deodar.batch.output import OutputPart, RunOutput
-from deodar.batch.packed import PackedModel
+from deodar.batch.packed_model import PackedModel
 from deodar.batch.pieces import EMPTY, PieceResult
 from deodar.batch.pool import Pool
-from deodar.batch.request import SimulationRequest
+from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import SentOutput, SentPart
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import Interrupted
 from deodar.model.model import Model
 from deodar.session.interrupt import SecondInterrupt

@@ -63,7 +63,7 @@ def use_cores(cores: int | None, wanted: int = 1) -> None:
 def use_rounding(separate: bool) -> None:
     """Round products and sums separately if `--separate-rounding` is given, or a record was made so."""
     # start-up time: these bring JAX
-    from deodar.batch.rounding import use_separate_rounding
+    from deodar.batch.separate_rounding import use_separate_rounding
 
     if separate:
         use_separate_rounding()

@@ -161,7 +161,7 @@ def _needs(path: str) -> dict[str, Any]:
     # start-up time: these bring JAX
     from deodar.experiments.design import Design
     from deodar.importers import opening
-    from deodar.model import files
+    from deodar.model import document_files
 
     check = f"deodar check {path}"
     try:
@@ -169,7 +169,7 @@ def _needs(path: str) -> dict[str, Any]:
         if _is_experiment(place):
             check = f"deodar experiment {path} --check"
             place = opening.require(str(Design.load(place).model))
-        files.load(place)
+        document_files.load(place)
     except DocumentError as error:
         problems = [
             f"{p.what}. {p.fix}".removesuffix(". ") for p in error.problems if ": packages." in p.where

@@ -199,7 +199,7 @@ def _stopped(growing: Sequence[xarray.Dataset], watches: dict[Path, WriterWatch]
 def _continuation(record: Path) -> str:
     """Return a sentence on a record whose run was stopped, and the command that continues the run."""
     # start-up time: this brings JAX
-    from deodar.batch.output import CHECKPOINT
+    from deodar.batch.run_file import CHECKPOINT
 
     name = record.parent if record.name == "record.zarr" else record
     text = f"{_options.shown(name)} is incomplete, and no process writes it any more"

@@ -12,7 +12,7 @@ from jax.sharding import Mesh, NamedSharding, PartitionSpec
 
 from deodar.compiler import hosts
 from deodar.compiler.arguments import ProgramArguments
-from deodar.compiler.batch import Batch, Divided
+from deodar.compiler.copy_batch import Batch, Divided
 from deodar.compiler.device import Device, name
 from deodar.errors import DeviceError
 

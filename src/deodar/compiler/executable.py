@@ -30,12 +30,12 @@ from deodar.compiler.arguments import (
     ProgramState,
     ProgramValues,
 )
-from deodar.compiler.batch import Batch
 from deodar.compiler.body import Body, batched
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.device import Device
 from deodar.compiler.division import Distribution, DividedCopies, Division
 from deodar.compiler.functions import Constants, Replacements
-from deodar.compiler.layout import LeafLayout
+from deodar.compiler.leaf_layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
 from deodar.compiler.program import Chunk, Port, Program, precision_context

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from deodar.compiler.arguments import ProgramState, ProgramValues
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import executable
 from deodar.compiler.functions import Constants
 from deodar.compiler.moment import packed, unpacked

@@ -9,7 +9,7 @@ import numpy as np
 from jax import Array
 
 from deodar.compiler.arguments import ProgramState, ProgramValues
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import executable
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf

@@ -15,9 +15,9 @@ from deodar.codec import Json, JsonObject
 from deodar.errors import DeodarError, DocumentError, ParameterError, Problem, did_you_mean
 from deodar.experiments.actions import ACTIONS, Action
 from deodar.experiments.events import EVENTS, Event
+from deodar.experiments.experiment_migrations import migrate
 from deodar.experiments.factor import DESIGNS, Factor, assign
 from deodar.experiments.measures import MEASURES, BaseMeasure
-from deodar.experiments.migrations import migrate
 from deodar.experiments.plain import from_data, schema, to_data
 from deodar.model import output
 from deodar.model.model import Model, load, save

@@ -11,9 +11,9 @@ from typing import Any
 
 from deodar import codec
 from deodar.errors import RecordError, first_line
+from deodar.experiments.experiment_table import lacks, read_row
 from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.rows import ABOUT, KEY, Row
-from deodar.experiments.table import lacks, read_row
 
 QUIET_SECONDS = 60.0
 """Wall time without a new row after which rows count as stopped where the lock of their writer is not seen,

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from deodar.errors import OutputExists, RecordError
 from deodar.experiments import results
 from deodar.experiments.design import Design
+from deodar.experiments.experiment_table import dataset, table
 from deodar.experiments.jobs import MACHINE
 from deodar.experiments.record_target import PLACE, RECORD, stored_place
 from deodar.experiments.rows import KEY, Row, Rows, claim, different
-from deodar.experiments.table import dataset, table
 from deodar.model import output
 from deodar.recording import files, writer_lock
 

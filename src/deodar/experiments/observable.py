@@ -71,8 +71,8 @@ class Observable:
         return REDUCES[self.reduce](flat, axis=-1)
 
     def given(self, values: np.ndarray) -> np.ndarray:
-        """Return the reduction from the output of its reader (`reader.py`): a position without a peak is
-        NaN.
+        """Return the reduction from the output of its reader (`field_reader.py`): a position without a peak
+        is NaN.
         """
         if self.reduce != PLACE:
             return values

@@ -14,16 +14,17 @@ from typing import TYPE_CHECKING, Any, cast
 from deodar import codec
 from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
-from deodar.batch.packed import require_portable
+from deodar.batch.packed_model import require_portable
 from deodar.batch.staffing import WorkerWatch
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.credentials import masked_data
 from deodar.errors import DeodarError, ParameterError, RecordError, WorkerError
-from deodar.experiments import packed, record_index
+from deodar.experiments import packed_experiment, record_index
 from deodar.experiments.comparing import compare
+from deodar.experiments.experiment_migrations import migrate
+from deodar.experiments.experiment_table import dataset, lacks, read_row, table
 from deodar.experiments.jobs import Job, Progress, run_jobs
-from deodar.experiments.migrations import migrate
 from deodar.experiments.record_target import (
     RecordTarget,
     claimed,
@@ -34,9 +35,8 @@ from deodar.experiments.record_target import (
 )
 from deodar.experiments.rows import ABOUT, Row, Rows, claim
 from deodar.experiments.setup import Setup
-from deodar.experiments.table import dataset, lacks, read_row, table
 from deodar.experiments.writing import RECORDS
-from deodar.model import files as documents
+from deodar.model import document_files as documents
 from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, provenance, writer_lock
@@ -107,7 +107,7 @@ def _run_trials(
     cluster: Cluster | None,
     part: tuple[int, int] | None,
 ) -> xarray.Dataset:
-    handed = packed.PackedExperiment.of(setup) if workers or cluster else None
+    handed = packed_experiment.PackedExperiment.of(setup) if workers or cluster else None
     with _opened(setup, handed, cluster, watch) as pool:
         about = _about(setup, workers, out) if pool is None else _about(setup, 1, out, pool.made_by)
 
@@ -162,7 +162,10 @@ def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> Non
 
 @contextlib.contextmanager
 def _opened(
-    setup: Setup, handed: packed.PackedExperiment | None, cluster: Cluster | None, watch: WorkerWatch | None
+    setup: Setup,
+    handed: packed_experiment.PackedExperiment | None,
+    cluster: Cluster | None,
+    watch: WorkerWatch | None,
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the experiment; None without a cluster.
 
@@ -174,7 +177,7 @@ def _opened(
         return
     require_portable(setup.world)
     with ClusterPool(cluster, setup.experiment.precision, watch) as pool:
-        pool.everywhere(packed.prepare, handed)
+        pool.everywhere(packed_experiment.prepare, handed)
         yield pool
 
 
@@ -198,7 +201,7 @@ def _sees(file: Path, content: bytes) -> bool:
 
 def _jobs(
     setup: Setup,
-    handed: packed.PackedExperiment | None,
+    handed: packed_experiment.PackedExperiment | None,
     records: Path | RecordTarget | None,
     part: tuple[int, int] | None,
 ) -> Iterator[Job]:
@@ -209,7 +212,7 @@ def _jobs(
         if handed is None:
             yield Job(keys, setup.rows, given, len(piece))
         else:
-            yield Job(keys, packed.work, {"handed": handed, **given}, len(piece))
+            yield Job(keys, packed_experiment.work, {"handed": handed, **given}, len(piece))
 
 
 def _about(

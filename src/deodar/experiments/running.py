@@ -11,7 +11,7 @@ import numpy as np
 from deodar.session.keep import with_learned
 from deodar.session.run import whole
 from deodar.session.session import Session
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 

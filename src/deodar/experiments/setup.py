@@ -13,15 +13,15 @@ from typing import Any
 from deodar import codec
 from deodar.batch.pieces import BATCH_BYTES
 from deodar.experiments.actions import Snapshot
-from deodar.experiments.batch import run_batch
 from deodar.experiments.checking import check
 from deodar.experiments.design import Design
 from deodar.experiments.levels import set_values, swept
 from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.record_target import RECORD, PieceRecords, RecordTarget
 from deodar.experiments.rows import KEY, Row
-from deodar.experiments.run import run_trial
 from deodar.experiments.trial import Trial
+from deodar.experiments.trial_batch import run_batch
+from deodar.experiments.trial_run import run_trial
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load

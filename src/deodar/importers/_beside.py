@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path, PureWindowsPath
 
 from deodar.errors import DocumentError
-from deodar.model.files import MOST_BYTES
+from deodar.model.document_files import MOST_BYTES
 
 Beside = Callable[[str], bytes | None]
 """Return the content of the file of a name; None if there is no such file.

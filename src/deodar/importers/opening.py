@@ -11,7 +11,7 @@ from deodar.importers._beside import in_folder
 from deodar.importers.imported import Imported
 from deodar.importers.tools import IMPORTERS
 from deodar.model import model as models
-from deodar.model.files import MOST_BYTES
+from deodar.model.document_files import MOST_BYTES
 from deodar.model.model import Model
 
 HEAD = 65536

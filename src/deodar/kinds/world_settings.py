@@ -11,7 +11,7 @@ from deodar.codec import Json
 from deodar.errors import WorldError, did_you_mean
 from deodar.parameters import show
 from deodar.worlds._base import World
-from deodar.worlds.recording import Recording
+from deodar.worlds.recorded_run import Recording
 
 SettingForm = Literal["file", "text", "number", "flag", "numbers"]
 

@@ -14,7 +14,7 @@ from typing import Any, cast
 
 from deodar.codec import Json
 from deodar.errors import ModelError, UnknownName, did_you_mean
-from deodar.model import edit, find, starting
+from deodar.model import edit, find, new_elements
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.paths import PathNames, display
 from deodar.model.resolve import resolve
@@ -65,8 +65,8 @@ def add(
 ) -> tuple[Document, list[str]]:
     """Return a document with a new element of a kind, its connections and its position; and its id.
 
-    Parameters that `values` does not give have starting values (`starting.element`), axes those of the ports
-    that it is connected with.
+    Parameters that `values` does not give have starting values (`new_elements.element`), axes those of the
+    ports that it is connected with.
     """
     doc = disconnect(doc, [] if around.replaces is None else [around.replaces])
     wire = None if around.wire is None else connection(doc, around.wire)
@@ -75,7 +75,7 @@ def add(
     arriving, wanted = axes_around(doc, source, target)
     axes = arriving if wanted is None else wanted
     name = free_name(doc, group, name or _words(kind))
-    made = starting.element(doc, kind, name, values, axes, arriving)
+    made = new_elements.element(doc, kind, name, values, axes, arriving)
     doc, entry = edit.add(doc, made, group)
     if wire is not None:
         doc = edit.disconnect(doc, *wire.ends)

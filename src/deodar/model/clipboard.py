@@ -12,7 +12,7 @@ from typing import Any, cast
 
 from deodar import codec
 from deodar.errors import DocumentError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.document import KEYS, Document
 
 NAME = "clipboard"
@@ -20,7 +20,7 @@ NAME = "clipboard"
 
 def text(doc: Document) -> str:
     """Return a document with its arrays as text."""
-    written, packed = files.dumps(doc, NAME)
+    written, packed = document_files.dumps(doc, NAME)
     if packed is None:
         return written
     data = codec.parse(written)
@@ -34,15 +34,15 @@ def read(content: str) -> Document:
     Raises:
         DocumentError: the text is not a document; the error lists all problems.
     """
-    if len(content) > files.MOST_BYTES:
-        raise DocumentError(f"is larger than {files.MOST_BYTES // 2**20} MiB", where=NAME)
+    if len(content) > document_files.MOST_BYTES:
+        raise DocumentError(f"is larger than {document_files.MOST_BYTES // 2**20} MiB", where=NAME)
     try:
         encoded = content.encode()
     except UnicodeEncodeError:
         raise DocumentError("is not valid text", where=NAME) from None
     data = codec.read(encoded)
     packed = _arrays(data)
-    return files.of_data(data, lambda name: packed)
+    return document_files.of_data(data, lambda name: packed)
 
 
 def _arrays(data: Any) -> bytes | None:
@@ -55,5 +55,5 @@ def _arrays(data: Any) -> bytes | None:
         packed = base64.b64decode(content, validate=True)
     except (binascii.Error, ValueError, TypeError):
         raise DocumentError("the content is not base64", where="arrays") from None
-    files.require_room(len(packed), NAME)
+    document_files.require_room(len(packed), NAME)
     return packed

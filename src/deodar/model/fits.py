@@ -15,7 +15,7 @@ from typing import Any
 
 from deodar.element import Coupling, Element
 from deodar.errors import AxesError, DeodarError
-from deodar.model import edit, files, find, starting
+from deodar.model import document_files, edit, find, new_elements
 from deodar.model.document import Document, Entry
 from deodar.model.resolve import Node, misfit, resolve
 from deodar.numerics.axes import Axes, Axis, describe, shape
@@ -118,13 +118,13 @@ def offers(axes: Axes, want: Axes, keys: Callable[[Axis], str]) -> tuple[Offer, 
 
 def kinds_after(doc: Document, axes: Axes | None) -> list[FittingKind]:
     """Return the kinds and input ports that can read a port with these axes (None: unknown)."""
-    usual = starting.usual_axes(doc)
+    usual = new_elements.usual_axes(doc)
     return list(_after(usual if axes is None else axes))
 
 
 def kinds_before(doc: Document, wanted: Axes | None) -> list[FittingKind]:
     """Return the kinds whose default output can be connected to a port with these axes (None: any)."""
-    return list(_before(starting.usual_axes(doc) if wanted is None else wanted))
+    return list(_before(new_elements.usual_axes(doc) if wanted is None else wanted))
 
 
 @functools.lru_cache(maxsize=64)
@@ -132,7 +132,7 @@ def _offers(
     axes: Axes, want: Axes
 ) -> tuple[tuple[type[Element], Mapping[str, Any], str, tuple[Any, ...]], ...]:
     found: list[tuple[type[Element], Mapping[str, Any], str, tuple[Any, ...]]] = []
-    for cls in starting.kinds():
+    for cls in new_elements.kinds():
         if not issubclass(cls, Coupling) or cls.inputs != ("input",):
             continue
         best: tuple[type[Element], Mapping[str, Any], str, tuple[Any, ...]] | None = None
@@ -219,9 +219,9 @@ def _before(wanted: Axes) -> tuple[FittingKind, ...]:
 def _made(axes: Axes) -> Iterator[tuple[type[Element], Element]]:
     """Yield every kind with a new element of it over these axes."""
     empty = Document("kinds")
-    for cls in starting.kinds():
+    for cls in new_elements.kinds():
         try:
-            yield cls, starting.element(empty, cls.__name__, "new", {}, axes, axes)
+            yield cls, new_elements.element(empty, cls.__name__, "new", {}, axes, axes)
         except (DeodarError, TypeError):
             continue
 
@@ -233,12 +233,12 @@ class _Judge:
         self.doc = doc
         nodes, self.problems = resolve(doc)
         self.nodes = {n.id: n for n in nodes if n.declared}
-        self.known = files.axes(doc)
+        self.known = document_files.axes(doc)
         self.ends = doc.ends()
         self.resolved = 0
 
     def key(self, axis: Axis) -> str:
-        return files.axis_key(self.known, axis)
+        return document_files.axis_key(self.known, axis)
 
     def output(self, ident: str, port: str) -> Axes | None:
         node = self.nodes.get(ident)

@@ -12,7 +12,7 @@ from typing import Any
 
 from deodar.element import Element
 from deodar.errors import ModelError, ParameterError, Problem, UnknownName
-from deodar.model import edit, files, find, uses
+from deodar.model import document_files, edit, find, uses
 from deodar.model.check import check, problems
 from deodar.model.document import Document, Entry
 from deodar.model.handle import Handle as Handle
@@ -298,7 +298,7 @@ class Model:
 
     def to_json(self) -> str:
         """Return the document as JSON text (arrays by name only; `save` writes them to a file)."""
-        return files.dumps(self.document)[0]
+        return document_files.dumps(self.document)[0]
 
     def to_script(self, path: str = "") -> str:
         """Return a Python script that makes the same document.
@@ -388,7 +388,7 @@ def path_of(what: Any) -> str:
 
 def save(model: Model, path: str | Path, force: bool = False) -> None:
     """Write a model as a document, its arrays first; an existing file is replaced only with `force`."""
-    files.save(model.document, path, force)
+    document_files.save(model.document, path, force)
 
 
 def load(path: str | Path, trust: bool = False) -> Model:
@@ -397,7 +397,7 @@ def load(path: str | Path, trust: bool = False) -> Model:
     Raises:
         DocumentError: the document has problems; the error lists all, each with its path.
     """
-    return Model(document=files.load(path), trusted=trust)
+    return Model(document=document_files.load(path), trusted=trust)
 
 
 def _caller() -> str:

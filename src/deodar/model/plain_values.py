@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, cast
 
-from deodar.model import edit, files, find
+from deodar.model import document_files, edit, find
 from deodar.model.document import Document
 from deodar.model.parts import value_from_json
 from deodar.numerics.axes import Axis
@@ -35,10 +35,10 @@ def put(doc: Document, ids: Iterable[str], path: str, data: Any) -> Document:
 
 
 def _read(doc: Document, ident: str, path: str, data: Any) -> Any:
-    entry, axes = find.entry(doc, ident), files.axes(doc)
+    entry, axes = find.entry(doc, ident), document_files.axes(doc)
     if "." not in path:
         data = keyed(type(entry.element), path, data, axes)
-    arrays = files.arrays(doc) if _names_array(data) else {}
+    arrays = document_files.arrays(doc) if _names_array(data) else {}
     return value_from_json(entry.element, path, data, f"{entry.path}.{path}", axes, arrays)
 
 
@@ -64,7 +64,9 @@ def keyed(cls: type[Any], name: str, data: Any, known: dict[str, Axis]) -> Any:
 
 
 def _key(data: Any, known: dict[str, Axis]) -> Any:
-    return files.axis_key(known, axis(cast("dict[Any, Any]", data))) if isinstance(data, dict) else data
+    return (
+        document_files.axis_key(known, axis(cast("dict[Any, Any]", data))) if isinstance(data, dict) else data
+    )
 
 
 def axis(properties: Mapping[str, Any]) -> Axis:

@@ -14,7 +14,7 @@ from deodar import registry
 from deodar.declarations import Needed
 from deodar.element import Coupling
 from deodar.errors import DeodarError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.document import Document, Entry
 from deodar.model.paths import PathNames, display, stored_id
 from deodar.model.python_code import (
@@ -70,9 +70,9 @@ class _Script:
         self.imports: set[str] = set()
         self.encoded: dict[str, FrozenArray] = {}
         self.numpy = False
-        self.array_keys = {array.digest: key for key, array in files.arrays(doc).items()}
+        self.array_keys = {array.digest: key for key, array in document_files.arrays(doc).items()}
         self.axes: dict[Axis, str] = {}
-        for key, axis in files.axes(doc).items():
+        for key, axis in document_files.axes(doc).items():
             self.axes[axis] = variable(key, {*TAKEN, *self.axes.values()})
         self.variables: dict[str, str] = {}
         self.taken = {*TAKEN, *self.axes.values()}
@@ -129,7 +129,7 @@ class _Script:
     def _arrays(self) -> list[str]:
         if not self.encoded:
             return []
-        packed = base64.b64encode(files.pack(self.encoded)).decode()
+        packed = base64.b64encode(document_files.pack(self.encoded)).decode()
         return ['ARRAYS = """', *textwrap.wrap(packed, 86), '"""', ""]
 
     # ---------------------------------------------------------------------------------------------- the graph

@@ -9,7 +9,7 @@ from pathlib import Path
 import xarray
 
 from deodar.errors import DeodarError, OutputExists
-from deodar.model import files as documents
+from deodar.model import document_files as documents
 from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, places, table

@@ -12,7 +12,7 @@ from deodar.recording import files
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._naming import named_kind
-from deodar.worlds.recording import Recording
+from deodar.worlds.recorded_run import Recording
 
 
 def opened(kind: type[World], argument: str) -> World:

@@ -12,7 +12,7 @@ from deodar.codec import Json, JsonObject
 from deodar.compiler import hosts
 from deodar.compiler.device import cores
 from deodar.compiler.rounding import SEPARATELY, separate_rounding
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.document import Document
 from deodar.numerics import native
 from deodar.worlds._base import World
@@ -49,8 +49,8 @@ def provenance(doc: Document, run: Any, **settings: Any) -> JsonObject:
 
 def stored(doc: Document) -> JsonObject:
     """Return a document as records contain it; `document` reads it."""
-    data, arrays = files.to_data(doc)
-    packed = base64.b64encode(files.pack(arrays)).decode() if arrays else ""
+    data, arrays = document_files.to_data(doc)
+    packed = base64.b64encode(document_files.pack(arrays)).decode() if arrays else ""
     return {"document": data, "arrays": packed}
 
 
@@ -107,5 +107,7 @@ def _processor() -> str:
 
 def document(about: Mapping[str, Any]) -> Document:
     """Return the document of a record."""
-    arrays = files.unpack(base64.b64decode(about["arrays"]), "the record") if about.get("arrays") else {}
-    return files.from_data(about["document"], arrays)
+    arrays = (
+        document_files.unpack(base64.b64decode(about["arrays"]), "the record") if about.get("arrays") else {}
+    )
+    return document_files.from_data(about["document"], arrays)

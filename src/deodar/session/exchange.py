@@ -11,8 +11,8 @@ import jax
 import numpy as np
 from jax.typing import DTypeLike
 
-from deodar.compiler.batch import Batch
 from deodar.compiler.body import Body
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import TrialNumbers
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor

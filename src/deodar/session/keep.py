@@ -9,7 +9,7 @@ import numpy as np
 from deodar.element import Element
 from deodar.errors import ParameterError
 from deodar.model.model import Model
-from deodar.session.snapshot import SessionSnapshot, StateRow
+from deodar.session.session_snapshot import SessionSnapshot, StateRow
 
 
 def learned(snapshot: SessionSnapshot) -> dict[str, np.ndarray]:

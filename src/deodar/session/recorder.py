@@ -15,7 +15,7 @@ from deodar.codec import Json
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import DeodarError, NotFinite, ParameterError, TimeError
-from deodar.model import files as documents
+from deodar.model import document_files as documents
 from deodar.model import find
 from deodar.model.document import Document
 from deodar.numerics.axes import shape

@@ -13,11 +13,11 @@ import numpy as np
 
 from deodar.compiler import hosts
 from deodar.compiler.arguments import ProgramValues
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.device import several
 from deodar.compiler.division import distributed
 from deodar.compiler.executable import Executable, executable
-from deodar.compiler.layout import require_range
+from deodar.compiler.leaf_layout import require_range
 from deodar.compiler.plan import strategies_of
 from deodar.compiler.program import Port
 from deodar.compiler.strategies import widths
@@ -39,7 +39,7 @@ from deodar.session.port_reader import PortKey, PortReader
 from deodar.session.recorder import Recorder
 from deodar.session.run import Run, require_duration, require_step, whole
 from deodar.session.run_live import run_live
-from deodar.session.snapshot import SessionSnapshot, StateRow, fill, rows
+from deodar.session.session_snapshot import SessionSnapshot, StateRow, fill, rows
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._scene import Scene

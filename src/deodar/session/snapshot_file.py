@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from deodar.errors import RecordError
-from deodar.model import files, output
+from deodar.model import document_files, output
 from deodar.model.model import Model
 from deodar.parameters import show
 from deodar.recording import provenance, stored
 from deodar.session import world_file
 from deodar.session.clock import Clock
-from deodar.session.snapshot import SessionSnapshot, StateRow
+from deodar.session.session_snapshot import SessionSnapshot, StateRow
 
 KIND = "snapshot of a session"
 
@@ -49,11 +49,11 @@ def save_snapshot(snapshot: SessionSnapshot, path: str | Path, force: bool = Fal
         return list(row)
 
     rows = {ident: [kept(shown), kept(held)] for ident, (shown, held) in snapshot.states.items()}
-    document, own = files.to_data(snapshot.document)
+    document, own = document_files.to_data(snapshot.document)
     world, found = world_file.to_file(snapshot.world)
     about = {
         "document": document,
-        "arrays": base64.b64encode(files.pack(own)).decode() if own else "",
+        "arrays": base64.b64encode(document_files.pack(own)).decode() if own else "",
         "rows": rows,
         "clock": dc.asdict(snapshot.clock),
         "seed": snapshot.seed,

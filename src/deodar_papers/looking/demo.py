@@ -27,7 +27,7 @@ def run(args: argparse.Namespace, show: Show) -> Demonstration:
     # start-up time: these bring JAX
     from deodar.architectures.looking import MECHANISMS
     from deodar.figures._files import save_figure
-    from deodar.model.files import save
+    from deodar.model.document_files import save
     from deodar_papers.looking import figures, narrative
 
     mechanism = args.mechanism or next(iter(MECHANISMS))

@@ -14,7 +14,7 @@ import numpy as np
 
 from deodar.architectures.looking import looking
 from deodar.batch.simulate import simulate
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import executable
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model

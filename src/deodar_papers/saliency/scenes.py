@@ -21,7 +21,7 @@ from deodar.numerics.axes import Axes
 from deodar.worlds._base import World
 from deodar.worlds.camera import Camera
 from deodar.worlds.picture import Picture
-from deodar.worlds.recording import Recording
+from deodar.worlds.recorded_run import Recording
 from deodar.worlds.video import Video
 
 if TYPE_CHECKING:

@@ -16,10 +16,10 @@ from deodar.couplings.product import Product
 from deodar.couplings.project import Project
 from deodar.elements.boost import Boost
 from deodar.experiments.actions import Action
-from deodar.experiments.batch import run_batch
 from deodar.experiments.events import All, AnyOf, Crosses, Event
 from deodar.experiments.rows import Row
 from deodar.experiments.trial import Trial
+from deodar.experiments.trial_batch import run_batch
 from deodar.model.model import Model
 from deodar.numerics.windows import Window
 from deodar.worlds.arena.arena import Arena

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from deodar.analysis.paths import speeds
+from deodar.analysis.robot_paths import speeds
 from deodar.architectures.spa import maze, place
 from deodar.experiments.rows import Row
 from deodar.figures._style import COLORS, ROUTES

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from deodar.analysis.claims import Claim
-from deodar.analysis.paths import path_length, path_until
+from deodar.analysis.robot_paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
 from deodar.batch.simulate import simulate
 from deodar.errors import WorldError

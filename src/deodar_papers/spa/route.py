@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from deodar.analysis.paths import points, speeds
+from deodar.analysis.robot_paths import points, speeds
 from deodar.architectures.spa import place
 
 NORTH, SOUTH, SWITCH, NONE = "north", "south", "switch", "none"

@@ -11,7 +11,7 @@ import numpy as np
 
 from deodar.analysis import statistics
 from deodar.analysis.claims import Claim, Origin
-from deodar.analysis.paths import speeds
+from deodar.analysis.robot_paths import speeds
 from deodar.analysis.statistics import anova, difference_interval, equivalent, mean_interval, ratio_interval
 from deodar.architectures.spa import place
 from deodar.experiments.rows import Row

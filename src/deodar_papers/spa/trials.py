@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from deodar.analysis.paths import clearance, path_divergence, path_length
+from deodar.analysis.robot_paths import clearance, path_divergence, path_length
 from deodar.analysis.shortest import shortest_path
 from deodar.architectures.follow_the_carrot import Ending, follow
 from deodar.architectures.spa import CASE_3, DIRECTIONS, place, spa
 from deodar.experiments.actions import Move
-from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Leaves, Within
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.experiments.run import run_trial
+from deodar.experiments.trial_batch import run_batch
+from deodar.experiments.trial_run import run_trial
 from deodar.model.model import Model
 from deodar.worlds.arena.arena import Arena
 from deodar_papers.spa import cases

@@ -10,10 +10,10 @@ import jax
 import numpy as np
 
 from deodar.batch.driven import driven
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import BEGUN, RARELY, executable
+from deodar.experiments.field_reader import ReadPlace, with_readers
 from deodar.experiments.observable import Observable
-from deodar.experiments.reader import ReadPlace, with_readers
 from deodar.model import find
 from deodar.model.resolve import resolve
 from deodar.session import memory

@@ -9,7 +9,7 @@ from deodar import architectures, docstring
 from deodar.errors import UnknownName, did_you_mean
 from deodar.importers import examples
 from deodar.kinds.description import title
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar_studio.catalogue import gallery
@@ -59,7 +59,7 @@ def document(name: str) -> Document:
     if name not in known:
         fix = did_you_mean(name, [*known, *_architectures()])
         raise UnknownName(f"there is no template {name!r}", fix=fix)
-    return files.load(gallery.example_file(name))
+    return document_files.load(gallery.example_file(name))
 
 
 def _architectures() -> Mapping[str, Callable[[], Model]]:

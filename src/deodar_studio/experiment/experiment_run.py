@@ -17,7 +17,7 @@ from deodar import codec
 from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing
 from deodar.errors import DeodarError, Problem, RecordError
-from deodar.experiments import packed
+from deodar.experiments import packed_experiment
 from deodar.experiments.following import RowsTail, RowsWriter, Standing, standing
 from deodar.experiments.jobs import Progress
 from deodar.experiments.merging import computed
@@ -264,11 +264,11 @@ class ExperimentRun:
         # an error appears when a trial is repeated
         with self._repeating, contextlib.suppress(DeodarError, OSError):
             if self.rows and self._pool is None and not self._closing.is_set():
-                self._ask(packed.prepare, packed.PackedExperiment.of(self.setup))
+                self._ask(packed_experiment.prepare, packed_experiment.PackedExperiment.of(self.setup))
 
     def _again(self, trial: int, path: Path) -> Row:
-        handed = packed.PackedExperiment.of(self.setup)
-        found: list[Row] = self._ask(packed.repeat, handed, trial, self.recorded(), path)
+        handed = packed_experiment.PackedExperiment.of(self.setup)
+        found: list[Row] = self._ask(packed_experiment.repeat, handed, trial, self.recorded(), path)
         if not found:
             raise RecordError(f"trial {trial} was not repeated: its experiment was closed")
         return found[0]

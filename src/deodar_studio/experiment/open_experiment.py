@@ -23,7 +23,7 @@ from deodar.experiments.following import FOLLOW_SECONDS
 from deodar.experiments.results import EXPERIMENT, ROWS
 from deodar.experiments.setup import Setup
 from deodar.model.document import Document
-from deodar.model.files import MOST_BYTES
+from deodar.model.document_files import MOST_BYTES
 from deodar.model.model import Model
 from deodar.recording import places
 from deodar_studio.catalogue import gallery

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from deodar.batch.packed import PackedModel
+from deodar.batch.packed_model import PackedModel
 from deodar.errors import DocumentError, Problem
 from deodar.model import edit
 from deodar.model.document import Document

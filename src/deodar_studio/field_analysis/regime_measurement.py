@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from deodar.batch.packed import PackedModel
+from deodar.batch.packed_model import PackedModel
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.model.model import Model

@@ -15,9 +15,9 @@ from pathlib import Path
 from deodar.errors import DeodarError, DocumentError, Problem, did_you_mean
 from deodar.importers import examples, opening, stored_report
 from deodar.importers.imported import Imported
-from deodar.model import files, package
+from deodar.model import document_files, package
 from deodar.model.document import Document
-from deodar.model.files import MOST_BYTES
+from deodar.model.document_files import MOST_BYTES
 from deodar_studio.files.open_folder import OpenFolder
 from deodar_studio.files.workspace import DOCUMENTS, Workspace
 
@@ -45,7 +45,7 @@ def read_package(content: str, title: str) -> Document:
             where=title,
             fix="deodar pack FILE makes one; a document without arrays ends in .json",
         )
-    return files.loads(data, lambda name: None)
+    return document_files.loads(data, lambda name: None)
 
 
 def load(space: Workspace, place: Path) -> Document:
@@ -96,7 +96,7 @@ def _is_example(space: Workspace, place: Path) -> bool:
 def _document(content: bytes, title: str, beside: Callable[[str], bytes | None]) -> Document:
     tool = opening.tool_for(content)
     if tool is None:
-        return files.loads(content, beside)
+        return document_files.loads(content, beside)
     return _kept(tool.read(content, title, False, beside))
 
 
@@ -110,7 +110,7 @@ def _content(folder: OpenFolder, name: str) -> bytes:
     with folder.open(name) as (file, size):
         head = file.read(4)
         if package.is_content(head):
-            files.require_room(size, name)
+            document_files.require_room(size, name)
         elif size > MOST_BYTES:
             raise DocumentError(f"is {size / 2**20:.0f} MiB; a document has at most {MOST_BYTES // 2**20}")
         return head + file.read(size)
@@ -120,7 +120,7 @@ def _beside(folder: OpenFolder, name: str) -> bytes | None:
     """Return the content of the array file of a document; None if the file does not exist."""
     try:
         with folder.open(name) as (file, size):
-            files.require_room(size, name)
+            document_files.require_room(size, name)
             return file.read(size)
     except FileNotFoundError:
         return None

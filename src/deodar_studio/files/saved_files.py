@@ -18,7 +18,7 @@ from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import stored
 from deodar.session.clock import Clock
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar.session.snapshot_file import load_snapshot, save_snapshot
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.messages.to_page import PresetView, SavedFiles, SnapshotView

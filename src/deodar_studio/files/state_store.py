@@ -18,7 +18,7 @@ import psutil
 from deodar import codec
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, OutputError, UnknownName
-from deodar.model import files, output
+from deodar.model import document_files, output
 from deodar.model.document import Document
 from deodar_studio.messages.to_page import Recovery
 
@@ -63,7 +63,7 @@ class StateStore:
         """Store the edited document of a file, or an edited experiment with its model."""
         with contextlib.suppress(OSError, DeodarError):
             self._unsaved.mkdir(parents=True, exist_ok=True)
-            files.save(document, self._document(name), force=True)
+            document_files.save(document, self._document(name), force=True)
             now = datetime.datetime.now().astimezone().isoformat(timespec="seconds")
             note: dict[str, Any] = {
                 "title": document.name,
@@ -100,7 +100,9 @@ class StateStore:
         """Return a stored document, and the file it belongs to."""
         self._require(name)
         note: Any = _read(self._note(name))
-        return files.load(self._document(name)), str(note.get("file", "")) if isinstance(note, dict) else ""
+        return document_files.load(self._document(name)), str(note.get("file", "")) if isinstance(
+            note, dict
+        ) else ""
 
     def experiment(self, name: str) -> StoredExperiment | None:
         """Return the experiment that is stored under a name; None: it is a document."""

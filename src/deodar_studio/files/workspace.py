@@ -18,9 +18,9 @@ from pathlib import Path
 from deodar import codec
 from deodar.errors import DeodarError, DocumentError, OutputError
 from deodar.importers import opening
-from deodar.model import files, output
+from deodar.model import document_files, output
 from deodar.model.document import Document
-from deodar.model.files import MOST_BYTES
+from deodar.model.document_files import MOST_BYTES
 from deodar.worlds.picture import Picture
 from deodar_studio.files.open_folder import OpenFolder
 from deodar_studio.messages.to_page import Folder
@@ -119,10 +119,10 @@ class Workspace:
             return UNREADABLE
 
     def save(self, doc: Document, place: Path) -> None:
-        """Write a document to a path that `target` returned, in the format of `files.save`."""
+        """Write a document to a path that `target` returned, in the format of `document_files.save`."""
         output.claim(place, True)
         with tempfile.TemporaryDirectory(prefix="deodar-") as private, self.folder(place) as folder:
-            files.save(doc, Path(private) / place.name)
+            document_files.save(doc, Path(private) / place.name)
             made = {path.name: path.read_bytes() for path in Path(private).iterdir()}
             old = _array_file(folder, place)
             # the document last, because it refers to the other files

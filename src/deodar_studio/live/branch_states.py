@@ -11,7 +11,7 @@ import numpy as np
 from deodar.errors import RecordError
 from deodar.session.repeat_changes import StepProgress, is_push, repeat_changes
 from deodar.session.session import Change, Session
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
 
 SECONDS = 65.0

@@ -28,7 +28,7 @@ from deodar.session.pace import Pace, require_longest
 from deodar.session.port_reader import PortKey, PortReader, port_reader
 from deodar.session.run import require_step
 from deodar.session.session import Session
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar_studio.live.branch_states import BranchStates

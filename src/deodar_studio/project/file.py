@@ -8,7 +8,7 @@ from pathlib import Path
 
 from deodar.errors import DocumentError, Problem
 from deodar.model.document import Document
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar_studio.files import saved_files
 from deodar_studio.files.file_thread import in_file_thread, try_in_file_thread
 from deodar_studio.files.saved_files import SavedFolder, Sort

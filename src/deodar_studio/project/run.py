@@ -15,7 +15,7 @@ from deodar.recording.replay import RecordReader
 from deodar.session.exchange import used
 from deodar.session.session import Session
 from deodar.session.session_at import session_at
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
 from deodar_studio.live.compilation import Compilation, CompileTimes
 from deodar_studio.live.engine import Engine

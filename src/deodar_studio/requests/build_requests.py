@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from deodar.errors import DeodarError, DocumentError, UnknownName, did_you_mean
 from deodar.importers import stored_report
-from deodar.model import building, clipboard, edit, files, fits, plain_values, script
+from deodar.model import building, clipboard, document_files, edit, fits, plain_values, script
 from deodar.model.building import Around, BoxPosition, EndPorts
 from deodar.model.document import Document
 from deodar.model.paths import PathNames
@@ -168,7 +168,7 @@ async def _set_many(hub: Hub, page: Page, m: to_server.SetMany) -> Answer:
 @handles(to_server.ChangeAxis)
 async def _change_axis(hub: Hub, page: Page, m: to_server.ChangeAxis) -> Answer:
     def change(doc: Document) -> Document:
-        known = files.axes(doc)
+        known = document_files.axes(doc)
         if m.key not in known:
             raise UnknownName(f"the document has no axis {m.key!r}", fix=did_you_mean(m.key, known))
         return edit.replace_axis(doc, known[m.key], plain_values.axis(m.axis))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from deodar.model import files
+from deodar.model import document_files
 from deodar_studio.catalogue import gallery
 from deodar_studio.files import content
 from deodar_studio.files.file_thread import in_file_thread
@@ -29,7 +29,7 @@ async def _open_file(hub: Hub, page: Page, m: to_server.OpenFile) -> Answer:
 @handles(to_server.OpenExample)
 async def _open_example(hub: Hub, page: Page, m: to_server.OpenExample) -> None:
     path = gallery.example_file(m.name)
-    await hub.project.open_copy(lambda: files.load(path), m.name, m.discard)
+    await hub.project.open_copy(lambda: document_files.load(path), m.name, m.discard)
 
 
 @handles(to_server.OpenPackage)

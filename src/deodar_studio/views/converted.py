@@ -15,7 +15,7 @@ from deodar.declarations import Cost
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.importers import stored_report
-from deodar.model import files, find
+from deodar.model import document_files, find
 from deodar.model.check import structure
 from deodar.model.document import Connection, Document, Entry
 from deodar.model.parts import to_json
@@ -70,7 +70,7 @@ def convert(doc: Document, before: Converted | None = None) -> Converted:
     if before is not None and _same_model(before.document, doc):
         return dc.replace(before, document=doc)
     nodes, problems = structure(doc)
-    axes, arrays = files.axes(doc), files.arrays(doc)
+    axes, arrays = document_files.axes(doc), document_files.arrays(doc)
     found = {n.id: n for n in nodes if n.declared}
     ports: dict[str, Ports] = {e.id: _ports(found.get(e.id)) for e in doc.entries}
     old: Mapping[str, Entry] = {}

@@ -11,7 +11,7 @@ from deodar.errors import Problem as Wrong
 from deodar.experiments.design import KINDS, USUAL, Design
 from deodar.importers import stored_report
 from deodar.kinds.description import describe, descriptions
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.check import judge
 from deodar.model.document import Document
 from deodar.model.fits import Fit, FittingKind
@@ -148,7 +148,7 @@ def _named(where: str, ids: Mapping[str, Sequence[tuple[int, str]]]) -> list[str
 
 def shown_value(doc: Document, element: str, parameter: str) -> Any:
     """Convert the value of a parameter for the page."""
-    axes, arrays = {a: key for key, a in files.axes(doc).items()}, files.arrays(doc)
+    axes, arrays = {a: key for key, a in document_files.axes(doc).items()}, document_files.arrays(doc)
     value: Any = converted.values(doc.by_id()[element].element, axes, arrays)
     for step in parameter.split("."):
         value = value[int(step)] if isinstance(value, list) else value[step]

@@ -14,13 +14,13 @@ from scipy import optimize
 import deodar as dd
 from deodar.analysis.discretisation import discretisation, obstacle, refined
 from deodar.analysis.isolated import isolate
-from deodar.analysis.memory import forgetting, suppression
 from deodar.analysis.phase import COARSE, phase
 from deodar.analysis.ramp import ramp
 from deodar.analysis.regimes import regimes
 from deodar.analysis.selection import selection
 from deodar.analysis.settle import settle
 from deodar.analysis.thresholds import thresholds
+from deodar.analysis.working_memory import forgetting, suppression
 from deodar.cli import main
 from deodar.numerics.kernels.custom import Custom
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from deodar.analysis.paths import clearance, path_length
+from deodar.analysis.robot_paths import clearance, path_length
 from deodar.analysis.shortest import arena_grid, shortest_path
 from deodar.errors import AnalysisError
 

@@ -14,8 +14,8 @@ from scipy import optimize, special
 
 import deodar as dd
 from deodar.analysis.isolated import isolate
-from deodar.analysis.memory import forgetting, outlives
 from deodar.analysis.thresholds import thresholds
+from deodar.analysis.working_memory import forgetting, outlives
 from deodar.numerics.sigmoids.step import Step
 
 LENGTH, TAU = 80.0, 10.0

@@ -19,7 +19,7 @@ from deodar.architectures.serial_order import (
     serial_order,
 )
 from deodar.errors import ParameterError
-from deodar.model import files
+from deodar.model import document_files
 
 FIRST, SECOND = (40.0, 12.0, 40.0), (12.0, 52.0)
 ITEMS = 3
@@ -172,8 +172,10 @@ def test_a_chain_of_one_cue_is_that_without_cues_and_more_cues_add_only_their_pa
         *(f"item {k}.cued" for k in (1, 2, 3)),
     }
     assert {path: both[path] for path in single} == single
-    assert files.dumps(color_search(3).document) == files.dumps(color_search(3, cues=1).document)
-    assert "cue" not in files.dumps(color_search(3).document)[0]
+    assert document_files.dumps(color_search(3).document) == document_files.dumps(
+        color_search(3, cues=1).document
+    )
+    assert "cue" not in document_files.dumps(color_search(3).document)[0]
 
 
 @pytest.mark.parametrize("cues", [0, 51, 2.0, True])

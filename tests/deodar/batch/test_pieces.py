@@ -11,7 +11,7 @@ import pytest
 import xarray
 
 from deodar.batch.pieces import BATCH_BYTES, PieceResult, Pieces, cut, joined
-from deodar.batch.request import SimulationRequest
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import ParameterError
 from deodar.recording.provenance import KEY
 

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import deodar as dd
-from deodar.batch.output import CHECKPOINT
+from deodar.batch.run_file import CHECKPOINT
 from deodar.cli import main, plot
 from deodar.elements.sensor import Sensor
 from deodar.recording import files, writer_lock

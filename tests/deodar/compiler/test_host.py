@@ -13,7 +13,7 @@ from jax import Array, lax
 
 import deodar as dd
 from deodar.compiler import host
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import Executable
 from tests.deodar.contracts import build
 

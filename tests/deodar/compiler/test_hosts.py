@@ -32,7 +32,7 @@ FLAG = "--xla_force_host_platform_device_count="
 
 VALUES = """
 import sys, numpy as np, deodar as dd
-from deodar.batch.output import RunOutput
+from deodar.batch.run_file import RunOutput
 from deodar.errors import (
     DeviceError, HostsError, NotFinite, OutputError, OutputExists, UnknownName, WorkerError
 )

@@ -22,7 +22,7 @@ import deodar as dd
 from deodar.compiler.executable import executable
 from deodar.compiler.plan import plan
 from deodar.couplings.convolve import Convolve
-from deodar.model.files import dumps
+from deodar.model.document_files import dumps
 from deodar.numerics import choice, interaction
 from deodar.numerics.choice import Choice
 from deodar.numerics.kernels.box import Box

@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.executable import executable
-from deodar.experiments.batch import run_batch
+from deodar.experiments.trial_batch import run_batch
 from deodar.session.exchange import embodied
 
 X, Y = dd.Axis("x", 0, 1.2, 25), dd.Axis("y", 0, 0.8, 17)

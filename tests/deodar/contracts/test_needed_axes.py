@@ -12,7 +12,7 @@ from deodar.declarations import Needed
 from deodar.elements.history import History
 from deodar.elements.pattern import Pattern
 from deodar.errors import DocumentError, ParameterError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.migrations import DEFAULTS_OF_1
 from deodar.numerics.axes import Axis
 from deodar.parameters import parameters
@@ -73,26 +73,26 @@ def test_the_call_that_an_error_proposes_has_every_value_in_its_place() -> None:
 def test_a_document_without_the_axes_has_a_problem_that_names_an_axis_of_it(kind: str, name: str) -> None:
     data = {"deodar": 3, "axes": SPACE, "elements": {"e": {"kind": kind}}}
     with pytest.raises(DocumentError) as caught:
-        files.from_data(data, {})
+        document_files.from_data(data, {})
     [problem] = [p for p in caught.value.problems if p.where == f"e.{name}"]
     assert problem.what == f"{kind} needs {name}" and f'"{name}": ' in problem.fix
     assert '"space"' in problem.fix or name == "slots", problem.fix
     with pytest.raises(DocumentError, match='"samples"'):
-        files.from_data({**data, "axes": {}}, {})
+        document_files.from_data({**data, "axes": {}}, {})
 
 
 @pytest.mark.parametrize(("kind", "name"), [p for p in [*NEEDED, *INFERRED] if p not in NEWER])
 def test_a_document_of_version_1_without_the_axes_keeps_its_meaning(kind: str, name: str) -> None:
     body = {"kind": kind, **({"axes": []} if kind in ("History", "SampledHistory") else {})}
     taken = {"x": {"lower": 0, "upper": 100, "samples": 101}}
-    doc = files.from_data({"deodar": 1, "axes": taken, "elements": {"e": body}}, {})
+    doc = document_files.from_data({"deodar": 1, "axes": taken, "elements": {"e": body}}, {})
     [entry] = doc.entries
     found = getattr(entry.element, name)
     assert (tuple(found) if isinstance(found, tuple) else (found,)) == tuple(
         Axis(**axis) for axis in DEFAULTS_OF_1[kind][name]
     )
-    again, arrays = files.to_data(doc)
-    assert again["deodar"] == 3 and files.from_data(json.loads(json.dumps(again)), arrays) == doc
+    again, arrays = document_files.to_data(doc)
+    assert again["deodar"] == 3 and document_files.from_data(json.loads(json.dumps(again)), arrays) == doc
 
 
 def test_a_document_of_version_1_runs_as_before() -> None:
@@ -105,12 +105,12 @@ def test_a_document_of_version_1_runs_as_before() -> None:
         "elements": {"p": {"kind": "Pattern"}, "u": {"kind": "Field", "axes": ["x"]}},
         "connections": rows,
     }
-    model = dd.Model(document=files.from_data(data, {}))
+    model = dd.Model(document=document_files.from_data(data, {}))
     shown = dd.simulate(model, 1, record=["p"])["p.output"].values[-1]
     assert np.array_equal(shown, [float(k % 7 == 3) for k in range(21)])
 
 
 def test_a_document_of_version_1_that_states_its_axes_is_read_as_it_is() -> None:
     data = {"deodar": 1, "axes": SPACE, "elements": {"e": {"kind": "SpaceCode", "axes": ["space"]}}}
-    [entry] = files.from_data(data, {}).entries
+    [entry] = document_files.from_data(data, {}).entries
     assert entry.element.axes == (Axis("space", 0, 100, 101),)  # type: ignore[attr-defined]

@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.elements.moving_gaussian import MovingGaussian
 from deodar.errors import ParameterError
-from deodar.model import files
+from deodar.model import document_files
 from tests.deodar.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 30, 31), dd.Axis("y", -5, 5, 21)
@@ -85,11 +85,14 @@ def test_a_document_keeps_the_waypoints(tmp_path):
 def test_a_document_of_version_2_names_the_waypoints_path():
     model = dd.Model("moving")
     model.add(MovingGaussian("s", [X], waypoints=[[0, 1], [10, 5]]))
-    data, arrays = files.to_data(model.document)
+    data, arrays = document_files.to_data(model.document)
     body = {"path" if key == "waypoints" else key: value for key, value in data["elements"]["s"].items()}
     assert data["deodar"] == 3 and "path" in body
     for version in (1, 2):
-        assert files.from_data({**data, "deodar": version, "elements": {"s": body}}, arrays) == model.document
+        assert (
+            document_files.from_data({**data, "deodar": version, "elements": {"s": body}}, arrays)
+            == model.document
+        )
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ import pytest
 import deodar as dd
 from deodar.couplings.weighting import Weighting
 from deodar.errors import DocumentError, OutputExists
-from deodar.model import files
+from deodar.model import document_files
 from tests.deodar.errors.refused import refused
 
 X = dd.Axis("x", 0, 10, samples=11)
@@ -205,7 +205,7 @@ def test_an_array_file_that_expands_too_much_is_refused_before_it_is_read(
     saved: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A small file that unpacks to more memory than the machine has; its directory states its size."""
-    monkeypatch.setattr(files, "ARRAY_SHARE", 1e-9)
+    monkeypatch.setattr(document_files, "ARRAY_SHARE", 1e-9)
     _replace(saved, _zip({"array.npy": b"\0" * 10_000_000}))
     refused(lambda: dd.load(saved), DocumentError, "the arrays in", "GiB are free")
 

@@ -17,7 +17,7 @@ from deodar.couplings.weighting import Weighting
 from deodar.elements.boost import Boost
 from deodar.elements.function import Function
 from deodar.errors import DeodarError, DocumentError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.check import check
 from deodar.model.document import Document
 from deodar.numerics.kernels.shifted import Shifted
@@ -57,14 +57,14 @@ def rich() -> dd.Model:
     return model
 
 
-DATA, ARRAYS = files.to_data(rich().document)
+DATA, ARRAYS = document_files.to_data(rich().document)
 DATA["packages"] = {"Gain": "deodar-gain 1.0"}
 TEXT = json.dumps(DATA)
 
 
 def test_the_unchanged_document_is_valid() -> None:
-    assert files.from_data(json.loads(TEXT), ARRAYS) == rich().document
-    assert set(files.KEYS) - set(DATA) == {"arrays"}
+    assert document_files.from_data(json.loads(TEXT), ARRAYS) == rich().document
+    assert set(document_files.KEYS) - set(DATA) == {"arrays"}
 
 
 def _places(data: Any, at: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -110,7 +110,7 @@ def _read(data: Any) -> Document | None:
     test.
     """
     try:
-        doc = files.from_data(data, ARRAYS)
+        doc = document_files.from_data(data, ARRAYS)
     except DeodarError as error:
         assert str(error).strip()
         assert "Traceback" not in str(error) and " at 0x" not in str(error)
@@ -131,8 +131,8 @@ def test_a_wrong_value_at_any_place_is_refused_or_read(what: str) -> None:
         else:
             taken += 1
             if what not in ("infinite", "half a character"):
-                again = files.to_data(doc)
-                assert files.from_data(*again) == doc, (
+                again = document_files.to_data(doc)
+                assert document_files.from_data(*again) == doc, (
                     f"{at}: what loads is written and read again as the same"
                 )
     assert refusals > 100
@@ -350,7 +350,7 @@ def test_a_path_without_a_regular_file_is_refused(
 
 
 def test_a_file_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "MOST_BYTES", 1000)
+    monkeypatch.setattr(document_files, "MOST_BYTES", 1000)
     path = tmp_path / "long.json"
     path.write_text(" " * 2000)
     refused(lambda: dd.load(path), DocumentError, "a document has at most")
@@ -375,7 +375,7 @@ CHANGES: dict[str, Callable[[dict[str, Any]], object]] = {
 def test_a_document_that_loads_and_cannot_run_fails_check(name: str) -> None:
     data = json.loads(TEXT)
     CHANGES[name](data)
-    model = dd.Model(document=files.from_data(data, ARRAYS))
+    model = dd.Model(document=document_files.from_data(data, ARRAYS))
     assert model.check()
     for problem in model.check():
         paragraph(str(problem))

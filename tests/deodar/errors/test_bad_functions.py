@@ -15,7 +15,7 @@ import deodar as dd
 from deodar import cli
 from deodar.elements.function import Function
 from deodar.errors import ModelError, NotFinite, UnknownName, Untrusted
-from deodar.model import edit, files
+from deodar.model import document_files, edit
 from tests.deodar.errors.refused import refused
 
 X = dd.Axis("x", 0, 10, samples=11)
@@ -235,7 +235,7 @@ def test_a_function_that_divides_by_zero_names_element_and_step() -> None:
 
 
 def test_functions_of_an_untrusted_document_do_not_run(stranger: Path) -> None:
-    document = files.load(stranger.with_name("strange.json"))
+    document = document_files.load(stranger.with_name("strange.json"))
     model = dd.Model(document=document)
     assert not model.trusted
     refused(lambda: dd.simulate(model, 5, record="f.output"), Untrusted, "trusted=True")
@@ -253,7 +253,7 @@ def test_a_loaded_model_keeps_the_trust_stated_by_the_script(stranger: Path) -> 
     loaded.set("f.initial", 0.5)
     own = dd.Model("own")
     own.add(Function("f", function="math:sqrt"))
-    said = dd.Model(document=files.load(stranger.with_name("strange.json")), trusted=True)
+    said = dd.Model(document=document_files.load(stranger.with_name("strange.json")), trusted=True)
     for model in (loaded, own, said):
         assert dd.Model(document=model.document).trusted
     assert not dd.Model(document=loaded.document, trusted=False).trusted

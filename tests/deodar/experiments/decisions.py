@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from deodar.experiments.events import Crosses
-from deodar.experiments.run import run_trial
+from deodar.experiments.trial_run import run_trial
 from tests.deodar.experiments.robots import decider
 
 

@@ -16,15 +16,15 @@ import pytest
 import deodar as dd
 from deodar import cli
 from deodar.errors import NotFinite, RunWarning
-from deodar.experiments import copies
+from deodar.experiments import running_copies
 from deodar.experiments.actions import Set
-from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Crosses, Reached
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
-from deodar.experiments.run import run_trial
+from deodar.experiments.trial_batch import run_batch
+from deodar.experiments.trial_run import run_trial
 from deodar.recording import files
 from deodar.session.run import Run
 
@@ -166,7 +166,7 @@ def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
 
 
 def test_diverged_trials_are_dropped_from_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(copies, "WORTH", 0)
+    monkeypatch.setattr(running_copies, "WORTH", 0)
     values = {"g.factor": [1e6, 0.1, 1e6, 0.3, 1e6, 1e6]}
     with pytest.warns(RunWarning, match="4 of 6 trials"):
         made = model()

@@ -21,7 +21,7 @@ from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
-from deodar.experiments.run import run_trial
+from deodar.experiments.trial_run import run_trial
 from deodar.recording import files
 from tests.deodar.experiments.robots import decider, room, straight
 

@@ -9,7 +9,7 @@ import deodar as dd
 from deodar import registry
 from deodar.element import Element
 from deodar.errors import DeodarError, DocumentError, ModelError, ParameterError, UnknownName
-from deodar.model import building, clipboard, edit, files, starting
+from deodar.model import building, clipboard, document_files, edit, new_elements
 from deodar.model.building import Around
 from deodar.model.check import problems
 from deodar.model.document import Document
@@ -33,8 +33,8 @@ def pair() -> Model:
 def test_every_kind_can_be_added_to_an_empty_document_and_read_back(kind: str) -> None:
     doc, (ident,) = building.add(Document("m"), kind, {})
     assert type(doc.by_id()[ident].element).__name__ == kind
-    text, packed = files.dumps(doc, "m")
-    assert files.loads(text.encode(), lambda name: packed) == doc
+    text, packed = document_files.dumps(doc, "m")
+    assert document_files.loads(text.encode(), lambda name: packed) == doc
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -47,7 +47,7 @@ def test_a_kind_without_inputs_runs_at_once(kind: str) -> None:
 
 def test_the_first_field_has_one_new_axis_and_the_next_one_the_axes_of_the_first() -> None:
     doc, (u,) = building.add(Document("m"), "Field", {})
-    assert doc.by_id()[u].element.axes == (starting.FIRST,)  # type: ignore[attr-defined]
+    assert doc.by_id()[u].element.axes == (new_elements.FIRST,)  # type: ignore[attr-defined]
     other = edit.add(Document("m"), dd.Field("u", [HUE]))[0]
     doc, (s,) = building.add(other, "GaussianStimulus", {})
     assert doc.by_id()[s].element.axes == (HUE,)  # type: ignore[attr-defined]
@@ -230,7 +230,10 @@ def test_a_copy_is_a_document_of_its_own_and_pastes_the_same_content() -> None:
     assert len(new.connections) == 6 and len(new.parameters[0].links) == 2
     alone, made = building.paste(Document("other"), read)
     assert [c.reads for c in alone.connections] == ["", "", "delayed"]
-    assert files.to_data(alone)[0]["elements"].keys() == files.to_data(read)[0]["elements"].keys()
+    assert (
+        document_files.to_data(alone)[0]["elements"].keys()
+        == document_files.to_data(read)[0]["elements"].keys()
+    )
 
 
 def test_a_copy_of_elements_of_several_groups_begins_at_the_group_of_all() -> None:
@@ -267,7 +270,7 @@ def test_a_clipboard_text_contains_its_arrays() -> None:
         '{"deodar": 3, "elements": {"u": {"kind": "Field", "axes": ["x"]}}, "axes": {"x": {"samples": 9e9}}}',
         "\ud800",
         "[" * 100_000,
-        " " * (files.MOST_BYTES + 1),
+        " " * (document_files.MOST_BYTES + 1),
     ],
     ids=lambda text: text[:60],
 )

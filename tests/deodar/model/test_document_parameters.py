@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import ModelError, ParameterError, UnknownName
-from deodar.model import edit, files, find
+from deodar.model import document_files, edit, find
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -66,7 +66,7 @@ def test_links_follow_rename_and_move(model: dd.Model) -> None:
     model.move("w", "deep.inside")
     model.set("gain", 6)
     assert model.get("deep.inside.w.tau") == 6.0
-    again = files.from_data(json.loads(model.to_json()), {})
+    again = document_files.from_data(json.loads(model.to_json()), {})
     assert again == model.document
 
 

@@ -118,11 +118,14 @@ def test_removing_a_group_removes_its_elements() -> None:
 
 
 def test_empty_groups_are_saved_and_loaded() -> None:
-    from deodar.model import files
+    from deodar.model import document_files
 
     model = dd.Model("m")
     model.group("a.b")
-    assert files.from_data(files.to_data(model.document)[0], {}).groups == (("a",), ("a", "b"))
+    assert document_files.from_data(document_files.to_data(model.document)[0], {}).groups == (
+        ("a",),
+        ("a", "b"),
+    )
 
 
 def test_an_unknown_group_suggests_the_nearest() -> None:

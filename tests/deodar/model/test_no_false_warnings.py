@@ -16,8 +16,8 @@ import pytest
 import deodar as dd
 from deodar.architectures.behaviour import behaviour, behaviours
 from deodar.architectures.change_detection import change_detection, change_trial
+from deodar.architectures.corridor_plan import plan
 from deodar.architectures.feature_space import binding, feature_space
-from deodar.architectures.plan import plan
 from deodar.architectures.reference_frame import reference_frame, remapping
 from deodar.architectures.saliency import saliency
 from deodar.architectures.serial_order import action_axis, ordinal_pair, serial_order

@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar.elements.pattern import Pattern
 from deodar.errors import DocumentError, OutputExists
-from deodar.model import files, package
+from deodar.model import document_files, package
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -61,7 +61,7 @@ def test_a_package_is_recognised_by_its_content(tmp_path: Path) -> None:
 
 def parts() -> dict[str, bytes]:
     """Return the entries of a valid package."""
-    text, packed = files.dumps(model().document, "a")
+    text, packed = document_files.dumps(model().document, "a")
     assert packed is not None
     return {"a.json": text.encode(), json.loads(text)["arrays"]["file"]: packed}
 
@@ -103,7 +103,7 @@ HOSTILE: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda p: archive(p, {n: c if n == "a.json" else c[::-1] for n, c in parts().items()}),
         "its hash differs",
     ),
-    "a bomb": (lambda p: archive(p, {"a.json": b" " * (files.MOST_BYTES + 1)}), "at most 64"),
+    "a bomb": (lambda p: archive(p, {"a.json": b" " * (document_files.MOST_BYTES + 1)}), "at most 64"),
 }
 
 
@@ -129,7 +129,7 @@ def test_arrays_that_would_not_fit_are_refused_before_they_are_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     dd.save(model(), tmp_path / "a.deodar")
-    monkeypatch.setattr(files, "ARRAY_SHARE", 1e-12)
+    monkeypatch.setattr(document_files, "ARRAY_SHARE", 1e-12)
     with pytest.raises(DocumentError, match="GiB are free"):
         dd.load(tmp_path / "a.deodar")
 

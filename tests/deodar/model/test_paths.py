@@ -8,7 +8,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import UnknownName
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.paths import Index, display, readings, split, stored_id
 
 X = dd.Axis("x", 0, 10, samples=11)
@@ -75,7 +75,7 @@ def test_any_name_is_saved_and_loaded(name: str) -> None:
     u >> dd.Gain(2) >> v
     model.parameter(f"parameter of {name}", 3.0)
     model.link(f"{u.path}.kernel.0.sigma", f"parameter of {name}")
-    again = files.from_data(json.loads(model.to_json()), {})
+    again = document_files.from_data(json.loads(model.to_json()), {})
     assert again == model.document
 
 
@@ -97,7 +97,7 @@ def test_quotes_select_one_of_two_readings_of_a_path() -> None:
     model.set('"a.b".tau', 5)
     model.set("a.b.tau", 6)
     assert (dotted.element.tau, grouped.element.tau) == (5, 6)
-    assert files.from_data(json.loads(model.to_json()), {}) == model.document
+    assert document_files.from_data(json.loads(model.to_json()), {}) == model.document
 
 
 def test_an_element_named_like_a_parameter_is_found_by_its_path() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from deodar.errors import DocumentError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.reader import MOST_PROBLEMS
 
 
@@ -13,7 +13,7 @@ from deodar.model.reader import MOST_PROBLEMS
 def test_after_a_hundred_problems_no_further_connection_is_read(wrong: int) -> None:
     rows = [{"source": f"absent{k}", "target": "u"} for k in range(wrong)]
     with pytest.raises(DocumentError) as caught:
-        files.from_data({"deodar": 1, "elements": {"u": {"kind": "Field"}}, "connections": rows}, {})
+        document_files.from_data({"deodar": 1, "elements": {"u": {"kind": "Field"}}, "connections": rows}, {})
     *listed, last = caught.value.problems
     assert len(listed) == min(wrong, MOST_PROBLEMS + 1) - 1
     assert ("were not read" in last.what) == (wrong > MOST_PROBLEMS)
@@ -28,7 +28,7 @@ USED = {
 
 
 def test_uses_of_a_template_are_read() -> None:
-    (use,) = files.from_data(USED, {}).uses
+    (use,) = document_files.from_data(USED, {}).uses
     assert (use.group, use.template, use.elements) == (("g",), "switch", (("00000001", "00000001"),))
 
 
@@ -47,7 +47,7 @@ def test_uses_of_a_template_are_read() -> None:
 )
 def test_a_use_with_other_content_is_refused(use: object) -> None:
     with pytest.raises(DocumentError, match=r"uses.g: needs a template .* and nothing else"):
-        files.from_data({**USED, "uses": {"g": use}}, {})
+        document_files.from_data({**USED, "uses": {"g": use}}, {})
 
 
 @pytest.mark.parametrize(
@@ -64,4 +64,4 @@ def test_a_use_with_other_content_is_refused(use: object) -> None:
 )
 def test_a_document_parameter_with_other_content_is_refused(parameter: object) -> None:
     with pytest.raises(DocumentError, match=r"parameters.tempo: needs a value \(a number\) and links"):
-        files.from_data({**USED, "parameters": {"tempo": parameter}}, {})
+        document_files.from_data({**USED, "parameters": {"tempo": parameter}}, {})

@@ -12,7 +12,7 @@ import pytest
 import deodar as dd
 from deodar.importers import examples
 from deodar.importers.opening import load
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.document import Document
 from deodar_studio.catalogue import templates
 from tests.deodar.contracts import build
@@ -32,7 +32,7 @@ def made(script: str) -> dd.Model:
 def assert_same(doc: Document) -> str:
     """Check that the script of a document makes the same bytes, and return the script."""
     script = dd.Model(document=doc).to_script()
-    assert files.dumps(made(script).document, "a") == files.dumps(doc, "a")
+    assert document_files.dumps(made(script).document, "a") == document_files.dumps(doc, "a")
     return script
 
 

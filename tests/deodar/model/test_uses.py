@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import DocumentError, ModelError, UnknownName
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.check import problems
 
 
@@ -173,6 +173,6 @@ def test_a_template_without_a_required_element_or_port_is_refused() -> None:
     ],
 )
 def test_invalid_uses_in_a_document_are_reported(uses: object, what: str) -> None:
-    data, _ = files.to_data(host().document)
+    data, _ = document_files.to_data(host().document)
     with pytest.raises(DocumentError, match=what):
-        files.from_data(data | {"uses": uses}, {})
+        document_files.from_data(data | {"uses": uses}, {})

@@ -11,7 +11,7 @@ import pytest
 import deodar as dd
 from deodar.errors import RecordError, TimeError
 from tests.deodar.session.models import mixed
-from tests.deodar.worlds.test_recording import driving
+from tests.deodar.worlds.test_recorded_run import driving
 from tests.deodar_studio.live.test_branch import bits
 
 

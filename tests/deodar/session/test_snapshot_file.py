@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar.errors import OutputExists, ParameterError, RecordError
 from deodar.worlds._base import Signal, World
-from tests.deodar.worlds.test_recording import driving
+from tests.deodar.worlds.test_recorded_run import driving
 
 
 def model() -> dd.Model:

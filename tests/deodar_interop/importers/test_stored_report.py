@@ -11,7 +11,7 @@ import deodar as dd
 from deodar.codec import JsonObject
 from deodar.importers import stored_report
 from deodar.importers.report import ImportReport, Line
-from deodar.model import building, edit, files
+from deodar.model import building, document_files, edit
 from deodar.model.document import Document
 from deodar_interop.importers import cedar
 
@@ -42,8 +42,8 @@ def document() -> Document:
 def test_a_saved_document_contains_every_line_of_the_report(sample: Path, tmp_path: Path) -> None:
     done = dd.read(sample)
     doc = stored_report.with_report(done.model.document, done.report)
-    files.save(doc, tmp_path / "model.json")
-    found = stored_report.report_of(files.load(tmp_path / "model.json"))
+    document_files.save(doc, tmp_path / "model.json")
+    found = stored_report.report_of(document_files.load(tmp_path / "model.json"))
     assert found is not None
     assert (found.tool, found.file, list(found.bugs)) == (
         done.report.tool,

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from deodar.analysis.paths import clearance, path_length
+from deodar.analysis.robot_paths import clearance, path_length
 from deodar.analysis.shortest import shortest_path
 from deodar.architectures.spa import place
 from deodar.worlds.arena.arena import Arena

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.analysis.paths import path_length
+from deodar.analysis.robot_paths import path_length
 from deodar_papers.spa import cases, trials
 from deodar_papers.spa.condition_runs import Runs
 from tests.house.source import ROOT

@@ -19,7 +19,7 @@ from deodar_studio.live.branch_states import BranchStates, size
 from deodar_studio.live.engine import Injection
 from deodar_studio.live.trace import TraceRequest
 from tests.deodar.session.models import mixed
-from tests.deodar.worlds.test_recording import driving
+from tests.deodar.worlds.test_recorded_run import driving
 from tests.deodar_studio.live.test_engine import Driven
 
 

@@ -9,7 +9,7 @@ from typing import Unpack
 import numpy as np
 
 from deodar.analysis.tuning.centring import WIDEST, RegionSize, centred, region_size, together
-from deodar.analysis.tuning.exact import ExactField, ExactValue
+from deodar.analysis.tuning.exact_values import ExactField, ExactValue
 from deodar.analysis.tuning.judge import CandidateJudge, TuningProgress
 from deodar.analysis.tuning.request import TuneOptions, requested
 from deodar.analysis.tuning.requirement import ExactQuantity, Requirement

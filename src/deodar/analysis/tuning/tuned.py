@@ -11,7 +11,7 @@ import numpy as np
 
 import deodar
 from deodar.analysis.tuning.centring import RegionSize
-from deodar.analysis.tuning.exact import ExactValue
+from deodar.analysis.tuning.exact_values import ExactValue
 from deodar.analysis.tuning.judge import CandidateJudge
 from deodar.analysis.tuning.request import TuningRequest
 from deodar.analysis.tuning.requirement import Requirement

@@ -14,8 +14,8 @@ import numpy.typing as npt
 from deodar.codec import Json
 from deodar.errors import UnknownName, WorldError, did_you_mean
 from deodar.worlds._settings import of
-from deodar.worlds.arena.layout import ArenaLayout, ArenaObject, make
-from deodar.worlds.arena.places import rows_of
+from deodar.worlds.arena.arena_layout import ArenaLayout, ArenaObject, make
+from deodar.worlds.arena.starts_and_goals import rows_of
 from deodar.worlds.arena.view import OUTSIDE
 
 SPARE = 16

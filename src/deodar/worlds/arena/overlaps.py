@@ -9,7 +9,7 @@ import numpy as np
 
 from deodar.errors import Problem
 from deodar.worlds.arena.objects import ArenaObjects, ArenaSlot
-from deodar.worlds.arena.places import Places
+from deodar.worlds.arena.starts_and_goals import Places
 
 LEAST = 1e-5
 """Smallest overlap that is stated, in lengths of the longer side of the arena."""

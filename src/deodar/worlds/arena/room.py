@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.worlds.arena.layout import ArenaLayout
+from deodar.worlds.arena.arena_layout import ArenaLayout
 
 FINE = 8
 """Cells of the grid in one radius of the disc."""

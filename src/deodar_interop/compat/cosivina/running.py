@@ -20,7 +20,7 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.model.paths import display
 from deodar.session.session import Session
-from deodar.session.snapshot import SessionSnapshot
+from deodar.session.session_snapshot import SessionSnapshot
 from deodar_interop.exporters.cosivina.layout import size
 from deodar_interop.importers._names import FreeNames
 from deodar_interop.importers._piece import Outlet, axes

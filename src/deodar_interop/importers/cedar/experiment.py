@@ -11,7 +11,7 @@ from deodar.experiments.experiment import Experiment
 from deodar.importers._beside import in_folder
 from deodar.importers.opening import require
 from deodar.importers.report import ImportReport
-from deodar.model.files import MOST_BYTES
+from deodar.model.document_files import MOST_BYTES
 from deodar.model.model import Model
 from deodar_interop.importers.cedar import translate
 from deodar_interop.importers.cedar.experiment_reading import ExperimentReading

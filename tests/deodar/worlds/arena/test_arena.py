@@ -16,7 +16,7 @@ from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import UnknownName, WorldError
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.layout import load
+from deodar.worlds.arena.arena_layout import load
 from deodar.worlds.arena.room import FINE, Room
 
 EMPTY: dict[str, Any] = {"arena": {"x": [0, 3], "y": [0, 3]}}

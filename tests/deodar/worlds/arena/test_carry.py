@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
-from deodar.experiments.batch import run_batch
+from deodar.experiments.trial_batch import run_batch
 
 
 def model() -> dd.Model:

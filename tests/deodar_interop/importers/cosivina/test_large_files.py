@@ -16,7 +16,7 @@ import pytest
 import deodar as dd
 from deodar.compiler.plan import plan
 from deodar.importers.tools import IMPORTERS
-from deodar.model import files
+from deodar.model import document_files
 from tests.deodar_interop.importers.cosivina.files import element, text
 
 FIELD = {"size": [1, 5], "tau": 10, "h": -5, "beta": 4}
@@ -93,7 +93,7 @@ def test_work_grows_with_the_number_of_inputs(made):
         found.setdefault("check", []).append(lines(lambda m=model: m.check()))
         found.setdefault("plan", []).append(lines(lambda m=model: plan(m.document)))
         found.setdefault("write", []).append(lines(model.to_json))
-        found.setdefault("read", []).append(lines(lambda d=data: files.from_data(d, {})))
+        found.setdefault("read", []).append(lines(lambda d=data: document_files.from_data(d, {})))
         assert model.check() == []
     for name, (few, many) in found.items():
         assert many <= MOST * few, (name, few, many)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.architectures.plan import START, corridor, plan
+from deodar.architectures.corridor_plan import START, corridor, plan
 from deodar.elements.box_stimulus import BoxStimulus
 
 X = corridor().points

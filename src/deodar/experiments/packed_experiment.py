@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from deodar import codec
-from deodar.batch import packed
+from deodar.batch import packed_model
 from deodar.experiments.design import Design
 from deodar.experiments.record_target import RecordTarget
 from deodar.experiments.rows import Row
@@ -25,7 +25,7 @@ class PackedExperiment:
     """
 
     experiment: str
-    setup: packed.PackedModel
+    setup: packed_model.PackedModel
 
     @classmethod
     def of(cls, setup: Setup) -> PackedExperiment:
@@ -35,7 +35,7 @@ class PackedExperiment:
             WorkerError: a part of it cannot be sent to another process.
         """
         plain = setup.experiment.to_data() | {"model": "packed"}
-        return cls(codec.line(plain), packed.PackedModel.of(setup.model, setup.world))
+        return cls(codec.line(plain), packed_model.PackedModel.of(setup.model, setup.world))
 
     def open(self) -> Setup:
         """Return the setup."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from deodar.batch.driven import driven
 from deodar.compiler.arguments import ProgramState
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import RARELY, executable
 from deodar.errors import NotFinite
 from deodar.experiments.running import RunningTrial, ScheduledAction

@@ -11,7 +11,7 @@ import sys
 import pytest
 
 import deodar as dd
-from deodar.batch import rounding
+from deodar.batch import separate_rounding
 from deodar.compiler import device as devices
 from deodar.recording import provenance
 
@@ -101,7 +101,7 @@ def test_other_processors_have_no_separate_rounding(monkeypatch: pytest.MonkeyPa
 def test_the_option_is_added_to_those_of_xla(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XLA_FLAGS", "--xla_dump_to=here")
     monkeypatch.setattr(platform, "machine", lambda: "x86_64")
-    monkeypatch.setattr(rounding, "started", lambda: False)
+    monkeypatch.setattr(separate_rounding, "started", lambda: False)
     assert not provenance.separate_rounding()
     for _ in range(2):
         dd.use_separate_rounding()

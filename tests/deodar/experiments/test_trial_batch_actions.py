@@ -25,11 +25,11 @@ from deodar.experiments.actions import (
     Set,
     Snapshot,
 )
-from deodar.experiments.batch import run_batch
 from deodar.experiments.events import Appears, Crosses, Event, Reached
 from deodar.experiments.measures import Measure
-from deodar.experiments.run import run_trial
 from deodar.experiments.trial import Trial
+from deodar.experiments.trial_batch import run_batch
+from deodar.experiments.trial_run import run_trial
 from tests.deodar.experiments.robots import ROOM, straight
 
 PROGRAMS: dict[Any, Any] = {}

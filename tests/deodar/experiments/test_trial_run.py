@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.errors import ParameterError, TimeError, WorldError
 from deodar.experiments.actions import Move, Place, Remove, Set
 from deodar.experiments.events import Crosses, Leaves, Within
-from deodar.experiments.run import run_trial
+from deodar.experiments.trial_run import run_trial
 from tests.deodar.experiments.robots import decider, room, straight
 
 GOAL = Within("reached", 7.0)

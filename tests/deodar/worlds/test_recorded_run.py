@@ -18,7 +18,7 @@ from deodar.recording.opened import opened
 from deodar.recording.repeat import repeat
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
-from deodar.worlds.recording import Recording
+from deodar.worlds.recorded_run import Recording
 
 EIGHT = dd.Axis("sensor", 0, 7, 8)
 

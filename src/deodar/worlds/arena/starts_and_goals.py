@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from deodar.errors import Problem, WorldError
 from deodar.worlds._settings import finite_rows
-from deodar.worlds.arena.layout import ArenaObject
+from deodar.worlds.arena.arena_layout import ArenaObject
 
 FAR = 2.0
 """Largest distance of an object from the border, in lengths of its longer side."""

@@ -12,14 +12,14 @@ from deodar.compiler.program import Port
 from deodar.errors import ParameterError, RunWarning, TimeError, WorldError
 from deodar.experiments.actions import Action, End, Record, Reset, require_targets
 from deodar.experiments.actions import require as require_actions
-from deodar.experiments.copies import CopyTrial, RunningCopies
 from deodar.experiments.events import Event
+from deodar.experiments.field_reader import ReadPlace, with_readers
 from deodar.experiments.levels import acted
 from deodar.experiments.measures import BaseMeasure
 from deodar.experiments.observable import Observable
 from deodar.experiments.observations import DIVERGED, Observations
 from deodar.experiments.pushes import with_pushes
-from deodar.experiments.reader import ReadPlace, with_readers
+from deodar.experiments.running_copies import CopyTrial, RunningCopies
 from deodar.experiments.trial import Trial
 from deodar.model import find
 from deodar.model.document import Document

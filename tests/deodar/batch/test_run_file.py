@@ -13,19 +13,19 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.batch import output, sent
+from deodar.batch import run_file, sent
 from deodar.batch.compute import compute
-from deodar.batch.output import OutputPart, RunOutput
 from deodar.batch.pieces import EMPTY, PieceResult
-from deodar.batch.request import SimulationRequest
+from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import SentOutput, SentPart
+from deodar.batch.simulation_request import SimulationRequest
 from deodar.cli import main
 from deodar.errors import Interrupted, NotFinite, OutputExists, RecordError
 from deodar.recording import files
 from deodar.recording.record import about
 from deodar.session import checkpoint
 from tests.deodar.recording.models import model
-from tests.deodar.worlds.test_recording import driving
+from tests.deodar.worlds.test_recorded_run import driving
 
 
 def stopping(after: int) -> Callable[[int], None]:
@@ -68,11 +68,11 @@ def test_a_wall_clock_that_is_set_back_delays_no_state(
 ) -> None:
     back = itertools.count(1_700_000_000.0, -3600.0)
     monkeypatch.setattr("time.time", lambda: next(back))
-    monkeypatch.setattr(output, "CHECKPOINT_SECONDS", 1e-9)
+    monkeypatch.setattr(run_file, "CHECKPOINT_SECONDS", 1e-9)
     stored: list[int] = []
 
     def note(done: int) -> None:
-        state = tmp_path / "run" / "record.zarr" / output.CHECKPOINT
+        state = tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT
         stored.append(checkpoint.read(state)[0]["steps"] if state.exists() else 0)
 
     dd.simulate(model(), 20, record="u", every=5, seed=3, out=tmp_path / "run", progress=note)
@@ -137,7 +137,7 @@ def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) 
         dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(20), **given)
     kept = caught.value.data["u.activation"].values
     assert np.isfinite(kept[:2, :4]).all() and about(caught.value.data)["complete"] is False
-    assert checkpoint.read(record / output.PIECE_CHECKPOINT.format(0))[0]["steps"] == 20
+    assert checkpoint.read(record / run_file.PIECE_CHECKPOINT.format(0))[0]["steps"] == 20
     begun: list[int] = []
 
     def note(done: int) -> None:
@@ -194,7 +194,7 @@ def test_samples_of_workers_after_their_states_are_dropped_where_differences_are
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
-    state = tmp_path / "run" / "record.zarr" / output.PIECE_CHECKPOINT.format(1)
+    state = tmp_path / "run" / "record.zarr" / run_file.PIECE_CHECKPOINT.format(1)
     with monkeypatch.context() as elsewhere:
         elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
@@ -250,7 +250,7 @@ def test_a_resumed_run_that_is_stopped_keeps_the_samples_that_were_there(tmp_pat
     with pytest.raises(Interrupted):
         dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(30), **given)
     before = dd.open_record(tmp_path / "run").sizes["time"]
-    (tmp_path / "run" / "record.zarr" / output.CHECKPOINT).unlink()
+    (tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT).unlink()
     with pytest.raises(Interrupted):
         dd.resume(tmp_path / "run", progress=stopping(5))
     found = files.load_record(tmp_path / "run")
@@ -272,7 +272,7 @@ def test_a_state_of_another_run_is_refused(tmp_path: Path) -> None:
             dd.simulate(
                 model(), 40, record="u", every=5, seed=seed, out=tmp_path / name, progress=stopping(10)
             )
-    state = Path("record.zarr") / output.CHECKPOINT
+    state = Path("record.zarr") / run_file.CHECKPOINT
     (tmp_path / "run" / state).write_bytes((tmp_path / "other" / state).read_bytes())
     with pytest.raises(RecordError, match="of another run"):
         dd.resume(tmp_path / "run")
@@ -306,7 +306,7 @@ def test_a_run_that_was_killed_before_its_first_state_begins_again(tmp_path: Pat
     given = {"record": ["u"], "every": 5, "seed": 3}
     with pytest.raises(Interrupted):
         dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(10), **given)
-    (tmp_path / "run" / "record.zarr" / output.CHECKPOINT).unlink()
+    (tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT).unlink()
     assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 40, **given))
 
 
@@ -344,10 +344,10 @@ def test_samples_after_the_stored_state_are_dropped_where_differences_are_accept
             elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
             dd.simulate(model(), 40, out=path, progress=stopping(40 * (pieces - 1) + 10), **given)
-        state = (path / "record.zarr" / output.CHECKPOINT).read_bytes()
+        state = (path / "record.zarr" / run_file.CHECKPOINT).read_bytes()
         with pytest.raises(Interrupted):
             dd.resume(path, progress=stopping(40 * (pieces - 1) + 30))
-    (path / "record.zarr" / output.CHECKPOINT).write_bytes(state)
+    (path / "record.zarr" / run_file.CHECKPOINT).write_bytes(state)
     later = finite(path, 6)
     with pytest.raises(Interrupted):
         dd.resume(path, progress=stopping(40 * (pieces - 1) + 16), accept=lambda found: True)

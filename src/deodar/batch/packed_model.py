@@ -13,7 +13,7 @@ from typing import Any
 
 from deodar import codec, registry
 from deodar.errors import WorkerError
-from deodar.model import files
+from deodar.model import document_files
 from deodar.model.model import Model
 from deodar.model.parts import kinds_in
 from deodar.worlds._base import World
@@ -44,10 +44,10 @@ class PackedModel:
         Raises:
             WorkerError: a part of them cannot be sent to another process.
         """
-        data, arrays = files.to_data(model.document)
+        data, arrays = document_files.to_data(model.document)
         outside = _outside(data)
         _require_module([*outside, *([type(world)] if world is not None else [])])
-        held = files.pack(arrays) if arrays else b""
+        held = document_files.pack(arrays) if arrays else b""
         return cls(
             codec.line(data),
             held,
@@ -83,8 +83,8 @@ def require_portable(world: World | None) -> None:
 @functools.lru_cache(maxsize=1)
 def _model(document: str, arrays: bytes, trusted: bool, kinds: bytes) -> Model:
     pickle.loads(kinds)
-    held = files.unpack(arrays, "the document") if arrays else {}
-    return Model(document=files.from_data(codec.parse(document), held), trusted=trusted)
+    held = document_files.unpack(arrays, "the document") if arrays else {}
+    return Model(document=document_files.from_data(codec.parse(document), held), trusted=trusted)
 
 
 def _outside(data: Mapping[str, Any]) -> list[type]:

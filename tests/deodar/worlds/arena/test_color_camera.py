@@ -15,7 +15,7 @@ import deodar as dd
 from deodar.errors import WorldError
 from deodar.worlds.arena import arena as arena_file
 from deodar.worlds.arena.arena import Arena
-from deodar.worlds.arena.camera import AT_ONCE
+from deodar.worlds.arena.color_camera import AT_ONCE
 from deodar.worlds.arena.epuck import EPUCK
 from deodar.worlds.arena.khepera import KHEPERA
 from deodar.worlds.arena.picture_noise import BACKGROUND, picture

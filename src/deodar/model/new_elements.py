@@ -9,7 +9,7 @@ from deodar import registry
 from deodar.declarations import Needed
 from deodar.element import Element
 from deodar.errors import ParameterError
-from deodar.model import files, plain_values
+from deodar.model import document_files, plain_values
 from deodar.model.document import Document
 from deodar.model.parts import part_from_json
 from deodar.numerics.axes import Axes, Axis
@@ -44,7 +44,7 @@ def element(
     cls = registry.kind(kind)
     if not issubclass(cls, Element):
         raise ParameterError(f"expected an element, got {an(kind)}", where=kind)
-    known = files.axes(doc)
+    known = document_files.axes(doc)
     values = {k: plain_values.keyed(cls, k, v, known) for k, v in values.items()}
     free = usual_axes(doc) if axes is None else axes
     body: dict[str, Any] = {**values, "kind": kind}
@@ -53,7 +53,7 @@ def element(
         if p.name not in values:
             needed = _needed_axes(p, getattr(example, p.name), free)
             if needed is not None:
-                keys = [files.axis_key(known, axis) for axis in needed]
+                keys = [document_files.axis_key(known, axis) for axis in needed]
                 body[p.name] = keys if p.form == "axes" else keys[0]
         if p.name == "axes":
             keys = body.get("axes", [])

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.compiler.batch import Batch
+from deodar.compiler.copy_batch import Batch
 from deodar.elements.sensor import Sensor
 from deodar.errors import ParameterError, WorldError
-from deodar.experiments import copies
-from deodar.experiments.batch import run_batch
+from deodar.experiments import running_copies
 from deodar.experiments.events import Crosses, Within
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
-from deodar.experiments.run import run_trial
+from deodar.experiments.trial_batch import run_batch
+from deodar.experiments.trial_run import run_trial
 from deodar.numerics.choice import MANY
 from deodar.worlds.picture import Picture
 from tests.deodar.experiments.robots import decider, room, straight
@@ -40,7 +40,7 @@ def test_a_batch_gives_the_values_of_single_trials():
 
 
 def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
-    monkeypatch.setattr(copies, "WORTH", 0)
+    monkeypatch.setattr(running_copies, "WORTH", 0)
     model, left = decider(), []
     courses = run_batch(model, 600, range(16), events=[DECIDED], between=left.append)
     assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left
@@ -50,7 +50,7 @@ def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
 
 def test_a_smaller_batch_has_the_state_of_the_larger_one_where_kernels_differ(monkeypatch):
     """With many copies a kernel whose strength differs between trials has a group of its own."""
-    monkeypatch.setattr(copies, "WORTH", 0)
+    monkeypatch.setattr(running_copies, "WORTH", 0)
     model, count = decider(), 2 * MANY
     model.add(dd.Field("v", [], tau=20, resting_level=-1, noise=3.0, kernel=[dd.Gaussian(0.5)]))
     model.set("u.kernel", [dd.Gaussian(0.5)])

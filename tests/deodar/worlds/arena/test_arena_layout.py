@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from deodar.errors import WorldError
-from deodar.worlds.arena.layout import ArenaLayout, builtin, load
+from deodar.worlds.arena.arena_layout import ArenaLayout, builtin, load
 
 ROOM: dict[str, Any] = {
     "arena": {"x": [0, 2], "y": [0, 1]},
