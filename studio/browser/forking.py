@@ -13,7 +13,7 @@ import signal
 import socket
 import sys
 
-import deodar_studio.command
+import deodar_studio.commands.studio
 import deodar_studio.web.serve  # noqa: F401
 from deodar.cli import main
 

@@ -1,0 +1,1 @@
+"""Conversion of records to bags of ROS 2."""

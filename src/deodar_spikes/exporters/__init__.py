@@ -1,0 +1,1 @@
+"""Conversion of models to networks of spiking neurons."""
