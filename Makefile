@@ -15,7 +15,7 @@ ifeq ($(LONG),no)
   SHORT := and not long
 endif
 
-.PHONY: demo test test-core whole quick optimised browser fast lint types studio page docs schema bench native lowest lock audit clean
+.PHONY: demo test test-core whole quick optimised browser fast lint types studio page docs generate bench native lowest lock audit clean
 
 demo: .venv/installed
 	$(BIN)/python -m deodar demo saliency
@@ -75,8 +75,9 @@ page: studio
 docs: .venv/installed-docs
 	$(BIN)/python docs/build.py
 
-schema: .venv/installed
-	$(BIN)/python -m deodar.model.schema
+# every file that follows from the code, after a kind, a command or a message was added or changed
+generate: .venv/installed-test
+	$(BIN)/python tools/generate.py
 
 bench: .venv/installed
 	$(BIN)/python benchmarks/run.py

@@ -1,6 +1,6 @@
 """Write the reference pages and the tables of the command line from the code.
 
-    python docs/reference.py
+    python docs/reference.py      also a step of tools/generate.py
 
 One page for each room of the registry, one for what a script calls, one for measuring and drawing. Nothing
 here is written by hand twice: equations (TeX), ports and sources are the docstrings', units, ranges and costs
@@ -14,7 +14,6 @@ import dataclasses
 import importlib
 import inspect
 import re
-import sys
 import typing
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,7 +26,7 @@ from deodar import cli, docstring, kinds, registry
 from deodar.parameters import Needed
 
 DOCS = Path(__file__).parent
-MADE = "<!-- Made by docs/reference.py from the code: change the docstrings, not this page. -->\n"
+MADE = "<!-- Written by tools/generate.py from the code: change the docstrings, not this page. -->\n"
 WORDS = ("required", "none", "never")
 """Defaults that are words, not code."""
 
@@ -570,4 +569,3 @@ def written(action: argparse.Action) -> str:
 
 if __name__ == "__main__":
     write()
-    sys.stderr.write("written\n")

@@ -1,6 +1,6 @@
 """Write the list of public names, `src/deodar/__init__.pyi`.
 
-    python tools/stub.py
+    python tools/stub.py      also a step of tools/generate.py
 
 The lines of kinds follow from the registry, and those of the packages beside the engine from the entry
 points of deodar (`deodar.worlds`, `deodar.names`). All other lines of the engine stay as they are.
@@ -17,8 +17,8 @@ from deodar import registry
 STUB = Path(__file__).resolve().parents[1] / "src" / "deodar" / "__init__.pyi"
 HEAD = """\
 # Every public name, one line each. Editors and pyright read the names here, and so does `__init__.py`, which
-# imports a name when it is first used. `python tools/stub.py` writes the lines of kinds and of the packages
-# beside the engine; the others are written by hand.
+# imports a name when it is first used. `python tools/generate.py` writes the lines of kinds and of the
+# packages beside the engine; the others are written by hand.
 
 """
 TAIL = "\n__version__: str\n"

@@ -1,6 +1,6 @@
 # Every public name, one line each. Editors and pyright read the names here, and so does `__init__.py`, which
-# imports a name when it is first used. `python tools/stub.py` writes the lines of kinds and of the packages
-# beside the engine; the others are written by hand.
+# imports a name when it is first used. `python tools/generate.py` writes the lines of kinds and of the
+# packages beside the engine; the others are written by hand.
 
 from deodar import analysis as analysis
 from deodar import architectures as architectures

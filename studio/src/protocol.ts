@@ -1,5 +1,5 @@
 // Generated from src/deodar_studio/messages/to_server.py and to_page.py; change those, not this one:
-// python -m deodar_studio.messages.protocol
+// python tools/generate.py
 // Add a document parameter with the value of the first parameter that it sets.
 export type AddDocumentParameter = {
   type: "add_document_parameter";

@@ -12,7 +12,7 @@ import pytest
 from deodar.model import output
 from deodar_studio.messages import frames, protocol, to_page, to_server
 
-SAY = "write them again: python -m deodar_studio.messages.protocol"
+SAY = "type: python tools/generate.py"
 
 
 def test_the_schema_is_up_to_date() -> None:

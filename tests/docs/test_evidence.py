@@ -37,7 +37,7 @@ def reports() -> dict[str, Any]:
 def test_stored_claims_follow_from_the_rows(reports: dict[str, Any]) -> None:
     for name, (kept, report) in reports.items():
         assert same(evidence.EVIDENCE / name / evidence.RESULTS, kept.results(report)), (
-            f"evidence/{name} is stale: python docs/evidence.py"
+            f"evidence/{name} is stale: python tools/generate.py"
         )
 
 
@@ -48,7 +48,7 @@ def test_the_numbers_on_the_pages_follow_from_the_rows(reports: dict[str, Any]) 
     }
     for page in evidence.pages():
         text = page.read_text(encoding="utf-8")
-        assert evidence.filled(text, known) == text, f"{page.name} is stale: python docs/evidence.py"
+        assert evidence.filled(text, known) == text, f"{page.name} is stale: python tools/generate.py"
         assert evidence.loose(text) == [], f"{page.name} states numbers of runs outside of a mark"
 
 

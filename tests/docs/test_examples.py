@@ -44,7 +44,7 @@ def test_documents_are_those_that_the_script_writes(tmp_path: Path) -> None:
     make.main(tmp_path)
     made = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
     kept = {p.name: p.read_bytes() for ending in ("json", "npz") for p in EXAMPLES.glob(f"*.{ending}")}
-    assert kept == made, "the documents are not what examples/make.py makes: run it"
+    assert kept == made, "the documents are not what examples/make.py makes: python tools/generate.py"
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -15,7 +15,7 @@ reference = module(DOCS / "reference.py")
 def test_a_generated_page_is_up_to_date(page: Path) -> None:
     made = reference.pages()[DOCS / page]
     assert (DOCS / page).read_text(encoding="utf-8") == made, (
-        f"docs/{page} is not what the code says: python docs/reference.py"
+        f"docs/{page} is not what the code says: python tools/generate.py"
     )
 
 

@@ -33,13 +33,13 @@ def _headings() -> set[str]:
 
 @pytest.mark.parametrize("kind", [name for room in registry.ROOMS for name in registry.kinds(room)])
 def test_every_kind_has_a_heading(kind: str) -> None:
-    assert kind in _headings(), f"no page under docs/ has the heading {kind}: build the reference again"
+    assert kind in _headings(), f"no page under docs/ has the heading {kind}: type python tools/generate.py"
 
 
 @pytest.mark.parametrize("command", cli.COMMANDS.first_party())
 def test_every_command_has_a_heading(command: str) -> None:
     assert command in _headings(), (
-        f"no page under docs/ has the heading deodar {command}: build the reference again"
+        f"no page under docs/ has the heading deodar {command}: type python tools/generate.py"
     )
 
 

@@ -44,7 +44,7 @@ def test_every_name_resolves_and_has_a_docstring(name: str) -> None:
 
 def test_the_stub_is_up_to_date() -> None:
     text = (ENGINE / "__init__.pyi").read_text(encoding="utf-8")
-    assert stub.stub(text) == text, "type: python tools/stub.py"
+    assert stub.stub(text) == text, "type: python tools/generate.py"
 
 
 def test_kinds_and_names_of_packages_are_added_to_a_stub_and_old_ones_removed() -> None:
@@ -57,7 +57,7 @@ def test_kinds_and_names_of_packages_are_added_to_a_stub_and_old_ones_removed() 
 
 def test_every_kind_of_deodar_is_a_public_name() -> None:
     kinds = {name: cls for name, cls in registry.kinds().items() if registry.own(cls)}
-    assert not kinds.keys() - set(deodar.__all__), "type: python tools/stub.py"
+    assert not kinds.keys() - set(deodar.__all__), "type: python tools/generate.py"
     assert all(getattr(deodar, name) is cls for name, cls in kinds.items())
 
 

@@ -13,7 +13,7 @@ from deodar.model.parts import schema
 from deodar.parameters import Part
 
 SHIPPED = Path(__file__).with_name("document.schema.json")
-"""The generated schema, part of the package; `python -m deodar.model.schema` writes it."""
+"""The generated schema, part of the package; `python tools/generate.py` writes it."""
 
 
 def reference(base: type[Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from deodar import codec
 from deodar_robots.robot.robot_file import robot_schema
 
 SHIPPED = Path(__file__).with_name("robot.schema.json")
-"""The generated schema, part of the package; `python -m deodar_robots.robot.schema` writes it."""
+"""The generated schema, part of the package; `python tools/generate.py` writes it."""
 
 
 def text() -> str:

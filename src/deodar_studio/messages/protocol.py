@@ -22,7 +22,7 @@ SCHEMA = Path(__file__).with_name("protocol.schema.json")
 TYPESCRIPT = Path(__file__).parents[3] / "studio" / "src" / "protocol.ts"
 HEAD = (
     "// Generated from src/deodar_studio/messages/to_server.py and to_page.py; change those, not this one:\n"
-    "// python -m deodar_studio.messages.protocol\n"
+    "// python tools/generate.py\n"
 )
 
 
