@@ -22,4 +22,4 @@ def test_maps_name_arrays_and_the_ports_of_their_dimensions(kind: str) -> None:
 
 
 def test_fixed_weights_and_tuning_curves_are_maps() -> None:
-    assert {name for name, cls in KINDS.items() if cls.maps} == {"Weights", "PopulationActivity"}
+    assert {"Weights", "PopulationActivity"} <= {name for name, cls in KINDS.items() if cls.maps}

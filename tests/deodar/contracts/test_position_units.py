@@ -68,7 +68,7 @@ def test_some_kinds_pass_units_on_some_read_them_off_and_some_use_positions() ->
     passing = {k for k, ports in units.items() if any(ports.values())}
     coding = {k for k, n in nodes.items() if n.element.position_codes(n.ins)}
     assert passing >= {"Gain", "Delay", "Sum", "Weights", "Sensor"} and "Field" not in passing
-    assert coding == {"SpaceCode", "SteeredShift"}
+    assert coding >= {"SpaceCode", "SteeredShift"} and "Gain" not in coding
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -9,6 +9,7 @@ import deodar as dd
 from deodar.couplings.delay import Delay
 from deodar.couplings.delay_line import DelayLine
 from deodar.elements.time_series import TimeSeries
+from tests.deodar.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 2, 3)
 
@@ -78,3 +79,11 @@ def test_a_delay_can_be_increased_during_a_run():
     oldest = float(s.read("line.output"))
     s.step(250)
     assert oldest < 60 and float(s.read("line.output")) == pytest.approx(150)
+
+
+def timed(t0: float) -> dd.Model:
+    return alone(DelayLine("example", [], 4.0, 4), t0, RISING)
+
+
+def lasting(duration: float) -> dd.Model:
+    return alone(DelayLine("example", [], duration, 2, initial=-1.0), given=RISING + 5)

@@ -8,6 +8,7 @@ import pytest
 import deodar as dd
 from deodar.couplings.reward_gate import RewardGate
 from deodar.elements.boost import Boost
+from tests.deodar.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 10, 10, periodic=True)
 
@@ -53,3 +54,11 @@ def test_a_graded_gate_follows_the_reward_while_open():
 def test_reward_opens_the_gate_only_while_its_gate_input_is_on():
     assert np.array_equal(opened([(2, 10)], gate=[(4, 6)]), times((4, 6)))
     assert not opened([(2, 4)], gate=[(4, 6)]).any()
+
+
+def timed(t0: float) -> dd.Model:
+    return alone(RewardGate(duration=4.0, name="example"), t0, (RISING == 3) * 1.0)
+
+
+def lasting(duration: float) -> dd.Model:
+    return alone(RewardGate(duration=duration, name="example"), given=(RISING == 0) * 1.0)

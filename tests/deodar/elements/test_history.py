@@ -8,6 +8,7 @@ import pytest
 import deodar as dd
 from deodar.elements.history import History
 from deodar.errors import NotFinite
+from tests.deodar.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 3, 4)
 
@@ -50,3 +51,11 @@ def test_a_reader_of_an_undefined_slot_is_named_in_the_error():
     u >> past >> dd.Gain(1.0, name="twice")
     with pytest.raises(NotFinite, match=r"twice\.output became infinite or undefined"):
         dd.simulate(model, 3, record=["twice.output"])
+
+
+def timed(t0: float) -> dd.Model:
+    return alone(History("example", [], dd.Axis("slot", 0, 2, 3), interval=3.0), t0, RISING)
+
+
+def lasting(duration: float) -> dd.Model:
+    return alone(History("example", [], dd.Axis("slot", 0, 2, 3), interval=duration), given=RISING + 5)

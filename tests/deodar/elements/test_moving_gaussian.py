@@ -9,6 +9,7 @@ import deodar as dd
 from deodar.elements.moving_gaussian import MovingGaussian
 from deodar.errors import ParameterError
 from deodar.model import document_files
+from tests.deodar.contracts.timed import alone
 from tests.deodar.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 30, 31), dd.Axis("y", -5, 5, 21)
@@ -107,3 +108,10 @@ def test_a_document_of_version_2_names_the_waypoints_path():
 def test_waypoints_of_another_shape_are_refused(waypoints, what):
     with pytest.raises(ParameterError, match=what):
         MovingGaussian("s", [X], waypoints=waypoints)
+
+
+def timed(t0: float) -> dd.Model:
+    points = [[t0, 0.0], [t0 + 6, 60.0]]
+    return alone(
+        MovingGaussian("example", [RING], center=20.0, sigma=30.0, velocity=0.1, waypoints=points), t0
+    )

@@ -7,6 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.elements.sampled_history import SampledHistory
+from tests.deodar.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 3, 4)
 
@@ -42,3 +43,8 @@ def test_the_slots_need_a_name_of_their_own():
         model.add(dd.Field("u", [X])), model.add(SampledHistory("past", [X], dd.Axis("x", 0, 2, 3)))
     )
     assert any("slots are called 'x'" in p.what for p in model.check())
+
+
+def timed(t0: float) -> dd.Model:
+    times = t0 + np.array([2.0, 5.0, 9.0])
+    return alone(SampledHistory("example", [], dd.Axis("slot", 0, 2, 3), times), t0, RISING)

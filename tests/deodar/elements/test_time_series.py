@@ -8,6 +8,7 @@ import pytest
 import deodar as dd
 from deodar.elements.time_series import TimeSeries
 from deodar.errors import ModelError, ParameterError
+from tests.deodar.contracts.timed import alone
 from tests.deodar.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 2, 3)
@@ -91,3 +92,12 @@ def test_wrong_times_and_values_are_reported():
         ModelError, match=r"values has shape \[4, 5\], its times and axes have \[2, 5\] samples"
     ):
         dd.Session(model)
+
+
+def timed(t0: float) -> dd.Model:
+    times = t0 + np.array([1.0, 3.0, 3.5, 6.0])
+    return alone(TimeSeries("example", [], times, [1.0, 2.0, -3.0, 5.0]), t0)
+
+
+def lasting(duration: float) -> dd.Model:
+    return alone(TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=duration))

@@ -5,6 +5,7 @@ as in double precision.
 from __future__ import annotations
 
 import dataclasses as dc
+import importlib.util
 from collections.abc import Callable
 
 import jax
@@ -13,13 +14,10 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.functions import Functions, StepArguments
-from deodar.couplings.delay_line import DelayLine
-from deodar.couplings.reward_gate import RewardGate
-from deodar.element import Element, Setting, Time
+from deodar.element import Setting, Time
 from deodar.elements.boost import Boost
 from deodar.elements.history import History
 from deodar.elements.moving_gaussian import MovingGaussian
-from deodar.elements.sampled_history import SampledHistory
 from deodar.elements.time_series import TimeSeries
 from deodar.errors import TimeError
 from deodar.leaves import leaves
@@ -141,17 +139,6 @@ def test_times_that_cannot_be_distinguished_are_refused(precision: str) -> None:
         session.run(2.0**45)
 
 
-MULTIPLY_THE_STEP = {
-    ("Attractor", "fastest"),
-    ("AttractorVelocity", "fastest"),
-    ("Integrator", "rate"),
-    ("AdaptiveWeights", "rate"),
-    ("Hebbian", "rate"),
-    ("Hebbian", "decay"),
-}
-"""Rates that multiply the step and never the elapsed time: single precision is sufficient."""
-
-
 WINDOWED = sorted(kind for kind, cls in KINDS.items() if any(p.name == "windows" for p in parameters(cls)))
 """Kinds with windows that switch them on and off."""
 
@@ -163,47 +150,19 @@ def windowed(kind: str, t0: float) -> Model:
     return model
 
 
-def alone(t0: float, element: Element, given: np.ndarray | None = None) -> Model:
-    """Return an element called `example`, with a time series from t0 on as its input."""
-    model = begun(t0)
-    model.add(element)
-    if given is not None:
-        model.add(TimeSeries("s", [], t0 + np.arange(len(given)), given)) >> model["example"]
-    return model
+def scene(kind: str, name: str) -> Callable[..., Model] | None:
+    """Return a function of the test of a kind: `timed(t0)`, a model with its element `example` and an event
+    within twelve steps after t0, or `lasting(duration)`, a model whose output changes after this duration.
+    """
+    module = KINDS[kind].__module__.removeprefix("deodar.")
+    folder, _, file = module.rpartition(".")
+    path = f"tests.deodar.{folder}.test_{file}"
+    return getattr(importlib.import_module(path), name, None) if importlib.util.find_spec(path) else None
 
 
-RISING = np.arange(15.0)
-SLOTS = dd.Axis("slot", 0, 2, 3)
-SCENES: dict[str, Callable[[float], Model]] = {
-    "DelayLine": lambda t0: alone(t0, DelayLine("example", [], 4.0, 4), RISING),
-    "History": lambda t0: alone(t0, History("example", [], SLOTS, interval=3.0), RISING),
-    "MovingGaussian": lambda t0: alone(
-        t0,
-        MovingGaussian(
-            "example", [RING], center=20.0, sigma=30.0, velocity=0.1, waypoints=[[t0, 0.0], [t0 + 6, 60.0]]
-        ),
-    ),
-    "RewardGate": lambda t0: alone(t0, RewardGate(duration=4.0, name="example"), (RISING == 3) * 1.0),
-    "SampledHistory": lambda t0: alone(
-        t0, SampledHistory("example", [], SLOTS, t0 + np.array([2.0, 5.0, 9.0])), RISING
-    ),
-    "TimeSeries": lambda t0: alone(
-        t0, TimeSeries("example", [], t0 + np.array([1.0, 3.0, 3.5, 6.0]), [1.0, 2.0, -3.0, 5.0])
-    ),
-}
-"""For each kind that reads time, other than by windows, a model with an event within twelve steps after t0.
-"""
-
+TIMED = {kind: found for kind in KINDS if (found := scene(kind, "timed"))}
+LASTING = {kind: found for kind in KINDS if (found := scene(kind, "lasting"))}
 LONG = 30 * DAY + 7
-LASTING: dict[str, Callable[[], Model]] = {
-    "DelayLine": lambda: alone(0.0, DelayLine("example", [], LONG, 2, initial=-1.0), RISING + 5),
-    "History": lambda: alone(0.0, History("example", [], SLOTS, interval=LONG), RISING + 5),
-    "RewardGate": lambda: alone(0.0, RewardGate(duration=LONG, name="example"), (RISING == 0) * 1.0),
-    "TimeSeries": lambda: alone(
-        0.0, TimeSeries("example", [], [0.0, 1.0], [5.0, -1.0], interpolation="hold", period=LONG)
-    ),
-}
-"""For each kind with a duration, a model whose output changes after a duration of 30 days and 7 ms."""
 
 
 class Watched(Time):
@@ -244,13 +203,15 @@ def reads_time(kind: str) -> bool:
 def test_every_kind_that_reads_time_is_tested() -> None:
     found = {kind for kind in KINDS if reads_time(kind)}
     lasting = {kind for kind, cls in KINDS.items() if any(p.role == "duration" for p in parameters(cls))}
-    assert found | lasting == {*WINDOWED, *SCENES}, "a kind that reads time needs an entry in SCENES"
-    assert lasting == set(LASTING), "a kind with a duration needs an entry in LASTING"
+    assert found | lasting == {*WINDOWED, *TIMED}, (
+        "the test of a kind that reads time has a function timed(t0)"
+    )
+    assert lasting == set(LASTING), "the test of a kind with a duration has a function lasting(duration)"
 
 
-@pytest.mark.parametrize("kind", sorted({*WINDOWED, *SCENES}))
+@pytest.mark.parametrize("kind", sorted({*WINDOWED, *TIMED}))
 def test_the_output_of_a_kind_does_not_depend_on_the_start_time(kind: str) -> None:
-    scene = SCENES.get(kind, lambda t0: windowed(kind, t0))
+    scene = TIMED.get(kind, lambda t0: windowed(kind, t0))
     seen, late = (
         dd.simulate(scene(t0), 12, dt=1, record=["example.output"])["example.output"].values
         for t0 in (0.0, 30 * DAY)
@@ -262,7 +223,7 @@ def test_the_output_of_a_kind_does_not_depend_on_the_start_time(kind: str) -> No
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("kind", LASTING)
 def test_a_run_of_a_month_ends_at_the_exact_step(kind: str, precision: str) -> None:
-    session = dd.Session(LASTING[kind](), precision=precision)
+    session = dd.Session(LASTING[kind](LONG), precision=precision)
     session.step(5)
     then = session.snapshot()
     # kinds that count steps in their state do not count the days between
@@ -275,9 +236,13 @@ def test_a_run_of_a_month_ends_at_the_exact_step(kind: str, precision: str) -> N
 
 
 def test_every_parameter_that_is_a_time_or_duration_is_declared_exact() -> None:
+    """Single precision is enough for a rate that multiplies the step, and never the elapsed time."""
     for name, cls in {**KINDS, **PARTS}.items():
         found = {p.name: p for p in parameters(cls)}
         found |= {path: p for path, _, p in leaves(any_example(name)) if p.exact}
         for p in found.values():
             assert p.exact or p.role not in ("moment", "duration"), (name, p.name)
-            assert p.exact or "/time" not in p.unit or (name, p.name) in MULTIPLY_THE_STEP, (name, p.name)
+            assert p.exact or "/time" not in p.unit or not (name in KINDS and reads_time(name)), (
+                name,
+                p.name,
+            )
