@@ -259,3 +259,9 @@ CLASSES = {
     "cedar.dynamics.SpaceToRateCode": space_to_rate,
     "cedar.dynamics.RateToSpaceCode": rate_to_space,
 }
+
+DECLARED = frozenset({"cedar.dynamics.NeuralField", "cedar.dynamics.Preshape"})
+
+LOOPED = frozenset(
+    {"cedar.dynamics.NeuralField", "cedar.dynamics.Preshape", "cedar.dynamics.SpaceToRateCode"}
+)

@@ -215,3 +215,7 @@ class _Connection:
 
 
 CLASSES = {"cedar.dynamics.HebbianConnection": hebbian}
+
+DECLARED = frozenset(CLASSES)
+
+LOOPED = frozenset({"cedar.dynamics.HebbianConnection"})

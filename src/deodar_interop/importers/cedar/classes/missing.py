@@ -155,3 +155,32 @@ def _component(step: CedarStep, slots: Sequence[str]) -> str:
     signals = [f"{slot}: {SIGNALS[slot]}" for slot in slots if slot in SIGNALS]
     use = f"open {world} as world" if world else f"open {VEHICLE} for a vehicle or {ARM} for an arm as world"
     return f"{use}{asked}" + (f" ({'; '.join(signals)})" if signals else "")
+
+
+LOOPED = frozenset(
+    {
+        "cedar.dynamics.CSVToPhoneme",
+        "cedar.dynamics.LogTimeInterval",
+        "cedar.dynamics.ViewportCamera",
+        "cedar.dynamics.ViewportSlice",
+        "cedar.dynamics.steps.TwoStepInput",
+        "cedar.processing.VideoSink",
+        "cedar.processing.sinks.LocalWriter",
+        "cedar.processing.sinks.NetWriter",
+        "cedar.processing.sinks.TCPWriter",
+        "cedar.processing.sources.LocalReader",
+        "cedar.processing.sources.NetReader",
+        "cedar.processing.sources.RealSense",
+        "cedar.processing.sources.TCPReader",
+        "cedar.processing.sources.VirtualCamera",
+        "cedar.processing.steps.Component",
+        "cedar.processing.steps.ConfigurationLimits",
+        "cedar.processing.steps.DNN",
+        "cedar.processing.steps.DampedPseudoInverseKinematics",
+        "cedar.processing.steps.ForwardKinematics",
+        "cedar.processing.steps.Jacobian",
+        "cedar.processing.steps.PseudoInverseKinematics",
+        "cedar.processing.steps.PythonScriptLooped",
+        "cedar.processing.steps.VehicleRotation",
+    }
+)

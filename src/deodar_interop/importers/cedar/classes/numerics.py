@@ -215,3 +215,14 @@ CLASSES = {
     "cedar.processing.steps.ExponentialSmoothing": smoothing,
     "cedar.dynamics.HarmonicOscillator": oscillator,
 }
+
+DECLARED = frozenset({"cedar.dynamics.HarmonicOscillator", "cedar.processing.steps.Timer"})
+
+LOOPED = frozenset(
+    {
+        "cedar.dynamics.HarmonicOscillator",
+        "cedar.processing.steps.ExponentialSmoothing",
+        "cedar.processing.steps.NumericalDifferentiation",
+        "cedar.processing.steps.NumericalIntegration",
+    }
+)

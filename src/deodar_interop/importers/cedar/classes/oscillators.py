@@ -131,3 +131,5 @@ CLASSES = {
     "cedar.processing.steps.HopfOscillatorRHS": hopf,
     "cedar.processing.steps.HarmonicOscillatorRHS": harmonic,
 }
+
+DECLARED = frozenset(CLASSES)

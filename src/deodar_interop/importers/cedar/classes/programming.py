@@ -240,3 +240,13 @@ CLASSES = {
     "cedar.processing.sources.SinusSignal": sinus_signal,
     "cedar.processing.sources.StepSignal": step_signal,
 }
+
+DECLARED = frozenset({"cedar.processing.sources.SinusSignal", "cedar.processing.sources.StepSignal"})
+
+LOOPED = frozenset(
+    {
+        "cedar.processing.sources.SinusSignal",
+        "cedar.processing.sources.StepSignal",
+        "cedar.processing.steps.NoopLooped",
+    }
+)

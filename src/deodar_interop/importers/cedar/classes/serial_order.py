@@ -81,3 +81,7 @@ def serial_order(b: SourceStep) -> StepPiece:
 
 
 CLASSES = {"cedar.dynamics.SerialOrder": serial_order}
+
+DECLARED = frozenset(CLASSES)
+
+LOOPED = frozenset({"cedar.dynamics.SerialOrder"})

@@ -178,3 +178,7 @@ CLASSES = {
     "cedar.processing.sources.SpatialTemplate": spatial_template,
     "cedar.processing.sources.Noise": noise,
 }
+
+DECLARED = frozenset(CLASSES)
+
+LOOPED = frozenset({"cedar.processing.sources.Noise"})

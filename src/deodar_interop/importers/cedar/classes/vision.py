@@ -251,3 +251,20 @@ CLASSES = {
     "cedar.processing.steps.Histogram": histogram,
     "cedar.processing.steps.Threshold": threshold,
 }
+
+DECLARED = frozenset(
+    {
+        "cedar.processing.sources.Camera",
+        "cedar.processing.sources.CameraStream",
+        "cedar.processing.sources.Picture",
+        "cedar.processing.sources.Video",
+    }
+)
+
+LOOPED = frozenset(
+    {
+        "cedar.processing.sources.Camera",
+        "cedar.processing.sources.CameraStream",
+        "cedar.processing.sources.Video",
+    }
+)
