@@ -72,14 +72,11 @@ def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
     """
     out: list[Plugin] = []
     owners = dict.fromkeys(taken, "deodar")
-    for entry in _entries(group):
-        assert entry.dist is not None
-        package, version = entry.dist.name, entry.dist.version
-        owner = owners.setdefault(entry.name, package)
-        problem = (
-            f"takes the name {entry.name!r}, which {owner} has" if owner != package else _misfit(package)
-        )
-        out.append(Plugin(group, entry.name, package, version, problem, entry))
+    for entry in _all().get(f"deodar.{group}", ()):
+        name, package = entry.point.name, entry.package
+        owner = owners.setdefault(name, package)
+        problem = f"takes the name {name!r}, which {owner} has" if owner != package else _misfit(package)
+        out.append(Plugin(group, name, package, entry.version, problem, entry.point))
     return out
 
 
@@ -143,20 +140,42 @@ def first_party() -> frozenset[str]:
     return frozenset({"deodar", *(entry.module.partition(".")[0] for entry in entries)})
 
 
+@dataclass(frozen=True)
+class _Entry:
+    """An entry point, with name and version of its package."""
+
+    package: str
+    version: str
+    point: importlib.metadata.EntryPoint
+
+
 @functools.cache
-def _entries(group: str) -> tuple[importlib.metadata.EntryPoint, ...]:
-    entries = importlib.metadata.entry_points(group=f"deodar.{group}")
-    return tuple(
-        sorted(
-            (e for e in entries if e.dist is not None),
-            key=lambda e: (e.dist.name != "deodar", e.dist.name, e.name) if e.dist else (True, "", ""),
-        )
-    )
+def _all() -> dict[str, tuple[_Entry, ...]]:
+    """Return the entry points by group, in the order of their packages, deodar first.
+
+    One look at the metadata of all packages serves all groups, and each package is parsed once.
+    """
+    everything = importlib.metadata.entry_points()
+    packages: dict[int, tuple[str, str]] = {}
+    groups: dict[str, tuple[_Entry, ...]] = {}
+    for group in everything.groups:
+        if not group.startswith("deodar."):
+            continue
+        entries: list[_Entry] = []
+        for point in everything.select(group=group):
+            assert point.dist is not None
+            if id(point.dist) not in packages:
+                packages[id(point.dist)] = point.dist.name, point.dist.version
+            entries.append(_Entry(*packages[id(point.dist)], point))
+        groups[group] = tuple(sorted(entries, key=lambda e: (e.package != "deodar", e.package, e.point.name)))
+    return groups
 
 
 @functools.cache
 def _misfit(package: str) -> str:
     """Return the problem if a package requires another version of deodar."""
+    if package == "deodar":
+        return ""  # start-up time: it has no requirement of itself
     # start-up time
     from packaging.requirements import InvalidRequirement, Requirement
     from packaging.utils import canonicalize_name
