@@ -4,7 +4,8 @@
     python tools/packages.py --list     also every import of the engine's modules, by package
 
 The rules: the engine (`src/deodar`) imports no package beside it and names none; a package imports the
-engine and what `NEEDS` states, nothing else of deodar; no module is part of a cycle of imports.
+engine and what `NEEDS` states, nothing else of deodar; no module is part of a cycle of imports; a module name
+has one meaning inside a package (`ROLES`, `SUBJECTS`).
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import ast
 import collections
+import fnmatch
 import functools
 import re
 import sys
@@ -34,6 +36,44 @@ WORDS: Mapping[str, str] = {
     "deodar_studio": "studio",
 }
 """Words by which code refers to a package, besides its name."""
+
+ROLES: Mapping[str, tuple[str, ...]] = {
+    "what the kinds of a folder share": (
+        "deodar/numerics/kernels/_base",
+        "deodar/numerics/sigmoids/_base",
+        "deodar/worlds/_base",
+    ),
+    "a part of a measurement of a field in stages": ("deodar/analysis/maps/*", "deodar/analysis/tuning/*"),
+    "the tools by name": ("deodar/importers/tools", "deodar/exporters/tools"),
+    "a tool": (
+        "deodar_interop/compat/*",
+        "deodar_interop/exporters/*",
+        "deodar_interop/importers/*",
+        "deodar_interop/records/*",
+    ),
+    "a part of an importer": ("deodar_interop/importers/*/*",),
+    "the classes of a tool": ("deodar_interop/importers/*/classes", "deodar_interop/exporters/*/classes"),
+    "a family of classes": ("deodar_interop/importers/*/classes/*", "deodar_interop/exporters/*/classes/*"),
+    "a part of a paper": tuple(
+        f"deodar_papers/{paper}/*" for paper in ("looking", "pointing", "saliency", "serial_order", "spa")
+    ),
+    "figures of papers": ("deodar_papers/figures", "deodar_papers/*/figures"),
+    "the parser of a world on the command line": ("deodar_robots/*/argument",),
+}
+"""Modules that may share a name, by what they are: their places in `src`; `*` is one folder or module."""
+
+SUBJECTS: Mapping[str, str] = {
+    "deodar/cli/*": "deodar",
+    "deodar/couplings/*": "deodar/numerics",
+    "deodar/elements/*": "deodar/numerics",
+    "deodar/figures/*": "deodar",
+    "deodar/model/checks/*": "deodar/numerics",
+    "deodar_papers/commands/*": "deodar_papers",
+    "deodar_papers/figures/*": "deodar_papers",
+}
+"""Places of modules that are named after a subject, and the folder in which the subject may be: a command
+runs it, a figure draws it, a check is about it, an element or a coupling applies it.
+"""
 
 
 @dataclass(frozen=True)
@@ -169,6 +209,63 @@ def mentions() -> list[str]:
     ]
 
 
+def places(package: str) -> dict[str, list[str]]:
+    """Return the places of each module name of a package, folders too: `axes`: [`deodar/numerics/axes`, ...].
+
+    A file that its folder is named after (`eye/eye.py`) counts as the folder.
+    """
+    out: dict[str, list[str]] = {}
+    for path in modules(package):
+        place = path.relative_to(SRC).with_suffix("")
+        if place.name == "__init__":
+            place = place.parent
+        elif place.name == place.parent.name:
+            continue
+        if place.name == package:
+            continue
+        out.setdefault(place.name, []).append(place.as_posix())
+    return out
+
+
+def matches(place: str, pattern: str) -> bool:
+    """Return whether a place has the form of a pattern, folder by folder."""
+    parts, forms = place.split("/"), pattern.split("/")
+    return len(parts) == len(forms) and all(map(fnmatch.fnmatchcase, parts, forms))
+
+
+def _roles(place: str) -> set[str]:
+    return {role for role, patterns in ROLES.items() if any(matches(place, p) for p in patterns)}
+
+
+def _has_its_subject(place: str, among: Sequence[str]) -> bool:
+    """Return whether a module is named after one of other modules, the places of its name."""
+    folders = [folder for pattern, folder in SUBJECTS.items() if matches(place, pattern)]
+    return any(other.startswith(f"{f}/") for f in folders for other in among if other != place)
+
+
+def ambiguous(named: Mapping[str, Sequence[str]]) -> dict[str, list[str]]:
+    """Return the names whose places neither have one role nor are named after one subject.
+
+    Args:
+        named: places by name, as `places` returns them.
+    """
+    out: dict[str, list[str]] = {}
+    for name, found in named.items():
+        subjects = [place for place in found if not _has_its_subject(place, found)]
+        if len(subjects) > 1 and not set.intersection(*map(_roles, subjects)):
+            out[name] = sorted(found)
+    return out
+
+
+def ambiguous_names() -> list[str]:
+    """Return a line for each module name with several meanings in its package."""
+    return [
+        f"{name}: {', '.join(found)}"
+        for package in packages()
+        for name, found in sorted(ambiguous(places(package)).items())
+    ]
+
+
 def report(names: Sequence[str]) -> Iterator[str]:
     """Yield a line for each package: files, lines, and the engine's modules that it imports."""
     for package in names:
@@ -192,10 +289,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         for package in packages()[1:]:
             for target in sorted({i.target for i in imports_of_deodar(package)}):
                 print(f"  {package} -> {target}")
-    arrows, named = wrong_arrows(), mentions()
+    arrows, named, several = wrong_arrows(), mentions(), ambiguous_names()
     print(f"{len(arrows)} wrong arrows", *(f"  {arrow}" for arrow in arrows), sep="\n")
     print(f"{len(named)} names of packages in the engine", *(f"  {line}" for line in named), sep="\n")
-    return int(bool(arrows or named))
+    print(f"{len(several)} module names with several meanings", *(f"  {line}" for line in several), sep="\n")
+    return int(bool(arrows or named or several))
 
 
 if __name__ == "__main__":

@@ -66,3 +66,72 @@ def test_names_of_packages_are_found_in_code_and_not_in_docstrings() -> None:
     code = '"""About cedar."""\nx = "cedar"\nwhy = "open it in the studio"\n'
     tree = ast.parse(code + "def f(studio): ...\nclass Cedars: ...\n")
     assert {text for _, text in packages._texts(tree)} == {"cedar", "x", "why", "studio", "f", "Cedars"}
+
+
+def test_a_module_name_has_one_meaning_inside_a_package() -> None:
+    assert packages.ambiguous_names() == []
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        ["deodar/compiler/axes", "deodar/numerics/axes"],
+        ["deodar/batch", "deodar/compiler/batch"],
+        ["deodar/architectures/plan", "deodar/cli/plan", "deodar/compiler/plan"],
+        ["deodar/compiler/gain", "deodar/couplings/gain"],
+        ["deodar/worlds/arena/camera", "deodar/worlds/camera"],
+        ["deodar_interop/exporters/cosivina/layout", "deodar_interop/importers/cedar/layout"],
+    ],
+    ids=lambda found: found[0],
+)
+def test_two_unrelated_modules_of_one_name_are_found(found: list[str]) -> None:
+    assert packages.ambiguous({"name": found}) == {"name": found}
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        ["deodar/numerics/axes"],
+        ["deodar/cli/plan", "deodar/compiler/plan", "deodar/figures/plan"],
+        ["deodar/model/checks/kernels", "deodar/numerics/kernels"],
+        ["deodar_interop/importers/cedar/translate", "deodar_interop/importers/cosivina/translate"],
+        ["deodar_interop/exporters/cosivina/classes/fields", "deodar_interop/importers/cedar/classes/fields"],
+        ["deodar_papers/commands/demo", "deodar_papers/looking/demo", "deodar_papers/spa/demo"],
+    ],
+    ids=lambda found: found[0],
+)
+def test_siblings_of_one_role_and_modules_of_one_subject_share_a_name(found: list[str]) -> None:
+    assert packages.ambiguous({"name": found}) == {}
+
+
+def test_places_count_folders_and_leave_out_the_file_that_a_folder_is_named_after() -> None:
+    robots = packages.places("deodar_robots")
+    assert robots["eye"] == ["deodar_robots/eye"]
+    assert robots["event_camera"] == ["deodar_robots/eye/event_camera"]
+    assert not {"__init__", "deodar_robots"} & set(robots)
+
+
+def test_every_role_and_every_subject_is_that_of_some_module() -> None:
+    places = [
+        p for package in packages.packages() for found in packages.places(package).values() for p in found
+    ]
+    patterns = [*(p for patterns in packages.ROLES.values() for p in patterns), *packages.SUBJECTS]
+    assert [p for p in patterns if not any(packages.matches(place, p) for place in places)] == []
+
+
+def test_every_role_is_that_of_modules_of_one_name() -> None:
+    shared = [found for package in packages.packages() for found in packages.places(package).values()]
+    for role, patterns in packages.ROLES.items():
+        having = [
+            [p for p in found if any(packages.matches(p, form) for form in patterns)] for found in shared
+        ]
+        assert max(map(len, having)) > 1, role
+
+
+def test_the_exit_status_is_1_if_a_name_has_several_meanings(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = ["deodar/batch", "deodar/compiler/batch"]
+    monkeypatch.setattr(packages, "places", lambda package: {"batch": found} if package == "deodar" else {})
+    assert packages.main([]) == 1
+    assert "1 module names with several meanings\n  batch: deodar/batch, deodar/c" in capsys.readouterr().out
