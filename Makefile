@@ -43,7 +43,7 @@ optimised: .venv/installed-test
 
 # for those who work on the engine: its tests alone, without those that take long
 test-core: .venv/installed-test
-	$(BIN)/python tools/engine_alone.py $(SPREAD) -m "not default_program and not long"
+	$(BIN)/python tools/engine_alone.py $(SPREAD) -m "not default_program and not long" tests/deodar tests/contracts
 
 # the page in Chromium, and in Firefox and WebKit where they are installed: tests that wait for half of their
 # time, so `make test` runs them beside others; one file at a time there, because pytest uses two cores too

@@ -34,7 +34,7 @@ STEPS = 300
 
 sys.path[:0] = [str(path) for path in (ROOT, ROOT / "examples") if str(path) not in sys.path]
 
-from tests.deodar.contracts import build, embodied  # noqa: E402
+from tests.contracts import build, embodied  # noqa: E402
 from tests.deodar.experiments.robots import decider, room, straight  # noqa: E402
 from tests.deodar.session.models import mixed  # noqa: E402
 from tests.deodar_interop.importers.cosivina.files import SAMPLES  # noqa: E402

@@ -40,8 +40,8 @@ steps take several times as long. Single precision differs in the last digits.
 
 DEFAULT_PROGRAM = (
     # bits
-    "tests/deodar/contracts/test_worlds.py::test_a_run_is_independent_of_chunks_and_equal_after_a_reset",
-    "tests/deodar/contracts/test_worlds.py::test_the_run_inside_the_step_equals_that_outside_of_it",
+    "tests/contracts/test_worlds.py::test_a_run_is_independent_of_chunks_and_equal_after_a_reset",
+    "tests/contracts/test_worlds.py::test_the_run_inside_the_step_equals_that_outside_of_it",
     "tests/old_files/",
     "tests/benchmarks/test_bits.py",
     "tests/benchmarks/test_trajectories.py",

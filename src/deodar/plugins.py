@@ -153,7 +153,7 @@ class _Entry:
 def _all() -> dict[str, tuple[_Entry, ...]]:
     """Return the entry points by group, in the order of their packages, deodar first.
 
-    One look at the metadata of all packages serves all groups, and each package is parsed once.
+    The metadata of all packages are read once for all groups, and each package is parsed once.
     """
     everything = importlib.metadata.entry_points()
     packages: dict[int, tuple[str, str]] = {}

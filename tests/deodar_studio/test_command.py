@@ -12,15 +12,18 @@ import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 import pytest
 
+import deodar as dd
 from deodar.cli import main
+from deodar.importers import examples
 from deodar_studio.web import app, serve
 from deodar_studio.web.service import Service
-from tests.deodar_studio.page import play, studio
+from tests.deodar_studio.page import Page, play, studio
 
 
 def fetch(address: str) -> tuple[int, bytes]:
@@ -202,3 +205,68 @@ def test_a_missing_page_is_an_error_that_states_what_to_type(
     with studio(tmp_path) as address:
         status, content = fetch(address)
     assert status == 503 and b"python studio/build.py build" in content
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return an empty working folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_studio_opens_a_package_and_saves_it(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
+    assert main(["pack", "example:node"]) == 0
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        await p.ask("list_folder", path="")
+        assert (await p.until(lambda: p.said.get("folder")))["files"] == ["node.deodar"]
+        await p.do("set", element=p.element("u"), parameter="tau", value=33.0)
+        await p.do("save")
+
+    with studio(here, here / "node.deodar") as address:
+        play(address, scene)
+    assert dd.load("node.deodar").get("u.tau") == 33.0
+    assert sorted(p.name for p in here.iterdir()) == ["node.deodar", "state"]
+
+
+def test_the_studio_opens_an_example_as_a_copy_without_a_file(
+    here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The studio writes below the working folder, never into the folder of the examples."""
+    monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
+    given: list[Any] = []
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
+    assert main(["studio", "example:node", "--no-browser"]) == 0
+    service = given[0]
+    assert service.root == here
+
+    async def scene(p: Page) -> None:
+        await p.runs()
+        assert p.document["title"] == "node" and p.document["file"] == ""
+
+    with studio(service.root, service.file) as address:
+        play(address, scene)
+
+
+def test_a_missing_document_is_reported_before_a_port_is_opened(here: Path) -> None:
+    command = [sys.executable, "-m", "deodar", "studio", "nope.json", "--no-browser", "--port", "0"]
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        cwd=here,
+        env=os.environ | {"DEODAR_STATE": str(here)},
+        timeout=600,
+    )
+    assert done.returncode == 1 and not done.stdout and "nope.json: there is no such file" in done.stderr
+
+
+def test_an_example_is_opened_by_the_command_that_opens_documents(
+    here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: list[Any] = []
+    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
+    assert main(["examples", "open", "node"]) == 0
+    assert given[0].root == here and given[0].file == examples.file("node")

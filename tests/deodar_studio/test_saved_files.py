@@ -12,7 +12,7 @@ import deodar as dd
 from deodar.errors import DeodarError
 from deodar_studio.files.saved_files import SavedFolder
 from deodar_studio.files.workspace import Workspace
-from tests.deodar_studio.live.test_branch import bits
+from tests.deodar.session.models import bits
 from tests.deodar_studio.page import Page, play, studio
 
 

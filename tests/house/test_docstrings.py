@@ -16,7 +16,7 @@ from deodar.docstring import Docstring
 from deodar.element import Coupling, Element
 from deodar.parameters import Part, parameters
 
-KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
+KINDS = {name: cls for name, cls in registry.kinds().items() if registry.own(cls)}
 ELEMENTS = {name: cls for name, cls in KINDS.items() if issubclass(cls, Element)}
 
 # The words that the description of a parameter needs for its declared unit. Activation has no unit of its own

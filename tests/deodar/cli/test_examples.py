@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -16,7 +12,6 @@ from deodar import cli
 from deodar.cli import main
 from deodar.importers import examples
 from deodar.recording import files
-from tests.deodar_studio.page import Page, play, studio
 
 
 @pytest.fixture(autouse=True)
@@ -154,35 +149,3 @@ def test_every_command_with_a_model_accepts_names_of_examples(command: str) -> N
     cli.COMMANDS[command].arguments(parser)
     assert next(a for a in parser._actions if a.dest == "file").type is _options.document
     assert _options.document("example:node") == examples.file("node")
-
-
-def test_the_studio_opens_an_example_as_a_copy_without_a_file(
-    here: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The studio writes below the working folder, never into the folder of the examples."""
-    monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
-    given: list[Any] = []
-    monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
-    assert main(["studio", "example:node", "--no-browser"]) == 0
-    service = given[0]
-    assert service.root == here
-
-    async def scene(p: Page) -> None:
-        await p.runs()
-        assert p.document["title"] == "node" and p.document["file"] == ""
-
-    with studio(service.root, service.file) as address:
-        play(address, scene)
-
-
-def test_a_missing_document_is_reported_before_a_port_is_opened(here: Path) -> None:
-    command = [sys.executable, "-m", "deodar", "studio", "nope.json", "--no-browser", "--port", "0"]
-    done = subprocess.run(
-        command,
-        capture_output=True,
-        text=True,
-        cwd=here,
-        env=os.environ | {"DEODAR_STATE": str(here)},
-        timeout=600,
-    )
-    assert done.returncode == 1 and not done.stdout and "nope.json: there is no such file" in done.stderr

@@ -9,7 +9,6 @@ import pytest
 
 import deodar as dd
 from deodar.cli import main
-from tests.deodar_studio.page import Page, play, studio
 
 
 @pytest.fixture(autouse=True)
@@ -54,20 +53,3 @@ def test_commands_open_a_package(here: Path, capsys: pytest.CaptureFixture[str])
     assert main(["check", "node.deodar"]) == 0
     assert main(["run", "node.deodar", "--duration", "5", "--out", "run"]) == 0
     assert dd.load(here / "run" / "model.json").document == dd.load("example:node").document
-
-
-def test_the_studio_opens_a_package_and_saves_it(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("DEODAR_STATE", str(here / "state"))
-    assert main(["pack", "example:node"]) == 0
-
-    async def scene(p: Page) -> None:
-        await p.runs()
-        await p.ask("list_folder", path="")
-        assert (await p.until(lambda: p.said.get("folder")))["files"] == ["node.deodar"]
-        await p.do("set", element=p.element("u"), parameter="tau", value=33.0)
-        await p.do("save")
-
-    with studio(here, here / "node.deodar") as address:
-        play(address, scene)
-    assert dd.load("node.deodar").get("u.tau") == 33.0
-    assert sorted(p.name for p in here.iterdir()) == ["node.deodar", "state"]

@@ -15,7 +15,7 @@ import deodar as dd
 from deodar.compiler import host
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.executable import Executable
-from tests.deodar.contracts import build
+from tests.contracts import build
 
 RNG = np.random.default_rng(3)
 A = RNG.normal(size=(4, 5)).astype(np.float32)

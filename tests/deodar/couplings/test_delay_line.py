@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.couplings.delay import Delay
 from deodar.couplings.delay_line import DelayLine
 from deodar.elements.time_series import TimeSeries
-from tests.deodar.contracts.timed import RISING, alone
+from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 2, 3)
 

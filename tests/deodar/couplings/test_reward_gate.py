@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.couplings.reward_gate import RewardGate
 from deodar.elements.boost import Boost
-from tests.deodar.contracts.timed import RISING, alone
+from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 10, 10, periodic=True)
 

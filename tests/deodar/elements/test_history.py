@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.elements.history import History
 from deodar.errors import NotFinite
-from tests.deodar.contracts.timed import RISING, alone
+from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 3, 4)
 

@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.elements.moving_gaussian import MovingGaussian
 from deodar.errors import ParameterError
 from deodar.model import document_files
-from tests.deodar.contracts.timed import alone
+from tests.contracts.timed import alone
 from tests.deodar.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 30, 31), dd.Axis("y", -5, 5, 21)

@@ -7,7 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.elements.sampled_history import SampledHistory
-from tests.deodar.contracts.timed import RISING, alone
+from tests.contracts.timed import RISING, alone
 
 X = dd.Axis("x", 0, 3, 4)
 

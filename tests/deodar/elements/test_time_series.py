@@ -8,7 +8,7 @@ import pytest
 import deodar as dd
 from deodar.elements.time_series import TimeSeries
 from deodar.errors import ModelError, ParameterError
-from tests.deodar.contracts.timed import alone
+from tests.contracts.timed import alone
 from tests.deodar.elements.chunks import require_the_same_in_any_chunks
 
 X, Y = dd.Axis("x", 0, 4, 5), dd.Axis("y", 0, 2, 3)

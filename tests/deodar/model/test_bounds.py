@@ -18,7 +18,7 @@ from deodar.numerics.sigmoids.absolute import Absolute
 from deodar.numerics.sigmoids.linear import Linear
 from deodar.numerics.sigmoids.semilinear import SemiLinear
 from deodar.numerics.sigmoids.step import Step
-from tests.deodar.contracts.build import KINDS, around, example
+from tests.contracts.build import KINDS, around, example
 
 X = dd.Axis("x", 0, 20, samples=21)
 STATED = [kind for kind in KINDS if type(example(kind)).bounds is not Element.bounds]

@@ -18,7 +18,7 @@ from deodar.errors import DeodarError, ParameterError, UnknownName
 from deodar.model.handle import Handle
 from deodar.model.part_handle import PartHandle, PartsHandle
 from deodar.parameters import parameters
-from tests.deodar.contracts.build import KINDS, PARTS
+from tests.contracts.build import KINDS, PARTS
 
 X = dd.Axis("x", 0, 10, samples=11, unit="deg")
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import jax
+import numpy as np
+
 import deodar as dd
 from deodar.couplings.convolve import Convolve
 from deodar.elements.gaussian_stimulus import GaussianStimulus
@@ -71,3 +74,20 @@ RECORD = [
     "u.input",
     "u.interaction",
 ]
+
+
+def bits(session: dd.Session) -> dict[str, bytes]:
+    """Return the whole state of a session, as bytes."""
+    session.scene()  # the world advances to the present
+    kept = session.snapshot()
+    out = {
+        f"{ident}.{held}.{name}": values.tobytes()
+        for ident, pair in kept.states.items()
+        for held, row in enumerate(pair)
+        for name, values in row.items()
+    }
+    out["clock"] = repr((kept.clock.tick, kept.clock.time, kept.seed)).encode()
+    if kept.world is not None:
+        out["world"] = b"".join(np.asarray(a).tobytes() for a in jax.tree.leaves(kept.world.world))
+        out["objects"] = repr(kept.world.objects).encode()
+    return out

@@ -24,7 +24,7 @@ from deodar.leaves import leaves
 from deodar.model.model import Model
 from deodar.numerics.axes import shape
 from deodar.parameters import parameters
-from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, example, node
+from tests.contracts.build import KINDS, PARTS, any_example, around, example, node
 
 DAY = 86_400_000.0
 RING = dd.Axis("phi", 0, 360, 36, periodic=True)

@@ -10,9 +10,8 @@ import pytest
 
 import deodar as dd
 from deodar.errors import RecordError, TimeError
-from tests.deodar.session.models import mixed
+from tests.deodar.session.models import bits, mixed
 from tests.deodar.worlds.test_recorded_run import driving
-from tests.deodar_studio.live.test_branch import bits
 
 
 def test_a_single_run_continues_with_the_bits_of_an_undisturbed_session(tmp_path: Path) -> None:

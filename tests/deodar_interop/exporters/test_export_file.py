@@ -104,3 +104,15 @@ def test_a_record_is_written_for_matlab(here: Path, capsys: pytest.CaptureFixtur
     wanted = record(trials=2)["u.activation"]
     for name, part in (("a.mat", wanted), ("run-export-001.mat", wanted.sel(trial=1))):
         assert np.array_equal(scipy.io.loadmat(name)["u_activation"].squeeze(), part.values)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "written"), [([], "run-export-001"), (["--out", "recording"], "recording")]
+)
+def test_a_record_is_written_as_cedar_writes_it(here: Path, arguments: list[str], written: str) -> None:
+    files.save_record(record(trials=2), "run.zarr")
+    selected = ["u", "n.activation", "--trial", "1", "--time-range", "5", "15"]
+    assert main(["export", "run.zarr", *selected, "--to", "cedar", *arguments]) == 0
+    rows = Path(written, "n.activation.csv").read_text().splitlines()
+    assert rows[0] == "Mat,CV_32F,1,1"
+    assert [row.split(",")[0] for row in rows[1:]] == ["0.005 s", "0.01 s", "0.015 s"]

@@ -6,7 +6,6 @@ import dataclasses as dc
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import jax
 import numpy as np
 import pytest
 
@@ -18,26 +17,9 @@ from deodar_studio.live import branch_states
 from deodar_studio.live.branch_states import BranchStates, size
 from deodar_studio.live.engine import Injection
 from deodar_studio.live.trace import TraceRequest
-from tests.deodar.session.models import mixed
+from tests.deodar.session.models import bits, mixed
 from tests.deodar.worlds.test_recorded_run import driving
 from tests.deodar_studio.live.test_engine import Driven
-
-
-def bits(session: dd.Session) -> dict[str, bytes]:
-    """Return the whole state of a session, as bytes."""
-    session.scene()  # the world advances to the present
-    kept = session.snapshot()
-    out = {
-        f"{ident}.{held}.{name}": values.tobytes()
-        for ident, pair in kept.states.items()
-        for held, row in enumerate(pair)
-        for name, values in row.items()
-    }
-    out["clock"] = repr((kept.clock.tick, kept.clock.time, kept.seed)).encode()
-    if kept.world is not None:
-        out["world"] = b"".join(np.asarray(a).tobytes() for a in jax.tree.leaves(kept.world.world))
-        out["objects"] = repr(kept.world.objects).encode()
-    return out
 
 
 class Branching(Driven):

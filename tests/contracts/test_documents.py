@@ -11,7 +11,7 @@ import pytest
 import deodar as dd
 from deodar.leaves import get, replace
 from deodar.parameters import FrozenArray
-from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, changes, record
+from tests.contracts.build import KINDS, PARTS, any_example, around, changes, record
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])

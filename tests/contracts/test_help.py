@@ -18,7 +18,7 @@ from deodar.element import Element
 from deodar.experiments import actions, events, experiment, factor, measures
 from deodar.parameters import Live, Part, parameters, positional
 from deodar.part_type import PartType
-from tests.deodar.contracts.build import KINDS, PARTS
+from tests.contracts.build import KINDS, PARTS
 
 TRIALS: dict[str, type[Any]] = {
     name: cls

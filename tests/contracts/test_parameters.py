@@ -8,7 +8,7 @@ import pytest
 
 from deodar.errors import ParameterError
 from deodar.parameters import normal, parameters
-from tests.deodar.contracts.build import KINDS, PARTS
+from tests.contracts.build import KINDS, PARTS
 
 BOUNDED = [
     pytest.param(cls, p, bound, side, id=f"{kind}.{p.name} {'below' if side < 0 else 'above'} {bound:g}")

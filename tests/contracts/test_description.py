@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import pytest
 
-from deodar import registry
+from deodar import plugins, registry
 from deodar.element import Element
 from deodar.kinds.description import Description, describe, descriptions, title
 from deodar.kinds.parameter import ParameterDescription
@@ -18,7 +18,7 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.kernels._base import Kernel
 from deodar.parameters import Live, Part, Recompile
 
-KINDS = {kind.name: kind for kind in descriptions() if kind.module.startswith("deodar.")}
+KINDS = {kind.name: kind for kind in descriptions() if kind.module.partition(".")[0] in plugins.first_party()}
 INSIDE = [
     name
     for name in KINDS

@@ -10,7 +10,7 @@ import pytest
 
 import deodar as dd
 from deodar.leaves import leaves, resting
-from tests.deodar.contracts.build import (
+from tests.contracts.build import (
     KINDS,
     PARTS,
     any_example,

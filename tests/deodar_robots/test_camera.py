@@ -23,7 +23,7 @@ from deodar.recording.opened import again
 from deodar.worlds import _capture
 from deodar.worlds.camera import Camera
 from deodar_robots.robot.robot import Robot
-from tests.deodar.worlds.camera_peer import PeerServer, free_port, silent
+from tests.deodar_robots.camera_peer import PeerServer, free_port, silent
 
 AXES = Camera.example_axes("picture")
 SECRET = "s3cr3t"

@@ -13,7 +13,7 @@ import deodar as dd
 from deodar import registry
 from deodar.model.check import check
 from deodar.numerics.axes import Axes
-from tests.deodar.contracts.build import example, node, record, source
+from tests.contracts.build import example, node, record, source
 
 LINEAR = [kind for kind in registry.kinds("couplings") if example(kind).linear]
 OTHERS = [kind for kind in registry.kinds("couplings") if not example(kind).linear]
@@ -21,7 +21,7 @@ OTHERS = [kind for kind in registry.kinds("couplings") if not example(kind).line
 
 def three(kind: str) -> tuple[dd.Model, Axes]:
     """Return copies of a coupling that read a, b, and both."""
-    from tests.deodar.contracts.build import around
+    from tests.contracts.build import around
 
     axes = node(around(example(kind))).ins["input"]
     model = dd.Model("superposition")

@@ -13,7 +13,7 @@ import pytest
 import deodar as dd
 from deodar.errors import AxesError, Untrusted
 from deodar.parameters import FrozenArray
-from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, record, session
+from tests.contracts.build import KINDS, PARTS, any_example, around, record, session
 from tests.deodar.session.test_exchange import Tank, closed
 
 COPIES = {

@@ -15,7 +15,7 @@ from deodar.importers.opening import load
 from deodar.model import document_files
 from deodar.model.document import Document
 from deodar_studio.catalogue import templates
-from tests.deodar.contracts import build
+from tests.contracts import build
 from tests.deodar_interop.importers.cosivina.files import SAMPLES
 
 X = dd.Axis("x", 0, 100, samples=101, unit="deg")

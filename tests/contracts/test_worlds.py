@@ -14,7 +14,7 @@ from deodar.errors import WorldError
 from deodar.numerics.axes import Axis, shape
 from deodar.session.port_reader import port_reader
 from deodar.worlds._pure import PureWorld
-from tests.deodar.contracts.embodied import WORLDS, everything, example_axes, step_of
+from tests.contracts.embodied import WORLDS, everything, example_axes, step_of
 
 
 @pytest.mark.parametrize("kind", WORLDS)

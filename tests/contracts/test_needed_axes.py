@@ -16,7 +16,7 @@ from deodar.model import document_files
 from deodar.model.migrations import DEFAULTS_OF_1
 from deodar.numerics.axes import Axis
 from deodar.parameters import parameters
-from tests.deodar.contracts.build import KINDS
+from tests.contracts.build import KINDS
 
 AXES = {
     (kind, p.name): p for kind, cls in KINDS.items() for p in parameters(cls) if p.form in ("axis", "axes")

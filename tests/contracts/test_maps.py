@@ -7,7 +7,7 @@ import pytest
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import FrozenArray
-from tests.deodar.contracts.build import KINDS, around
+from tests.contracts.build import KINDS, around
 
 
 @pytest.mark.parametrize("kind", [name for name, cls in KINDS.items() if cls.maps])

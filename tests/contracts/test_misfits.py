@@ -10,7 +10,7 @@ import deodar as dd
 from deodar.errors import ModelError
 from deodar.model.check import check
 from deodar.numerics.axes import Axes, describe
-from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, node, source
+from tests.contracts.build import KINDS, PARTS, any_example, around, node, source
 
 
 def moved(axes: Axes) -> list[dd.Axis]:

@@ -13,7 +13,7 @@ from deodar.model.resolve import Node
 from deodar.numerics.axes import shape
 from deodar.numerics.positions import PositionUnit, PositionUnits
 from deodar.parameters import parameters
-from tests.deodar.contracts.build import KINDS, around, example, node
+from tests.contracts.build import KINDS, around, example, node
 
 METRE = PositionUnit("length", 1.0, (-2.0, 3.0), "the sensor")
 

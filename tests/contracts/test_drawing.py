@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 import deodar as dd
-from tests.deodar.contracts.build import KINDS, PARTS, any_example, around
+from tests.contracts.build import KINDS, PARTS, any_example, around
 
 
 @pytest.mark.parametrize("kind", [*KINDS, *PARTS])

@@ -9,7 +9,7 @@ import pytest
 from deodar import registry
 from deodar.kinds.description import describe
 
-KINDS = {name: cls for name, cls in registry.kinds().items() if cls.__module__.startswith("deodar.")}
+KINDS = {name: cls for name, cls in registry.kinds().items() if registry.own(cls)}
 
 # fmt: off
 COMMANDS = {

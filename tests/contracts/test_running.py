@@ -11,7 +11,7 @@ from deodar.element import Setting, Time
 from deodar.leaves import leaves
 from deodar.model import find
 from deodar.numerics.axes import shape
-from tests.deodar.contracts.build import KINDS, PARTS, any_example, around, node, record, session
+from tests.contracts.build import KINDS, PARTS, any_example, around, node, record, session
 
 STEPS = 1000
 

@@ -27,7 +27,7 @@ from deodar.model.check import check
 from tests.deodar_interop.importers.cosivina.files import SAMPLES
 from tests.docs.source import EXAMPLES
 
-sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import workloads
 
 DOCUMENTS = sorted(EXAMPLES.glob("*.json"))

@@ -23,7 +23,7 @@ from deodar.leaves import replace, step_limits
 from deodar.model.check import check
 from deodar.parameters import Live, Part, parameters
 from deodar.session.run import require_step
-from tests.deodar.contracts.build import KINDS, PARTS, around, example
+from tests.contracts.build import KINDS, PARTS, around, example
 from tests.house.test_docstrings import read
 
 LIMITED = {

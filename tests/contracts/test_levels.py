@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from deodar.leaves import leaves
-from tests.deodar.contracts.build import KINDS, around, example, session
+from tests.contracts.build import KINDS, around, example, session
 
 
 @pytest.mark.parametrize("kind", [name for name, cls in KINDS.items() if cls.levels])
