@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import http.client
 import os
 import shutil
@@ -19,7 +20,7 @@ from urllib.request import url2pathname
 import pytest
 
 import deodar as dd
-from deodar.cli import main
+from deodar.cli import COMMANDS, _options, main
 from deodar.importers import examples
 from deodar_studio.web import app, serve
 from deodar_studio.web.service import Service
@@ -270,3 +271,23 @@ def test_an_example_is_opened_by_the_command_that_opens_documents(
     monkeypatch.setattr("deodar_studio.web.serve.serve", lambda *args: given.extend(args))
     assert main(["examples", "open", "node"]) == 0
     assert given[0].root == here and given[0].file == examples.file("node")
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("nope.json", "nope.json: there is no such file"),
+        ("selection", "Did you mean 'example:selection'?"),
+    ],
+)
+def test_an_unknown_example_is_an_error_that_states_what_to_type(
+    name: str, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["studio", name, "--no-browser"]) == 1
+    assert says in " ".join(capsys.readouterr().err.split())
+
+
+def test_the_command_takes_names_of_examples_as_other_commands_do() -> None:
+    parser = argparse.ArgumentParser()
+    COMMANDS["studio"].arguments(parser)
+    assert next(a for a in parser._actions if a.dest == "file").type is _options.document

@@ -98,8 +98,6 @@ def test_a_copy_does_not_replace_an_existing_file(here: Path, capsys: pytest.Cap
         ),
         (["run", "selektion"], 1, "there is no such file. Did you mean 'example:selection'?"),
         (["check", "selection"], 1, "there is no such file. Did you mean 'example:selection'?"),
-        (["studio", "nope.json", "--no-browser"], 1, "nope.json: there is no such file"),
-        (["studio", "selection", "--no-browser"], 1, "Did you mean 'example:selection'?"),
     ],
 )
 def test_an_unknown_example_is_an_error_that_states_what_to_type(
@@ -138,7 +136,7 @@ def test_an_example_can_be_named_instead_of_a_file(words: list[str]) -> None:
     assert main(words) == 0
 
 
-@pytest.mark.parametrize("command", ["check", "run", "studio", "regimes", "import", "pack"])
+@pytest.mark.parametrize("command", ["check", "run", "regimes", "import", "pack"])
 def test_every_command_with_a_model_accepts_names_of_examples(command: str) -> None:
     """They share one type of argument, which agrees with `load` of scripts."""
     import argparse
