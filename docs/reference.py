@@ -196,16 +196,8 @@ MEASURES = [
 module it is in.
 """
 
-FIGURES = [
-    "time_course",
-    "space_time",
-    "snapshot",
-    "snapshots",
-    "projection",
-    "path_figure",
-    "animate_path",
-    "save_figure",
-]
+FIGURES = [name for name in dd.figures.__all__ if name.islower() and f"dd.{name}" not in MEASURES]
+"""The functions that draw records, under `dd`; those of analyses are named beside what they draw."""
 
 
 def pages() -> dict[Path, str]:

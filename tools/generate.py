@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 STEPS: Mapping[tuple[str, ...], Sequence[str]] = {
     ("tools/entry_points.py",): ["pyproject.toml"],
-    ("tools/stub.py",): ["src/deodar/__init__.pyi"],
+    ("tools/stub.py",): ["src/deodar/__init__.pyi", "src/deodar/figures/__init__.py"],
     ("-m", "deodar.model.schema"): ["src/deodar/model/document.schema.json"],
     ("-m", "deodar_robots.robot.schema"): ["src/deodar_robots/robot/robot.schema.json"],
     ("-m", "deodar_studio.messages.protocol"): [

@@ -2,19 +2,28 @@
 
     python tools/stub.py      also a step of tools/generate.py
 
-The lines of kinds follow from the registry, and those of the packages beside the engine from the entry
-points of deodar (`deodar.worlds`, `deodar.names`). All other lines of the engine stay as they are.
+It also writes the kinds of figures into the list of `src/deodar/figures/__init__.py`. The lines of kinds
+follow from the registry, and those of the packages beside the engine from the entry points of deodar
+(`deodar.worlds`, `deodar.names`). All other lines of the engine stay as they are.
 """
 
 from __future__ import annotations
 
+import ast
 import importlib.metadata
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import packages
+
 from deodar import registry
 
-STUB = Path(__file__).resolve().parents[1] / "src" / "deodar" / "__init__.pyi"
+ENGINE = packages.SRC / packages.ENGINE
+STUB = ENGINE / "__init__.pyi"
+FIGURES = ENGINE / "figures" / "__init__.py"
+IMPORT = r"from deodar\.figures\.[a-z]"
+ENTRY = r'    "[a-z]'
 HEAD = """\
 # Every public name, one line each. Editors and pyright read the names here, and so does `__init__.py`, which
 # imports a name when it is first used. `python tools/generate.py` writes the lines of kinds and of the
@@ -39,6 +48,34 @@ def _packages() -> Iterator[str]:
             yield f"from {home} import {attribute} as {entry.name}"
 
 
+def _figures() -> list[str]:
+    """Return the kinds of figures: the files with a function `suits` and one of the name of the file."""
+    files = (path for path in FIGURES.parent.glob("[a-z]*.py"))
+    return sorted(path.stem for path in files if {"suits", path.stem} <= _functions(path))
+
+
+def _functions(path: Path) -> set[str]:
+    return {node.name for node in packages.tree(path).body if isinstance(node, ast.FunctionDef)}
+
+
+def figures(text: str) -> str:
+    """Return the list of `deodar.figures`, given its present text, with every kind of figure."""
+    for name in _figures():
+        line = f"from deodar.figures.{name} import {name}"
+        text = _with(_with(text, IMPORT, line), ENTRY, f'    "{name}",')
+    return text
+
+
+def _with(text: str, pattern: str, line: str) -> str:
+    """Return the text with a line among those of a pattern, which are sorted."""
+    lines = text.splitlines(keepends=True)
+    places = [k for k, each in enumerate(lines) if re.match(pattern, each)]
+    if line + "\n" not in lines:
+        after = [k for k in places if lines[k] < line]
+        lines.insert(after[-1] + 1 if after else places[0], line + "\n")
+    return "".join(lines)
+
+
 def _by_hand(text: str) -> Iterator[str]:
     """Yield the other lines of a stub: those of the engine that name no kind."""
     kinds = registry.kinds()
@@ -50,10 +87,12 @@ def _by_hand(text: str) -> Iterator[str]:
 
 def stub(text: str) -> str:
     """Return the whole stub, given its present text."""
-    lines = {*_kinds(), *_packages(), *_by_hand(text)}
+    drawn = {f"from deodar.figures.{name} import {name} as {name}" for name in _figures()}
+    lines = {*_kinds(), *_packages(), *drawn, *_by_hand(text)}
     ordered = sorted(lines, key=lambda line: (line.split()[1], line.split()[-1]))
     return HEAD + "\n".join(ordered) + "\n" + TAIL
 
 
 if __name__ == "__main__":
+    FIGURES.write_text(figures(FIGURES.read_text(encoding="utf-8")), encoding="utf-8")
     STUB.write_text(stub(STUB.read_text(encoding="utf-8")), encoding="utf-8")

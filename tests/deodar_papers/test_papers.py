@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+from pathlib import Path
 
 import pytest
 
@@ -41,7 +42,8 @@ def test_an_unknown_paper_suggests_the_nearest():
 
 
 def test_each_paper_of_deodar_with_a_file_demo_is_a_demonstration():
-    assert list(papers.demos()) == ["looking", "pointing", "saliency", "serial-order", "spa"]
+    found = [n for n, p in papers.PAPERS.items() if Path(str(p.__file__)).with_name("demo.py").is_file()]
+    assert list(papers.demos()) == found and "spa" in found
     assert all(demo.HELP and demo.run and demo.arguments for demo in papers.demos().values())
 
 

@@ -47,6 +47,13 @@ def test_the_stub_is_up_to_date() -> None:
     assert stub.stub(text) == text, "type: python tools/generate.py"
 
 
+def test_the_list_of_figures_is_up_to_date_and_a_missing_kind_is_added() -> None:
+    text = stub.FIGURES.read_text(encoding="utf-8")
+    assert stub.figures(text) == text, "type: python tools/generate.py"
+    line = "from deodar.figures.space_time import space_time\n"
+    assert stub.figures(text.replace(line, "").replace('    "space_time",\n', "")) == text
+
+
 def test_kinds_and_names_of_packages_are_added_to_a_stub_and_old_ones_removed() -> None:
     lines = stub.stub(
         "from deodar.elements.gone import Field as Field\nfrom deodar.batch import late as late\n"

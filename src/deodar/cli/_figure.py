@@ -62,7 +62,7 @@ def add_view(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--kind",
         metavar="K",
-        help="time_course, space_time, snapshot, snapshots, projection, path, or one of a package",
+        help="kind of figure, such as time_course, space_time or path, or one of a package",
     )
     parser.add_argument("--at", nargs="+", action="extend", type=float, metavar="T", help="times to draw")
     parser.add_argument(

@@ -58,8 +58,8 @@ class FigurePanel:
 
     Attributes:
         variable: path of the variable in the record.
-        kind: time_course, space_time, snapshot, snapshots, projection, path, or one of a package. None: the
-            one that suits the variable.
+        kind: a kind of figure, such as time_course, space_time or path, or one of a package. None: the one
+            that suits the variable.
         record: path of the record, if it is not that of the figure.
         title: title of the panel. None: that of the kind; "" for no title.
         legend: place of the legend, as "upper right", or "none". None: where it hides least.
