@@ -25,6 +25,7 @@ STEPS: Mapping[tuple[str, ...], Sequence[str]] = {
         "src/deodar_studio/messages/protocol.schema.json",
         "studio/src/protocol.ts",
     ],
+    ("tools/own_plots.py",): ["src/deodar_studio/catalogue/own_plots.txt"],
     ("examples/make.py",): ["examples/*.json", "examples/*.npz"],
     ("docs/reference.py",): ["docs/*.md", "docs/reference/*.md"],
     ("docs/evidence.py",): ["README.md", "docs/*.md", "evidence/*/results.json"],

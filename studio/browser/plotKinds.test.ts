@@ -4,7 +4,7 @@ import type { Locator } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 
 import { obstacles } from "./axe";
-import { PLOT_TITLES } from "../src/plots/kinds/kinds";
+import { PLOTS } from "../src/plots/kinds/plots";
 import { writeArranged, writeEveryPlot } from "./everyPlot";
 import { colours, downloaded, drawn, panel, reopen, settled } from "./hands";
 import { examplePackage } from "./installed";
@@ -221,12 +221,11 @@ test("every kind of plot is exported as PNG, SVG and CSV", async () => {
     multiples: ["plane", "x (cm),y (cm),plane,fellow"],
     polar: ["ring", "angle (deg),activation"],
   };
-  expect(new Set([...Object.keys(PLOT_TITLES), "polar"])).toEqual(new Set(Object.keys(shown)));
-  const titles: Record<string, string> = { ...PLOT_TITLES, polar: "Polar plot" };
+  expect(new Set([...PLOTS.keys(), "polar"])).toEqual(new Set(Object.keys(shown)));
   const all = Object.entries(shown).map(([kind, [element]]) => [element, kind] as const);
   await arrange("export.json", [all.slice(0, 4), all.slice(4, 8), all.slice(8)]);
   for (const [kind, [element, header]] of Object.entries(shown)) {
-    const name = `${titles[kind]} of ${element}`;
+    const name = `${PLOTS.get(kind)?.title ?? "Polar plot"} of ${element}`;
     const files: Record<string, Buffer> = {};
     for (const format of ["PNG", "SVG", "CSV"]) {
       const item = page.getByRole("menuitem", { name: `Export ${format}` });

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from deodar.cli import main
 from deodar_studio.catalogue import plots
 from tests.deodar_studio.page import Page, play, studio
 from tests.deodar_studio.test_guard import get
-from tests.house.source import ROOT
 from tests.plugins.conftest import EXAMPLE, Install
 
 PLOT = "TITLE = 'Odd'\nFILE = 'odd.js'\nAXES = 2\n"
@@ -99,9 +97,3 @@ def test_a_plot_that_fits_is_sent_beside_a_broken_one(install: Install) -> None:
     folder = _install(install, PLOT)
     assert [(view.name, view.axes, view.periodic) for view in plots.views()] == [("odd", 2, False)]
     assert plots.file("odd") == folder / "odd.js" and plots.file("broken") is None
-
-
-def test_the_names_of_the_plots_of_deodar_are_those_of_the_page() -> None:
-    source = (ROOT / "studio" / "src" / "plots" / "kinds" / "kinds.ts").read_text(encoding="utf-8")
-    found = re.search(r"export type OwnPlot =(.*?);", source, re.DOTALL)
-    assert found is not None and re.findall(r'"(\w+)"', found[1]) == list(plots.OWN)

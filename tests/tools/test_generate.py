@@ -15,6 +15,7 @@ from tests.house.source import ROOT
 sys.path.insert(0, str(ROOT / "tools"))
 import entry_points
 import generate
+import own_plots
 import packages
 
 SAY = "type: python tools/generate.py"
@@ -31,6 +32,11 @@ def test_the_installed_entry_points_are_those_of_the_project() -> None:
     installed = importlib.metadata.distribution("deodar").entry_points
     found = {(e.group, e.name, e.value) for e in installed if e.group != "console_scripts"}
     assert found == listed, "type: python -m pip install --no-deps -e ."
+
+
+def test_the_names_of_the_plots_of_the_page_are_up_to_date() -> None:
+    assert own_plots.FILE.read_text(encoding="utf-8") == own_plots.names(), SAY
+    assert "course" in own_plots.names().split()
 
 
 @pytest.fixture

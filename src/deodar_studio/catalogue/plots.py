@@ -14,6 +14,7 @@ on request, so the default plot of a port does not depend on the installed packa
 
 from __future__ import annotations
 
+import functools
 import re
 from pathlib import Path
 from types import ModuleType
@@ -24,20 +25,10 @@ from deodar.extensions import Extensions
 from deodar.plugins import Plugin
 from deodar_studio.messages.to_page import PlotView
 
-OWN = (
-    "course",
-    "curve",
-    "heat",
-    "picture",
-    "space_time",
-    "phase",
-    "surface",
-    "volume",
-    "kernel",
-    "weights",
-    "multiples",
-)
-"""The names of the plots of deodar, which the page draws (`studio/src/plots/kinds/kinds.ts`)."""
+OWN = Path(__file__).with_name("own_plots.txt")
+"""The names of the plots of the page, one in each line; `python tools/generate.py` writes it from the files
+`studio/src/plots/kinds/NAME.plot.ts`.
+"""
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
 """The names that a plot may have: they are part of an address."""
@@ -57,6 +48,11 @@ def file(name: str) -> Path | None:
     except UnknownName:
         return None
     return None if found is None else _file(found)
+
+
+@functools.cache
+def _own() -> dict[str, ModuleType | None]:
+    return dict.fromkeys(OWN.read_text(encoding="utf-8").split())
 
 
 def _problem(plugin: Plugin, found: Any) -> str:
@@ -79,7 +75,7 @@ def _problem(plugin: Plugin, found: Any) -> str:
     return "" if _file(found) is not None else f"has the FILE {plot.FILE!r}, which is not in its folder"
 
 
-PLOTS: Extensions[ModuleType | None] = Extensions("plots", "plot", lambda: dict.fromkeys(OWN), _problem)
+PLOTS: Extensions[ModuleType | None] = Extensions("plots", "plot", _own, _problem)
 """The plots, including those of installed packages; None for a plot of deodar, which has no module."""
 
 

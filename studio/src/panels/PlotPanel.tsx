@@ -1,50 +1,18 @@
 // A panel with a plot: finds its element and the component for the kind of plot.
 
 import type { IDockviewPanelProps } from "dockview-react";
-import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
-import { FieldCurve } from "../plots/kinds/FieldCurve";
-import { HeatMap } from "../plots/kinds/HeatMap";
-import {
-  elementsAlike,
-  isOwn,
-  mainPort,
-  type OwnPlot,
-  plotKinds,
-  portAxes,
-  portsOf,
-  weightsOf,
-} from "../plots/kinds/kinds";
-import { Kernel } from "../plots/kinds/Kernel";
-import { Multiples } from "../plots/kinds/Multiples";
+import { lazy, Suspense, useEffect, useState } from "react";
+import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../plots/kinds/kinds";
 import { PackagedPlot } from "../plots/kinds/PackagedPlot";
-import { Phase } from "../plots/kinds/Phase";
-import { Picture } from "../plots/kinds/Picture";
+import { PLOTS, plotKinds } from "../plots/kinds/plots";
 import type { PlotProps } from "../plots/PlotFrame";
 import { type PlotParams, readParams, readSettings } from "../plots/settings";
-import { SpaceTime } from "../plots/kinds/SpaceTime";
-import { TimeCourse } from "../plots/kinds/TimeCourse";
-import { Weights } from "../plots/kinds/Weights";
 import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 
-// Loaded when they are first shown, as three.js is.
-const Surface = lazy(async () => ({ default: (await import("../plots/kinds/Surface")).Surface }));
-const Volume = lazy(async () => ({ default: (await import("../plots/kinds/Volume")).Volume }));
-
-const PLOTS: Record<OwnPlot, ComponentType<PlotProps>> = {
-  course: TimeCourse,
-  curve: FieldCurve,
-  heat: HeatMap,
-  picture: Picture,
-  space_time: SpaceTime,
-  phase: Phase,
-  surface: Surface,
-  volume: Volume,
-  kernel: Kernel,
-  weights: Weights,
-  multiples: Multiples,
-};
+// Loaded when they are first shown.
+const DRAWN = new Map([...PLOTS].map(([name, plot]) => [name, lazy(plot.load)]));
 
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
   const plot = readParams(params);
@@ -102,9 +70,9 @@ export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, un
     change,
     set: (settings) => change({ settings: { ...plot.settings, ...settings } }),
   };
-  const Plot = isOwn(kind) ? PLOTS[kind] : null;
+  const Plot = DRAWN.get(kind);
   const drawing =
-    Plot !== null ? (
+    Plot !== undefined ? (
       <Suspense key={kind} fallback={null}>
         <Plot {...props} />
       </Suspense>

@@ -1,7 +1,8 @@
 // Adding panels to the dock from anywhere: the dock passes on its interface when it is ready.
 
 import type { DockviewApi, IDockviewPanel } from "dockview-react";
-import { mainPort, type PlotKind, plotKinds, portAxes, portsOf } from "../plots/kinds/kinds";
+import { mainPort, type PlotKind, portAxes, portsOf } from "../plots/kinds/kinds";
+import { plotKinds, tabOf } from "../plots/kinds/plots";
 import { readParams, readSettings } from "../plots/settings";
 import { shownPorts } from "../plots/shownPorts";
 import type { RecordedPort } from "../protocol";
@@ -114,12 +115,7 @@ export function openFirstWorld(): void {
 
 export function plotTitle({ element, kind }: { element: string; kind: PlotKind | null }): string {
   const found = useStudio.getState().elements.get(element);
-  if (found === undefined) {
-    return "Plot";
-  }
-  const over = kind === "course" || kind === "space_time";
-  const of = { kernel: "Kernel", weights: "Weights", phase: "Phase", multiples: "Multiples" }[kind ?? ""];
-  return over ? `${found.name} over time` : of === undefined ? found.name : `${of} of ${found.name}`;
+  return found === undefined ? "Plot" : tabOf(kind, found.name);
 }
 
 type Plot = { element: string; kind: PlotKind; port: string };

@@ -1,36 +1,9 @@
-// How a port can be shown. It follows from its axes alone.
+// The ports of elements and their axes, as plots read them.
 
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../../protocol";
 
-export type OwnPlot =
-  | "course"
-  | "curve"
-  | "heat"
-  | "picture"
-  | "space_time"
-  | "phase"
-  | "surface"
-  | "volume"
-  | "kernel"
-  | "weights"
-  | "multiples";
-
 // A plot of the page, or the name of one of an installed package.
 export type PlotKind = string;
-
-export const PLOT_TITLES: Record<OwnPlot, string> = {
-  course: "Time course",
-  curve: "Curves",
-  heat: "Heat map",
-  picture: "Picture",
-  space_time: "Space-time plot",
-  phase: "Phase plot",
-  surface: "Surface",
-  volume: "Volume slices",
-  kernel: "Interaction kernel",
-  weights: "Weights",
-  multiples: "Small multiples",
-};
 
 const CHANNELS = 3;
 
@@ -41,61 +14,10 @@ export function portAxes(document: DocumentView, element: ElementView, port: str
   return found === undefined || found.includes(undefined) ? null : (found as AxisView[]);
 }
 
-// What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
-// elements that have the port over the same axes.
-export type Further = { kernel?: boolean; weights?: boolean; several?: boolean };
-
-// The kinds of plot for an array over these axes; the best one first, those of packages last.
-export function plotKinds(
-  axes: AxisView[] | null,
-  packaged: PlotView[] = [],
-  { kernel = false, weights = false, several = false }: Further = {},
-): PlotKind[] {
-  const multiples = several && !(axes !== null && isPicture(axes)) ? ["multiples"] : [];
-  if (axes === null || axes.length === 0) {
-    return ["course", "phase", ...(weights ? ["weights"] : []), ...multiples];
-  }
-  const own = isPicture(axes)
-    ? ["picture", "course"]
-    : axes.length === 1
-      ? ["curve", "course", "space_time", "phase"]
-      : ["heat", "course", "curve", "space_time", "phase", "surface"];
-  return [
-    ...own,
-    ...(axes.length > 2 && !isPicture(axes) ? ["volume"] : []),
-    ...(kernel ? ["kernel"] : []),
-    ...(weights ? ["weights"] : []),
-    ...multiples,
-    ...packaged.filter((plot) => fits(plot, axes)).map((plot) => plot.name),
-  ];
-}
-
-// The most axes of an array in the figure of a plot: figures have no sections.
-const FIGURES = new Map<PlotKind, number>([
-  ["course", Number.POSITIVE_INFINITY],
-  ["curve", 1],
-  ["heat", 2],
-  ["picture", 3],
-  ["space_time", 1],
-]);
-
-// Whether `deodar plot` has a figure that draws the same as a plot of an array over this number of axes.
-export function hasFigure(kind: PlotKind, axes: number): boolean {
-  return axes <= (FIGURES.get(kind) ?? -1);
-}
-
 // Whether a plot of a package can show an array over these axes.
 export function fits(plot: PlotView, axes: AxisView[]): boolean {
   const drawn = isPicture(axes) ? 3 : Math.min(axes.length, 2);
   return plot.axes === drawn && (!plot.periodic || axes.every((axis) => axis.periodic));
-}
-
-export function isOwn(kind: PlotKind): kind is OwnPlot {
-  return Object.hasOwn(PLOT_TITLES, kind);
-}
-
-export function titleOf(kind: PlotKind, packaged: PlotView[]): string {
-  return isOwn(kind) ? PLOT_TITLES[kind] : (packaged.find((plot) => plot.name === kind)?.title ?? kind);
 }
 
 export function isPicture(axes: AxisView[]): boolean {

@@ -1,0 +1,9 @@
+import { isPicture } from "./kinds";
+import type { PlotDeclaration } from "./plots";
+
+export const plot: PlotDeclaration = {
+  title: "Curves",
+  rank: (axes) => (axes.length === 1 ? 0 : axes.length > 1 && !isPicture(axes) ? 20 : null),
+  figure: 1,
+  load: async () => ({ default: (await import("./FieldCurve")).FieldCurve }),
+};

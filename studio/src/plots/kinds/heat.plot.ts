@@ -1,0 +1,9 @@
+import { isPicture } from "./kinds";
+import type { PlotDeclaration } from "./plots";
+
+export const plot: PlotDeclaration = {
+  title: "Heat map",
+  rank: (axes) => (axes.length > 1 && !isPicture(axes) ? 0 : null),
+  figure: 2,
+  load: async () => ({ default: (await import("./HeatMap")).HeatMap }),
+};

@@ -1,0 +1,9 @@
+import { isPicture } from "./kinds";
+import type { PlotDeclaration } from "./plots";
+
+export const plot: PlotDeclaration = {
+  title: "Small multiples",
+  rank: (axes, { several }) => (several && !isPicture(axes) ? 90 : null),
+  tab: (name) => `Multiples of ${name}`,
+  load: async () => ({ default: (await import("./Multiples")).Multiples }),
+};

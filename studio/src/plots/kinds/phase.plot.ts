@@ -1,0 +1,9 @@
+import { isPicture } from "./kinds";
+import type { PlotDeclaration } from "./plots";
+
+export const plot: PlotDeclaration = {
+  title: "Phase plot",
+  rank: (axes) => (isPicture(axes) ? null : 40),
+  tab: (name) => `Phase of ${name}`,
+  load: async () => ({ default: (await import("./Phase")).Phase }),
+};

@@ -1,0 +1,9 @@
+import { isPicture } from "./kinds";
+import type { PlotDeclaration } from "./plots";
+
+export const plot: PlotDeclaration = {
+  title: "Picture",
+  rank: (axes) => (isPicture(axes) ? 0 : null),
+  figure: 3,
+  load: async () => ({ default: (await import("./Picture")).Picture }),
+};

@@ -1,0 +1,61 @@
+// The plots of the page: each file `NAME.plot.ts` of this folder declares one.
+
+import type { ComponentType } from "react";
+import type { AxisView, PlotView } from "../../protocol";
+import type { PlotProps } from "../PlotFrame";
+import { fits, type PlotKind } from "./kinds";
+
+// What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
+// elements that have the port over the same axes.
+export type Further = { kernel?: boolean; weights?: boolean; several?: boolean };
+
+export type PlotDeclaration = {
+  // In the menu of plots.
+  title: string;
+  // Its place among the plots of an array over these axes, the smallest first; null if it cannot show it.
+  rank: (axes: AxisView[], further: Further) => number | null;
+  // The title of its tab, from the name of the element; by default the name alone.
+  tab?: (name: string) => string;
+  // The most axes of an array in the figure that `deodar plot` draws of it; without it there is none.
+  figure?: number;
+  load: () => Promise<{ default: ComponentType<PlotProps> }>;
+};
+
+const FILES = import.meta.glob<PlotDeclaration>("./*.plot.ts", { eager: true, import: "plot" });
+
+export const PLOTS: ReadonlyMap<PlotKind, PlotDeclaration> = new Map(
+  Object.entries(FILES).map(([file, plot]) => [file.slice("./".length, -".plot.ts".length), plot]),
+);
+
+// The kinds of plot for an array over these axes; the best one first, those of packages last.
+export function plotKinds(
+  axes: AxisView[] | null,
+  packaged: PlotView[] = [],
+  further: Further = {},
+): PlotKind[] {
+  const ranked = [...PLOTS].flatMap(([name, plot]) => {
+    const rank = plot.rank(axes ?? [], further);
+    return rank === null ? [] : [{ name, rank }];
+  });
+  return [
+    ...ranked.sort((a, b) => a.rank - b.rank).map(({ name }) => name),
+    ...packaged
+      .filter((plot) => axes !== null && axes.length > 0 && fits(plot, axes))
+      .map((plot) => plot.name),
+  ];
+}
+
+// Whether `deodar plot` has a figure that draws the same as a plot of an array over this number of axes:
+// figures have no sections.
+export function hasFigure(kind: PlotKind, axes: number): boolean {
+  return axes <= (PLOTS.get(kind)?.figure ?? -1);
+}
+
+export function titleOf(kind: PlotKind, packaged: PlotView[]): string {
+  return (PLOTS.get(kind) ?? packaged.find((plot) => plot.name === kind))?.title ?? kind;
+}
+
+// The title of the tab of a plot of an element.
+export function tabOf(kind: PlotKind | null, name: string): string {
+  return PLOTS.get(kind ?? "")?.tab?.(name) ?? name;
+}

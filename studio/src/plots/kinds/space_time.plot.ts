@@ -1,0 +1,10 @@
+import { isPicture } from "./kinds";
+import type { PlotDeclaration } from "./plots";
+
+export const plot: PlotDeclaration = {
+  title: "Space-time plot",
+  rank: (axes) => (axes.length > 0 && !isPicture(axes) ? 30 : null),
+  tab: (name) => `${name} over time`,
+  figure: 1,
+  load: async () => ({ default: (await import("./SpaceTime")).SpaceTime }),
+};
