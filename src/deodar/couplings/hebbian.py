@@ -90,7 +90,7 @@ class Hebbian(Coupling):
     """
 
     axes: Annotated[Sequence[Axis], Recompile(meaning="axes of the output")] = needed("[x]")
-    rule: Annotated[str, Recompile(choices=plasticity.RULES, meaning="how weights change")] = "outstar"
+    rule: Annotated[str, Recompile(choices=tuple(plasticity.RULES), meaning="how weights change")] = "outstar"
     rate: Annotated[float, Live("1/time", role="rate", lower=0, meaning="speed of learning")] = 0.01
     decay: Annotated[
         float, Live("1/time", role="rate", lower=0, meaning="speed at which weights in use fade")

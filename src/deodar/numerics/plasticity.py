@@ -9,20 +9,44 @@ condition under `vmap` would always be computed).
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import jax
 import jax.numpy as jnp
 from jax import Array, lax
 from jax.custom_batching import custom_vmap
 
-SOURCE_RULES = ("outstar", "association", "hebb")
+LearningRule = Callable[[Array, Array, Array, Array], Array]
+"""New weights from weights, activity of the source, activity of the target, and speed."""
+
+
+def _outstar(weights: Array, pre: Array, post: Array, speed: Array) -> Array:
+    return weights + jnp.minimum(speed * pre, 1.0) * (post - weights)
+
+
+def _association(weights: Array, pre: Array, post: Array, speed: Array) -> Array:
+    return weights + jnp.minimum(speed, 1.0) * jnp.sign(pre) * (jnp.sign(post) - weights)
+
+
+def _hebb(weights: Array, pre: Array, post: Array, speed: Array) -> Array:
+    return weights + speed * pre * post
+
+
+def _instar(weights: Array, pre: Array, post: Array, speed: Array) -> Array:
+    return weights + jnp.minimum(speed * post, 1.0) * (pre - weights)
+
+
+def _oja(weights: Array, pre: Array, post: Array, speed: Array) -> Array:
+    return weights + speed * post * (pre - post * weights)
+
+
+SOURCE_RULES: Mapping[str, LearningRule] = {"outstar": _outstar, "association": _association, "hebb": _hebb}
 """Rules that change the weights from active source samples."""
 
-TARGET_RULES = ("instar", "oja")
+TARGET_RULES: Mapping[str, LearningRule] = {"instar": _instar, "oja": _oja}
 """Rules that change the weights to active target samples, from active and inactive source samples."""
 
-RULES = (*SOURCE_RULES, *TARGET_RULES)
+RULES: Mapping[str, LearningRule] = {**SOURCE_RULES, **TARGET_RULES}
 
 
 def read(weights: Array, pre: Array) -> Array:
@@ -71,17 +95,7 @@ def change(rule: str, weights: Array, pre: Array, post: Array, speed: Array, los
     A step longer than the relaxation time ends at the attractor, if the rule has an attractor that does not
     depend on other weights.
     """
-    match rule:
-        case "outstar":
-            new = weights + jnp.minimum(speed * pre, 1.0) * (post - weights)
-        case "association":
-            new = weights + jnp.minimum(speed, 1.0) * jnp.sign(pre) * (jnp.sign(post) - weights)
-        case "hebb":
-            new = weights + speed * pre * post
-        case "instar":
-            new = weights + jnp.minimum(speed * post, 1.0) * (pre - weights)
-        case _:
-            new = weights + speed * post * (pre - post * weights)
+    new = RULES[rule](weights, pre, post, speed)
     return new - jnp.minimum(loss, 1.0) * weights
 
 
