@@ -5,11 +5,17 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import nir
 import pytest
 
 import deodar as dd
 from deodar.cli import main
-from deodar_spikes.nir_reader import parse_nir
+
+
+def neurons(path: Path) -> int:
+    """Return the number of neurons in a file of NIR."""
+    nodes = nir.read(path).nodes.values()
+    return sum(node.v_threshold.size for node in nodes if isinstance(node, nir.CubaLIF))
 
 
 @pytest.fixture
@@ -26,11 +32,10 @@ def test_a_model_is_written_as_a_file_of_nir(here: Path, capsys: pytest.CaptureF
     call = ["export", "nir", "small.json", "-o", "small.nir", "--neurons", "4", "--chip", "digital-8-bit"]
     assert main([*call, "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
-    graph = parse_nir((here / "small.nir").read_bytes())
-    assert graph.neurons == 40 and graph.step == 0.5e-3 and data["tool"] == "nir"
+    assert neurons(here / "small.nir") == 40 and data["tool"] == "nir"
     assert any("8 bits" in line["why"] for line in data["lines"])
     assert main([*call, "--force", "--tonic"]) == 0
-    assert parse_nir((here / "small.nir").read_bytes()).neurons == 44
+    assert neurons(here / "small.nir") == 44
     assert "40 neurons" not in capsys.readouterr().err
 
 

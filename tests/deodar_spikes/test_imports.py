@@ -6,7 +6,7 @@ import ast
 
 from tests.house.source import MODULES, SRC, tree
 
-PACKAGES = {"nir", "h5py", "norse", "torch", "nirtorch"}
+PACKAGES = {"nir", "norse", "torch", "nirtorch"}
 
 
 def test_no_other_package_imports_nir() -> None:

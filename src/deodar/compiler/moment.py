@@ -33,4 +33,3 @@ def unpacked(whole: EitherArray, real: EitherArray) -> ProgramClock:
         name: Exact(real[0, k], real[1, k]) for k, name in enumerate(REAL)
     }
     return cast("ProgramClock", named)
-    return cast("ProgramClock", named)

@@ -52,13 +52,7 @@ def export(
 
 
 def exported(model: Model, name: str, to: str | None = None, **options: Any) -> Exported:
-    """Return the content of the file of another tool, and the report, without writing it.
-
-    Args:
-        model: the model.
-        name: name of the file.
-        to: name of the tool; by default the one whose files have the ending of `name`.
-        options: options of the tool.
+    """Return the content of the file that `export` writes, and the report, without writing it.
 
     Raises:
         UnknownName: deodar has no exporter of that name, or the exporter no such option.
