@@ -18,15 +18,14 @@ from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
-from deodar.worlds._link_state import LinkState
 from deodar.worlds._naming import named_kind
-from deodar.worlds._scene import Scene
+from deodar.worlds._outer import OuterWorld
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.picture import Picture
 
 
 @register
-class Combined(World):
+class Combined(OuterWorld):
     r"""A world, some of whose sensors are read from other worlds, such as a camera above a simulated table.
 
     A model and its parameters stay the same when a real camera or a video takes the place of a simulated one.
@@ -120,45 +119,8 @@ class Combined(World):
 
     # ------------------------------------------------------------------------- everything of the first world
 
-    def scene(self) -> Scene | None:
-        return self.world.scene()
-
     def halt(self) -> None:
         self.world.halt()
-
-    def link(self) -> LinkState | None:
-        return self.world.link()
-
-    @property
-    def can_place(self) -> bool:
-        return self.world.can_place
-
-    def move(self, name: str, center: Sequence[float]) -> None:
-        self.world.move(name, center)
-
-    def place(
-        self,
-        name: str,
-        center: Sequence[float],
-        size: Sequence[float],
-        color: Sequence[float] = (0.72, 0.53, 0.3),
-    ) -> None:
-        self.world.place(name, center, size, color)
-
-    def remove(self, name: str) -> None:
-        self.world.remove(name)
-
-    def push(self, body: str, force: Sequence[float]) -> None:
-        self.world.push(body, force)
-
-    def arrangement(self) -> Any:
-        return self.world.arrangement()
-
-    def arrange(self, kept: Any) -> None:
-        self.world.arrange(kept)
-
-    def validate_object(self, name: str) -> Iterator[Problem]:
-        return self.world.validate_object(name)
 
     def alternative(self, signal: str, shape: Sequence[int]) -> str:
         return "" if signal in self.others else self.world.alternative(signal, shape)

@@ -23,9 +23,8 @@ from deodar.registry import register
 from deodar.worlds._address import is_address
 from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
-from deodar.worlds._link_state import LinkState
 from deodar.worlds._motor_rule import MotorRule
-from deodar.worlds._scene import Scene
+from deodar.worlds._outer import OuterWorld
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.robot import robot_file
@@ -44,7 +43,7 @@ _DEVICE = re.compile(r"/dev/video\d+")
 
 
 @register
-class Robot(World):
+class Robot(OuterWorld):
     r"""A robot that a file describes: which world it is, how its signals are called, and what its motors
     allow.
 
@@ -164,45 +163,8 @@ class Robot(World):
 
     # ------------------------------------------------------------------------------- everything of the world
 
-    def scene(self) -> Scene | None:
-        return self.world.scene()
-
-    def link(self) -> LinkState | None:
-        return self.world.link()
-
     def preview(self) -> np.ndarray | None:
         return self.world.preview()
-
-    @property
-    def can_place(self) -> bool:
-        return self.world.can_place
-
-    def move(self, name: str, center: Sequence[float]) -> None:
-        self.world.move(name, center)
-
-    def place(
-        self,
-        name: str,
-        center: Sequence[float],
-        size: Sequence[float],
-        color: Sequence[float] = (0.72, 0.53, 0.3),
-    ) -> None:
-        self.world.place(name, center, size, color)
-
-    def remove(self, name: str) -> None:
-        self.world.remove(name)
-
-    def push(self, body: str, force: Sequence[float]) -> None:
-        self.world.push(body, force)
-
-    def arrangement(self) -> Any:
-        return self.world.arrangement()
-
-    def arrange(self, kept: Any) -> None:
-        self.world.arrange(kept)
-
-    def validate_object(self, name: str) -> Iterator[Problem]:
-        return self.world.validate_object(name)
 
     # -------------------------------------------------------------------------------------- state and records
 
