@@ -16,6 +16,16 @@ from deodar.plugins import Plugin
 T = TypeVar("T")
 
 
+def requires(*names: str) -> Callable[[Plugin, Any], str]:
+    """Return the check of a member that is a module with attributes of these names."""
+
+    def problem(plugin: Plugin, member: Any) -> str:
+        missing = [name for name in names if not hasattr(member, name)]
+        return f"has no {', '.join(missing)}" if missing else ""
+
+    return problem
+
+
 class Extensions(Mapping[str, T], Generic[T]):
     """The members of a group. A lookup imports one package; iteration imports all and skips the broken ones.
 

@@ -34,10 +34,6 @@ def packaged(name: str, names: Sequence[str]) -> Any:
     plugin = added[name]
     value, problem = plugin.load()
     if problem:
-        package = f"the package {plugin.package} {plugin.version}"
-        raise AttributeError(
-            f"module 'deodar' has no attribute {name!r}: {package} {problem}. Type: deodar doctor",
-            name=name,
-            obj=None,
-        )
+        what = f"module 'deodar' has no attribute {name!r}: the package {plugin.package} {plugin.version}"
+        raise AttributeError(f"{what} {problem}. Type: deodar doctor", name=name, obj=None)
     return value

@@ -21,7 +21,7 @@ import re
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -35,6 +35,15 @@ from deodar.part_type import PartType
 
 PerAxis = float | Sequence[float]
 """One number for all axes, or one for each."""
+
+PeakBoundary = Annotated[
+    Sequence[str] | None,
+    Recompile(
+        choices=("periodic", "zero"),
+        meaning="whether it wraps round the ends, one for all axes or one for each; none: the axis decides",
+    ),
+]
+"""Whether a Gaussian wraps round the ends of its axes."""
 
 
 class FrozenArray:

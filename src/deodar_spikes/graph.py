@@ -118,14 +118,14 @@ class NirGraph:
     Attributes:
         nodes: nodes by name; the Input is `input` and the Output `output`.
         edges: pairs of names.
-        step: dt in s; 0 if the file does not state it.
-        inputs, outputs: meaning of the values of Input and Output; empty if the file does not state it.
+        step: dt in s.
+        inputs, outputs: meaning of the values of Input and Output.
         settling: time from zero currents to rest, in s.
     """
 
     nodes: Mapping[str, GraphNode]
     edges: Sequence[tuple[str, str]]
-    step: float = 0.0
+    step: float
     inputs: Sequence[InputRange] = ()
     outputs: Sequence[OutputRange] = ()
     settling: float = 0.0

@@ -47,28 +47,19 @@ class SpikingSimulator:
 
     Args:
         graph: the graph.
-        step: dt in s; none: the one that the graph states.
         copies: number of copies.
         differing: parameters that differ between copies.
 
     Raises:
-        TimeError: the step is missing, or not shorter than every time constant.
+        TimeError: the step is not shorter than every time constant.
         GraphError: no order of its nodes exists.
     """
 
-    def __init__(
-        self,
-        graph: NirGraph,
-        step: float | None = None,
-        copies: int = 1,
-        differing: Copies | None = None,
-    ) -> None:
-        self.graph = graph
-        self.step = graph.step if step is None else step
-        self.copies = copies
-        _require_step(graph, self.step)
+    def __init__(self, graph: NirGraph, copies: int = 1, differing: Copies | None = None) -> None:
+        self.graph, self.copies = graph, copies
+        _require_step(graph)
         self.plan = order(graph)
-        self._parameters = _parameters(graph, self.step, differing or {})
+        self._parameters = _parameters(graph, differing or {})
         self._factors = {
             name: factors(node.weight) for name, node in graph.nodes.items() if isinstance(node, AffineNode)
         }
@@ -157,23 +148,21 @@ class SpikingSimulator:
         return new, now[OUTPUT]
 
 
-def _require_step(graph: NirGraph, step: float) -> None:
-    """Refuse a step that is missing or not shorter than all time constants."""
-    if not step > 0:
-        raise TimeError("the graph does not state its step", fix="Give it: step=0.5e-3, in s")
+def _require_step(graph: NirGraph) -> None:
+    """Refuse a step that is not shorter than all time constants."""
     for name, node in graph.nodes.items():
         if isinstance(node, NeuronNode):
             for what in ("tau_syn", "tau_mem"):
                 least = float(getattr(node, what).min())
-                if step >= least:
+                if graph.step >= least:
                     raise TimeError(
-                        f"the step {step * 1e3:g} ms is not below {what} = {least * 1e3:g} ms",
+                        f"the step {graph.step * 1e3:g} ms is not below {what} = {least * 1e3:g} ms",
                         where=name,
                         fix=f"Give a step below {least * 1e3:g} ms",
                     )
 
 
-def _parameters(graph: NirGraph, step: float, differing: Copies) -> dict[str, NodeValues]:
+def _parameters(graph: NirGraph, differing: Copies) -> dict[str, NodeValues]:
     """Return the parameters of all nodes, those that differ as copies x values."""
     out: dict[str, NodeValues] = {}
     for name, node in graph.nodes.items():
@@ -182,7 +171,7 @@ def _parameters(graph: NirGraph, step: float, differing: Copies) -> dict[str, No
             out[name] = {"bias": given.get("bias", node.bias)}
         elif isinstance(node, NeuronNode):
             p = {f.name: given.get(f.name, getattr(node, f.name)) for f in dc.fields(node)}
-            dt = np.float32(step)
+            dt = np.float32(graph.step)
             out[name] = {
                 "to_syn": (dt * (1 / p["tau_syn"])).astype(np.float32),
                 "to_mem": (dt * (1 / p["tau_mem"])).astype(np.float32),

@@ -13,12 +13,11 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from deodar import __version__
 from deodar.errors import DeodarError, UnknownName, first_line
-from deodar.extensions import Extensions
-from deodar.plugins import Plugin
+from deodar.extensions import Extensions, requires
 
 
 def _own() -> dict[str, ModuleType]:
@@ -27,12 +26,9 @@ def _own() -> dict[str, ModuleType]:
     return {name.rstrip("_"): importlib.import_module(f"deodar.cli.{name}") for name in names}
 
 
-def _problem(plugin: Plugin, module: Any) -> str:
-    missing = [name for name in ("HELP", "arguments", "run") if not hasattr(module, name)]
-    return f"has no {', '.join(missing)}" if missing else ""
-
-
-COMMANDS: Extensions[ModuleType] = Extensions("commands", "command", _own, _problem)
+COMMANDS: Extensions[ModuleType] = Extensions(
+    "commands", "command", _own, requires("HELP", "arguments", "run")
+)
 """The commands by name."""
 
 

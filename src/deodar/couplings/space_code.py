@@ -17,7 +17,7 @@ from deodar.numerics.axes import Axes, Axis, shape
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.positions import PositionCode
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import Live, PerAxis, Recompile
+from deodar.parameters import Live, PeakBoundary, PerAxis, Recompile
 from deodar.registry import register
 
 
@@ -61,15 +61,7 @@ class SpaceCode(Coupling):
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(
         default=False, kw_only=True
     )
-    boundary: Annotated[
-        Sequence[str] | None,
-        Recompile(
-            choices=("periodic", "zero"),
-            meaning=(
-                "whether it wraps round the ends, one for all axes or one for each; none: the axis decides"
-            ),
-        ),
-    ] = dc.field(default=None, kw_only=True)
+    boundary: PeakBoundary = dc.field(default=None, kw_only=True)
 
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -18,7 +18,7 @@ from deodar.numerics.axes import Axes
 from deodar.numerics.convolution import boundaries
 from deodar.numerics.intervals import ANY, Interval, signed
 from deodar.numerics.signs import Sign, sign_of
-from deodar.parameters import Live, PerAxis, Recompile
+from deodar.parameters import Live, PeakBoundary, PerAxis, Recompile
 from deodar.registry import register
 
 
@@ -59,15 +59,7 @@ class GaussianStimulus(Stimulus):
     normalized: Annotated[bool, Recompile(meaning="whether the amplitude is the integral")] = dc.field(
         default=False, kw_only=True
     )
-    boundary: Annotated[
-        Sequence[str] | None,
-        Recompile(
-            choices=("periodic", "zero"),
-            meaning=(
-                "whether it wraps round the ends, one for all axes or one for each; none: the axis decides"
-            ),
-        ),
-    ] = dc.field(default=None, kw_only=True)
+    boundary: PeakBoundary = dc.field(default=None, kw_only=True)
 
     @classmethod
     def starting_values(cls, axes: Axes, arriving: Axes | None = None) -> Mapping[str, Any]:

@@ -15,15 +15,13 @@ from __future__ import annotations
 from types import ModuleType
 from typing import Any
 
-from deodar.extensions import Extensions
+from deodar.extensions import Extensions, requires
 from deodar.plugins import Plugin
 
 
 def _problem(plugin: Plugin, module: Any) -> str:
-    missing = [name for name in ("NAME", "ENDING", "HELP") if not hasattr(module, name)]
-    if not hasattr(module, "write") and not hasattr(module, "save"):
-        missing.append("write or save")
-    return f"has no {', '.join(missing)}" if missing else ""
+    missing = requires("NAME", "ENDING", "HELP")(plugin, module)
+    return missing or ("" if hasattr(module, "write") or hasattr(module, "save") else "has no write or save")
 
 
 EXPORTERS: Extensions[ModuleType] = Extensions("exporters", "exporter", dict, _problem)

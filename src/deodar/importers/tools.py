@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from types import ModuleType
-from typing import Any
 
-from deodar.extensions import Extensions
-from deodar.plugins import Plugin
+from deodar.extensions import Extensions, requires
 
-
-def _problem(plugin: Plugin, module: Any) -> str:
-    missing = [name for name in ("NAME", "sniff", "read") if not hasattr(module, name)]
-    return f"has no {', '.join(missing)}" if missing else ""
-
-
-IMPORTERS: Extensions[ModuleType] = Extensions("importers", "importer", dict, _problem)
+IMPORTERS: Extensions[ModuleType] = Extensions(
+    "importers", "importer", dict, requires("NAME", "sniff", "read")
+)
 """The importers by name.
 
 Each has `NAME`, `sniff(head) -> bool` and `read(content, name, bugs, beside) -> Imported`; `beside` reads

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray
 
-NAME = "cedar"
-ENDING = ""
+NAME, ENDING = "cedar", ""
 HELP = "a folder with one CSV file for each variable, as cedar's recorder writes it"
 
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray
 
-NAME = "mat"
-ENDING = ".mat"
+NAME, ENDING = "mat", ".mat"
 HELP = "a file of MATLAB"
 
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray
 
-NAME = "rosbag"
-ENDING = ""
+NAME, ENDING = "rosbag", ""
 HELP = "a bag of ROS 2 with a topic for each variable (extra network)"
 
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from deodar.batch.pool import Pool
 from deodar.errors import DeodarError, Problem
+
+R = TypeVar("R")
 
 Ended = Callable[[Any, Sequence[Problem]], None]
 """A function that gets the result, or None and the problems."""
@@ -98,3 +100,27 @@ class BackgroundTask:
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.__exit__(KeyboardInterrupt, None, None)
+
+
+class FieldTask(Generic[R]):
+    """A task about one field at a time, and a report on it; a new request ends the one before.
+
+    Args:
+        empty: the report while nothing was asked.
+        task: runs the function.
+        changed: called from any thread when the report has changed.
+    """
+
+    def __init__(self, empty: R, task: BackgroundTask, changed: Callable[[], None]) -> None:
+        self.report = self._empty = empty
+        self._task, self._changed = task, changed
+
+    def stop(self) -> None:
+        """End the task; its result is gone."""
+        self._task.stop()
+        self.report = self._empty
+        self._changed()
+
+    def end(self) -> None:
+        """End the task and its process, and wait until they have ended."""
+        self._task.end()

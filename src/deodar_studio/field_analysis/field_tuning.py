@@ -13,7 +13,7 @@ from deodar.errors import DocumentError, Problem
 from deodar.model import edit
 from deodar.model.document import Document
 from deodar.model.model import Model
-from deodar_studio.field_analysis.background import BackgroundTask
+from deodar_studio.field_analysis.background import BackgroundTask, FieldTask
 
 TELL_EVERY = 0.2
 """Wall time between two messages on the progress, in seconds."""
@@ -68,17 +68,11 @@ class TuningReport:
     problems: Sequence[Problem] = ()
 
 
-class FieldTuning:
-    """Tunes one field at a time; a new request ends the one before.
-
-    Args:
-        changed: called from any thread when the report has changed.
-    """
+class FieldTuning(FieldTask[TuningReport]):
+    """Tunes one field at a time; `changed` is called from any thread when the report has changed."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
-        self.report = TuningReport()
-        self._changed = changed
-        self._task = BackgroundTask("deodar-tuning", keep=False)
+        super().__init__(TuningReport(), BackgroundTask("deodar-tuning", keep=False), changed)
 
     def start(
         self, session: int, model: Model, element: str, parameters: Sequence[str], requirements: Sequence[Any]
@@ -113,16 +107,6 @@ class FieldTuning:
         self.report = TuningReport(session, element, tuning=True)
         self._task.start(tuned, [packed, wanted], ended, heard)
         self._changed()
-
-    def stop(self) -> None:
-        """End the tuning; what was found before is gone."""
-        self._task.stop()
-        self.report = TuningReport()
-        self._changed()
-
-    def end(self) -> None:
-        """End the tuning and its process, and wait until they have ended."""
-        self._task.end()
 
     def applied(self, doc: Document) -> Document:
         """Return a document with the values that were found.

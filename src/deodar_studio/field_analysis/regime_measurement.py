@@ -12,7 +12,7 @@ from deodar.batch.packed_model import PackedModel
 from deodar.element import Element
 from deodar.errors import Problem
 from deodar.model.model import Model
-from deodar_studio.field_analysis.background import BackgroundTask
+from deodar_studio.field_analysis.background import BackgroundTask, FieldTask
 
 
 class MeasuredRegime(NamedTuple):
@@ -56,17 +56,11 @@ class RegimeReport:
     problems: Sequence[Problem] = ()
 
 
-class RegimeMeasurement:
-    """Measures one field at a time; a new request ends the one before.
-
-    Args:
-        changed: called from any thread when the report has changed.
-    """
+class RegimeMeasurement(FieldTask[RegimeReport]):
+    """Measures one field at a time; `changed` is called from any thread when the report has changed."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
-        self.report = RegimeReport()
-        self._changed = changed
-        self._task = BackgroundTask("deodar-regime", keep=True)
+        super().__init__(RegimeReport(), BackgroundTask("deodar-regime", keep=True), changed)
 
     def start(self, session: int, model: Model, element: str) -> None:
         """Measure a field of a model, in a thread.
@@ -83,16 +77,6 @@ class RegimeMeasurement:
         self.report = RegimeReport(session, element, entry.element, measuring=True)
         self._task.start(measured, [packed, entry.path], ended)
         self._changed()
-
-    def stop(self) -> None:
-        """End the measurement; what was found before is gone."""
-        self._task.stop()
-        self.report = RegimeReport()
-        self._changed()
-
-    def end(self) -> None:
-        """End the measurement and its process, and wait until they have ended."""
-        self._task.end()
 
 
 def measured(send: Callable[[object], None], packed: PackedModel, path: str) -> MeasuredRegime:

@@ -30,6 +30,8 @@ class Element:
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
+        if "PARAMETERS" not in vars(cls):  # those of the class of this name in files
+            cls.PARAMETERS = CONSTRUCTORS.get(cls.__name__, {})  # pyright: ignore[reportConstantRedefinition]
         kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
         named = [
             inspect.Parameter(cls.ARGUMENTS.get(name, name), kind, default=value)
@@ -112,32 +114,24 @@ class FileElement(Element):
 class NeuralField(Element):
     """A dynamic neural field with the logistic sigmoid."""
 
-    PARAMETERS = CONSTRUCTORS["NeuralField"]
-
 
 class GaussStimulus1D(Element):
     """A Gaussian stimulus on a row."""
-
-    PARAMETERS = CONSTRUCTORS["GaussStimulus1D"]
 
 
 class GaussStimulus2D(Element):
     """A Gaussian stimulus on a plane."""
 
-    PARAMETERS = CONSTRUCTORS["GaussStimulus2D"]
-
 
 class BoostStimulus(Element):
     """A number."""
 
-    PARAMETERS = CONSTRUCTORS["BoostStimulus"]
     FIXED = ()
 
 
 class CustomStimulus(Element):
     """A stimulus of any shape; it has the size of its pattern."""
 
-    PARAMETERS = CONSTRUCTORS["CustomStimulus"]
     FIXED = ("size", "pattern")
     ARGUMENTS = {"pattern": "stimulusPattern"}
 
@@ -160,49 +154,33 @@ class CustomStimulus(Element):
 class GaussKernel1D(Element):
     """A convolution of a row with a Gaussian."""
 
-    PARAMETERS = CONSTRUCTORS["GaussKernel1D"]
-
 
 class GaussKernel2D(Element):
     """A convolution of a plane with a Gaussian."""
-
-    PARAMETERS = CONSTRUCTORS["GaussKernel2D"]
 
 
 class MexicanHatKernel1D(Element):
     """A convolution of a row with a difference of Gaussians."""
 
-    PARAMETERS = CONSTRUCTORS["MexicanHatKernel1D"]
-
 
 class MexicanHatKernel2D(Element):
     """A convolution of a plane with a difference of Gaussians."""
-
-    PARAMETERS = CONSTRUCTORS["MexicanHatKernel2D"]
 
 
 class LateralInteractions1D(Element):
     """A convolution of a row with a difference of Gaussians, and a constant."""
 
-    PARAMETERS = CONSTRUCTORS["LateralInteractions1D"]
-
 
 class LateralInteractions2D(Element):
     """A convolution of a plane with a difference of Gaussians, and a constant."""
-
-    PARAMETERS = CONSTRUCTORS["LateralInteractions2D"]
 
 
 class KernelFFT(Element):
     """A convolution with a difference of Gaussians over the whole input, and a constant."""
 
-    PARAMETERS = CONSTRUCTORS["KernelFFT"]
-
 
 class SumInputs(Element):
     """The sum of all inputs."""
-
-    PARAMETERS = CONSTRUCTORS["SumInputs"]
 
 
 class SumDimension(Element):
@@ -216,7 +194,6 @@ class SumDimension(Element):
 class SumAllDimensions(Element):
     """The sums of a plane along each dimension, and the full sum."""
 
-    PARAMETERS = CONSTRUCTORS["SumAllDimensions"]
     ARGUMENTS = {"size": "inputSize"}
     defaultOutputComponent = "fullSum"
 
@@ -224,31 +201,22 @@ class SumAllDimensions(Element):
 class ScaleInput(Element):
     """The input times a factor."""
 
-    PARAMETERS = CONSTRUCTORS["ScaleInput"]
-
 
 class NormalNoise(Element):
     """White noise; deodar draws it, so NumPy's random state has no effect."""
-
-    PARAMETERS = CONSTRUCTORS["NormalNoise"]
 
 
 class PointwiseProduct(Element):
     """The product of two inputs."""
 
-    PARAMETERS = CONSTRUCTORS["PointwiseProduct"]
-
 
 class Transpose(Element):
     """The transposed input; the size is that of the output."""
-
-    PARAMETERS = CONSTRUCTORS["Transpose"]
 
 
 class ExpandDimension2D(Element):
     """A row or a column, repeated along the other dimension of a plane."""
 
-    PARAMETERS = CONSTRUCTORS["ExpandDimension2D"]
     FIXED = ("expandDimension", "size")
     ARGUMENTS = {"size": "outputSize"}
 
