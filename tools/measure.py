@@ -26,11 +26,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
+import packages as architecture
 import suite
+from packages import ROOT
+from packages import SRC as SOURCE
 
-ROOT = Path(__file__).parents[1]
-SOURCE = ROOT / "src"
-SRC = SOURCE / "deodar"
+SRC = SOURCE / architecture.ENGINE
 
 WIDTH = 110
 PARAMETERS = 8
@@ -71,7 +72,7 @@ Trees = Mapping[str, ast.Module]
 
 def packages(source: Path = SOURCE) -> list[Path]:
     """The folders of packages: `deodar`, and every `deodar_*` beside it."""
-    return [path.parent for path in sorted(source.glob("deodar*/__init__.py"))]
+    return [source / name for name in architecture.packages(source)]
 
 
 def trees(*roots: Path) -> Trees:
@@ -230,8 +231,7 @@ def cycle(imports: Mapping[str, set[str]]) -> list[str]:
 
 
 def _module(path: str) -> str:
-    parts = Path(path).with_suffix("").parts
-    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+    return architecture.dotted(SOURCE / path)
 
 
 def _imported(module: ast.Module, names: set[str]) -> Iterator[str]:

@@ -4,8 +4,8 @@
     python tools/packages.py --list     also every import of the engine's modules, by package
 
 The rules: the engine (`src/deodar`) imports no package beside it and names none; a package imports the
-engine and what `NEEDS` states, nothing else of deodar; no module is part of a cycle of imports; a module name
-has one meaning inside a package (`ROLES`, `SUBJECTS`).
+engine and what `NEEDS` states, nothing else of deodar; a module name has one meaning inside a package
+(`ROLES`, `SUBJECTS`). `tools/measure.py` looks for cycles of imports.
 """
 
 from __future__ import annotations
@@ -96,9 +96,9 @@ class Import:
         return f"{self.path.relative_to(ROOT)}:{self.line} imports {self.target}"
 
 
-def packages() -> list[str]:
-    """Return the names of the import packages in `src`, the engine first."""
-    return sorted(p.name for p in SRC.glob(f"{ENGINE}*") if (p / "__init__.py").is_file())
+def packages(source: Path | None = None) -> list[str]:
+    """Return the names of the import packages in a folder, by default `src`, the engine first."""
+    return sorted(p.name for p in (source or SRC).glob(f"{ENGINE}*") if (p / "__init__.py").is_file())
 
 
 def modules(package: str) -> list[Path]:

@@ -48,9 +48,7 @@ class Extensions(Mapping[str, T], Generic[T]):
 
     def first_party(self) -> dict[str, T]:
         """Return the members that come with deodar: of the engine, and of the packages beside it."""
-        beside = {
-            p.name: p.load()[0] for p in self.packaged() if p.package == "deodar" and not self.problem(p)
-        }
+        beside = {p.name: p.load()[0] for p in self.packaged() if p.first_party and not self.problem(p)}
         return dict(sorted({**beside, **self._own()}.items()))
 
     def problem(self, plugin: Plugin) -> str:
@@ -83,7 +81,8 @@ class Extensions(Mapping[str, T], Generic[T]):
 
     def package(self, member: T) -> str:
         """Return name and version of the package of a member, in the form of files; "" for one of deodar."""
-        outside = (p for p in self.packaged() if p.name == getattr(member, "__name__", ""))
+        name = getattr(member, "__name__", "")
+        outside = (p for p in self.packaged() if p.name == name and not p.first_party)
         return next((f"{p.package} {p.version}" for p in outside if p.load()[0] is member), "")
 
     def __contains__(self, name: object) -> bool:

@@ -36,6 +36,9 @@ GROUPS = {
 }
 """The kind of object that the entry points of each group `deodar.GROUP` refer to."""
 
+OWN = "deodar"
+"""The distribution of the engine and of the packages beside it."""
+
 PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99} [0-9A-Za-z][0-9A-Za-z.!+_-]{0,49}")
 """Name and version of a package, as files state them under `packages`."""
 
@@ -60,6 +63,11 @@ class Plugin:
     problem: str
     entry: importlib.metadata.EntryPoint
 
+    @property
+    def first_party(self) -> bool:
+        """Whether the package comes with deodar."""
+        return self.package == OWN
+
     def load(self) -> tuple[Any, str]:
         """Import the object, once; return it and "", or None and the problem."""
         return (None, self.problem) if self.problem else _load(self)
@@ -71,7 +79,7 @@ def found(group: str, taken: Collection[str] = ()) -> list[Plugin]:
     A name that deodar (`taken`) or an earlier package already has is a problem.
     """
     out: list[Plugin] = []
-    owners = dict.fromkeys(taken, "deodar")
+    owners = dict.fromkeys(taken, OWN)
     for entry in _all().get(f"deodar.{group}", ()):
         name, package = entry.point.name, entry.package
         owner = owners.setdefault(name, package)
@@ -127,14 +135,19 @@ def unfit(
             yield Problem(where, f"was saved with {text}; {name} is of {now} now")
 
 
+def is_own(module: str) -> bool:
+    """Return whether a module comes with deodar: in the engine, or in a package beside it."""
+    return module.partition(".")[0] in _import_packages()
+
+
 @functools.cache
-def first_party() -> frozenset[str]:
+def _import_packages() -> frozenset[str]:
     """Return the import packages of the distribution deodar: `deodar`, and those of its entry points.
 
     They are `deodar` alone where deodar is run without being installed.
     """
     try:
-        entries = importlib.metadata.distribution("deodar").entry_points
+        entries = importlib.metadata.distribution(OWN).entry_points
     except importlib.metadata.PackageNotFoundError:
         entries = ()
     return frozenset({"deodar", *(entry.module.partition(".")[0] for entry in entries)})
@@ -167,14 +180,14 @@ def _all() -> dict[str, tuple[_Entry, ...]]:
             if id(point.dist) not in packages:
                 packages[id(point.dist)] = point.dist.name, point.dist.version
             entries.append(_Entry(*packages[id(point.dist)], point))
-        groups[group] = tuple(sorted(entries, key=lambda e: (e.package != "deodar", e.package, e.point.name)))
+        groups[group] = tuple(sorted(entries, key=lambda e: (e.package != OWN, e.package, e.point.name)))
     return groups
 
 
 @functools.cache
 def _misfit(package: str) -> str:
     """Return the problem if a package requires another version of deodar."""
-    if package == "deodar":
+    if package == OWN:
         return ""  # start-up time: it has no requirement of itself
     # start-up time
     from packaging.requirements import InvalidRequirement, Requirement
@@ -185,7 +198,7 @@ def _misfit(package: str) -> str:
             requirement = Requirement(text)
         except InvalidRequirement:
             continue
-        if canonicalize_name(requirement.name) == "deodar" and not requirement.specifier.contains(
+        if canonicalize_name(requirement.name) == OWN and not requirement.specifier.contains(
             __version__, prereleases=True
         ):
             return f"is made for deodar {requirement.specifier}, and this is {__version__}"

@@ -39,32 +39,32 @@ def register(cls: T) -> T:
 
 def own(cls: type[Any]) -> bool:
     """Return whether a class is part of the distribution deodar: of the engine, or of a package beside it."""
-    return cls.__module__.partition(".")[0] in plugins.first_party()
+    return plugins.is_own(cls.__module__)
 
 
-def modules(room: str) -> list[str]:
-    """Return the names of the modules of an extension folder.
+def modules(package: str) -> list[str]:
+    """Return the names of the modules of a folder whose files are found, not listed.
 
     They are its files and, for each folder in it, the file with the folder's name
-    (`worlds/arena/arena.py`), or the folder itself without such a file (`importers/cosivina`). Names that
-    begin with an underscore are not extensions.
+    (`worlds/arena/arena.py`), or the folder itself without such a file. Names that begin with an underscore
+    are left out.
     """
-    package = importlib.import_module(f"deodar.{room}")
-    found = sorted(pkgutil.iter_modules(package.__path__), key=lambda module: module.name)
+    paths = importlib.import_module(package).__path__
+    found = sorted(pkgutil.iter_modules(paths), key=lambda module: module.name)
     return [
-        f"deodar.{room}.{module.name}{_within(package.__path__, module.name) if module.ispkg else ''}"
+        f"{package}.{module.name}{_within(paths, module.name) if module.ispkg else ''}"
         for module in found
         if not module.name.startswith("_")
     ]
 
 
+def imported(package: str) -> list[Any]:
+    """Import and return the modules of such a folder, in the order of their names."""
+    return [importlib.import_module(name) for name in modules(package)]
+
+
 def _within(paths: Iterable[str], name: str) -> str:
     return f".{name}" if any(Path(path, name, f"{name}.py").is_file() for path in paths) else ""
-
-
-def imported(room: str) -> list[Any]:
-    """Import and return the modules of an extension folder, in the order of their names."""
-    return [importlib.import_module(name) for name in modules(room)]
 
 
 def kinds(room: str | None = None) -> dict[str, type[Any]]:
@@ -141,7 +141,7 @@ def package(name: str) -> str:
 
 
 def _scan(room: str) -> None:
-    for module in modules(room):
+    for module in modules(f"deodar.{room}"):
         importlib.import_module(module)
         found = [name for name, cls in _kinds.items() if cls.__module__ == module]
         if len(found) != 1:

@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Mapping
-from types import ModuleType
 from typing import Any
 
 from deodar.errors import ModelError
-
-
-def modules(package: str) -> list[ModuleType]:
-    """Import the files of a package, in the order of their names."""
-    path = importlib.import_module(package).__path__
-    names = sorted(module.name for module in pkgutil.iter_modules(path))
-    return [importlib.import_module(f"{package}.{name}") for name in names]
+from deodar.registry import imported
 
 
 def merged(package: str, table: str) -> dict[Any, Any]:
@@ -25,7 +16,7 @@ def merged(package: str, table: str) -> dict[Any, Any]:
         ModelError: two files have an entry with the same key.
     """
     found: dict[Any, Any] = {}
-    for module in modules(package):
+    for module in imported(package):
         entries: Mapping[Any, Any] = getattr(module, table, {})
         twice = found.keys() & entries.keys()
         if twice:
@@ -36,4 +27,4 @@ def merged(package: str, table: str) -> dict[Any, Any]:
 
 def union(package: str, names: str) -> frozenset[str]:
     """Return the names in the set `names` of every file that has one."""
-    return frozenset[str]().union(*(getattr(module, names, ()) for module in modules(package)))
+    return frozenset[str]().union(*(getattr(module, names, ()) for module in imported(package)))

@@ -18,7 +18,7 @@ from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.kernels._base import Kernel
 from deodar.parameters import Live, Part, Recompile
 
-KINDS = {kind.name: kind for kind in descriptions() if kind.module.partition(".")[0] in plugins.first_party()}
+KINDS = {kind.name: kind for kind in descriptions() if plugins.is_own(kind.module)}
 INSIDE = [
     name
     for name in KINDS

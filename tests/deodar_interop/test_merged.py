@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from deodar.errors import ModelError
+from deodar.registry import imported
 from deodar_interop import _merged
 
 
@@ -28,7 +29,7 @@ def test_every_file_is_read_without_being_listed(package: str) -> None:
 
 
 def test_a_key_in_two_files_is_refused(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in _merged.modules(package):
+    for module in imported(package):
         monkeypatch.setattr(module, "CLASSES", {"A": 1}, raising=False)
     with pytest.raises(ModelError, match=r"merged_classes\.other\.CLASSES repeats A"):
         _merged.merged(package, "CLASSES")

@@ -44,7 +44,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
 
 # Only these modules import others by name at run time: the folder is the registry, the root is lazy, and
 # documents name functions of users.
-DYNAMIC = {"", "registry", "cli", "elements.function", "deodar_interop._merged", "deodar_papers.papers"}
+DYNAMIC = {"", "registry", "cli", "elements.function", "deodar_papers.papers"}
 
 
 def _floor(name: str) -> int:

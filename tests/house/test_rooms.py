@@ -14,7 +14,7 @@ import deodar
 from deodar import registry
 from deodar.errors import ModelError, UnknownName
 
-MODULES = [module for room in registry.ROOMS for module in registry.modules(room)]
+MODULES = [module for room in registry.ROOMS for module in registry.modules(f"deodar.{room}")]
 
 ONE = """
 from dataclasses import dataclass
@@ -94,7 +94,7 @@ def test_a_kind_that_is_registered_twice_is_refused(room: Path) -> None:
 
 def test_files_with_a_leading_underscore_register_no_kind(room: Path) -> None:
     (room / "_base.py").write_text(ONE)
-    assert registry.modules("annexe") == []
+    assert registry.modules("deodar.annexe") == []
 
 
 def test_a_folder_registers_the_kind_of_the_file_of_its_name_alone(room: Path) -> None:
@@ -102,7 +102,7 @@ def test_a_folder_registers_the_kind_of_the_file_of_its_name_alone(room: Path) -
     (room / "pair" / "__init__.py").write_text("")
     (room / "pair" / "pair.py").write_text(ONE + _kind("Pair"))
     (room / "pair" / "helper.py").write_text("")
-    assert registry.modules("annexe") == ["deodar.annexe.pair.pair"]
+    assert registry.modules("deodar.annexe") == ["deodar.annexe.pair.pair"]
     assert list(registry.kinds("annexe")) == ["Pair"]
 
 

@@ -72,5 +72,5 @@ def example(install: Install, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]
 
 
 def _forget() -> None:
-    for cached in (plugins._all, plugins._misfit, plugins._load, plugins.first_party):
+    for cached in (plugins._all, plugins._misfit, plugins._load, plugins._import_packages):
         cached.cache_clear()

@@ -7,6 +7,7 @@ inside `run`, so that `deodar --help` starts quickly.
 from __future__ import annotations
 
 import argparse
+import functools
 import importlib
 import pkgutil
 import sys
@@ -20,6 +21,7 @@ from deodar.errors import DeodarError, UnknownName, first_line
 from deodar.extensions import Extensions, requires
 
 
+@functools.cache
 def _own() -> dict[str, ModuleType]:
     """Return the commands of this folder; a module has a trailing underscore if the name is a keyword."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))

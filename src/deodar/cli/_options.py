@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from deodar import codec
@@ -15,6 +16,17 @@ from deodar.importers import examples
 if TYPE_CHECKING:
     from deodar.model.model import Model
     from deodar.worlds._base import World
+
+
+def add_each(parser: argparse.ArgumentParser, members: Mapping[str, ModuleType]) -> dict[str, str]:
+    """Let each member with `arguments` add its own; return the name of the member by the option."""
+    names: dict[str, str] = {}
+    for name, member in members.items():
+        if hasattr(member, "arguments"):
+            before = {action.dest for action in parser._actions}
+            member.arguments(parser)
+            names |= {action.dest: name for action in parser._actions if action.dest not in before}
+    return names
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:

@@ -208,7 +208,7 @@ def _plugins() -> list[dict[str, str]]:
     return [
         {"package": p.package, "version": p.version, "group": p.group, "name": p.name, "problem": problem}
         for p, problem in listed
-        if p.package != "deodar" or problem
+        if problem or not p.first_party
     ]
 
 

@@ -71,13 +71,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of a model: fail, and write nothing, if anything is approximated or dropped",
     )
-    foreign: dict[str, str] = {}
-    for name, exporter in models.items():
-        if hasattr(exporter, "arguments"):
-            before = {action.dest for action in parser._actions}
-            exporter.arguments(parser)
-            foreign |= {action.dest: name for action in parser._actions if action.dest not in before}
-    parser.set_defaults(exporter_of_option=foreign)
+    parser.set_defaults(exporter_of_option=_options.add_each(parser, models))
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
     _options.add_force(parser)
     _options.add_json(parser)

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 
-from deodar.extensions import Extensions
+from deodar.extensions import Extensions, requires
 from deodar.figures import _moving, _style
 from deodar.figures._moving import Changing
 from deodar.figures._view import View
@@ -34,15 +34,10 @@ def kinds() -> dict[str, ModuleType]:
     return {name: module for name, module in found.items() if module and hasattr(module, "suits")}
 
 
-REQUIRED = ("ACROSS", "size", "fill")
-"""The required members of a kind's module; `paint` too if ACROSS is true."""
-
-
 def _problem(plugin: Plugin, found: object) -> str:
-    """Return the problem with a kind of figure from a package."""
-    needed = [*REQUIRED, *(["paint"] if getattr(found, "ACROSS", False) else [])]
-    missing = [name for name in needed if not hasattr(found, name)]
-    return f"has no {', '.join(missing)}" if missing else ""
+    """Return the problem with a kind of figure from a package; it needs `paint` too if ACROSS is true."""
+    across = ["paint"] if getattr(found, "ACROSS", False) else []
+    return requires("ACROSS", "size", "fill", *across)(plugin, found)
 
 
 KINDS: Extensions[ModuleType] = Extensions("figures", "kind of figure", kinds, _problem)

@@ -110,7 +110,7 @@ def named(path: str | Path) -> Path:
 
 def holds(path: Path) -> bool:
     """Return whether a path is the document of an example in the folder of the examples."""
-    return path.suffix == ".json" and path.parent in folders()
+    return path.suffix == ".json" and path.parent in folders() and path.stem in names()
 
 
 def near(path: Path) -> str:

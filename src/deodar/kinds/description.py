@@ -64,8 +64,7 @@ class Description:
     @property
     def public_name(self) -> str:
         """How a script names it: `dd.Field`, or the module and the class of a kind of a package."""
-        outside = self.module.partition(".")[0] not in plugins.first_party()
-        return f"{self.module}.{self.name}" if outside else f"dd.{self.name}"
+        return f"dd.{self.name}" if plugins.is_own(self.module) else f"{self.module}.{self.name}"
 
 
 def descriptions() -> list[Description]:

@@ -35,7 +35,7 @@ def judge(doc: Document, nodes: Sequence[Node]) -> list[Problem]:
         for n in wiring.declared
         for what, fix in n.element.warnings(n.ins)
     ]
-    for family in imported("model.checks"):
+    for family in imported("deodar.model.checks"):
         found += family.check(wiring)
     place = {e.path: k for k, e in enumerate(doc.entries)}
     return sorted(dict.fromkeys(found), key=lambda p: (p.severity, place.get(p.where, len(place))))

@@ -31,12 +31,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     demos = papers.demos()
     about = "; ".join(f"{name}: {demo.HELP}" for name, demo in demos.items())
     parser.add_argument("name", choices=tuple(demos), metavar="NAME", help=about)
-    owners: dict[str, str] = {}
-    for name, demo in demos.items():
-        before = {action.dest for action in parser._actions}
-        demo.arguments(parser)
-        owners |= {action.dest: name for action in parser._actions if action.dest not in before}
-    parser.set_defaults(owners=owners)
+    parser.set_defaults(owners=_options.add_each(parser, demos))
     parser.add_argument(
         "--seed", type=_options.whole, default=0, metavar="N", help="seed of all noise (default 0)"
     )

@@ -21,7 +21,7 @@ from types import ModuleType
 from typing import Any, cast
 
 from deodar.errors import UnknownName
-from deodar.extensions import Extensions
+from deodar.extensions import Extensions, requires
 from deodar.plugins import Plugin
 from deodar_studio.messages.to_page import PlotView
 
@@ -60,9 +60,8 @@ def _problem(plugin: Plugin, found: Any) -> str:
         return f"names {plugin.entry.value} as {plugin.name!r}, which is not a module"
     if not NAME.fullmatch(plugin.name):
         return "has a name with other characters than letters, digits, _ and -"
-    missing = [name for name in ("TITLE", "FILE", "AXES") if not hasattr(found, name)]
-    if missing:
-        return f"has no {', '.join(missing)}"
+    if missing := requires("TITLE", "FILE", "AXES")(plugin, found):
+        return missing
     plot = cast("Any", found)
     if not isinstance(plot.TITLE, str) or not plot.TITLE.strip():
         return f"has the TITLE {plot.TITLE!r}, which is not a text"
