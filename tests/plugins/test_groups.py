@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import deodar as dd
+from deodar import plugins
 from deodar.cli import main
+from deodar.extensions import Extensions
 from tests.plugins.conftest import Install
 
 EXPORTER = """
@@ -125,3 +128,14 @@ def test_a_group_that_a_package_defines_is_in_the_lines_of_doctor(
         "plug-in    odd 0.1.0: PROBLEM: none is empty",
         "plug-in    odd 0.1.0: groups bodies",
     ]
+
+
+def test_a_file_names_no_package_for_a_member_that_comes_with_deodar(
+    install: Install, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bodies = Extensions[Any]("bodies", "body", dict, lambda plugin, body: "")
+    install("odd", {"odd": "class Arm: pass"}, {"deodar.bodies": {"Arm": "odd:Arm"}})
+    arm = bodies["Arm"]
+    assert bodies.package(arm) == "odd 0.1.0" and bodies.first_party() == {}
+    monkeypatch.setattr(plugins, "OWN", "odd")
+    assert bodies.package(arm) == "" and bodies.first_party() == {"Arm": arm}
