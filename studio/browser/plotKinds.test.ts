@@ -22,6 +22,22 @@ beforeAll(async () => {
 
 afterAll(() => studio.stop());
 
+// Each kind of plot: an element, and the first line of its table.
+const SHOWN: Record<string, [element: string, header: string]> = {
+  course: ["node", "time (ms),activation"],
+  curve: ["far", "long [thinned: 600 values of 1000 samples],output"],
+  heat: ["plane", "x (cm),y (cm),activation"],
+  picture: ["picture", "x (cm),y (cm),output red,output green,output blue"],
+  space_time: ["line", "time (ms),x (cm),activation"],
+  phase: ["node", "time (ms),activation,rate of change (1/ms)"],
+  surface: ["flat", "x (cm),y (cm),output"],
+  volume: ["volume", "x (cm),y (cm),z (cm),activation"],
+  kernel: ["line", "lag in x (cm),weight"],
+  weights: ["map", "x (cm),y (cm),weights"],
+  multiples: ["plane", "x (cm),y (cm),plane,fellow"],
+  polar: ["ring", "angle (deg),activation"],
+};
+
 const plot = (name: string): Locator => studio.page.getByRole("region", { name, exact: true });
 
 /** Open `every.json` with these plots, and compute some steps. */
@@ -204,27 +220,28 @@ test("two axes that share a unit have the same scale in pictures, kernels and mu
   }
 });
 
+test("plots without a scene ask the server for no further part of the page", async () => {
+  const page = await studio.another();
+  const asked: string[] = [];
+  page.on("request", (request) => {
+    if (/assets.*\.js$/.test(request.url())) asked.push(request.url());
+  });
+  const flat = Object.entries(SHOWN).filter(([kind]) => !["surface", "volume", "polar"].includes(kind));
+  const rows = flat.map(([kind, [element]]) => [element, kind] as const);
+  writeArranged(studio.folder, "flat.json", [rows.slice(0, 3), rows.slice(3, 6), rows.slice(6)]);
+  await reopen(page, observer, "flat.json");
+  for (const [element, kind] of rows)
+    await page.locator(`section[aria-label="${PLOTS.get(kind)?.title} of ${element}"]`).waitFor();
+  expect(asked).toEqual([]);
+  await page.close();
+});
+
 test("every kind of plot is exported as PNG, SVG and CSV", async () => {
   const { page } = studio;
-  // the element, and the first line of its table
-  const shown: Record<string, [element: string, header: string]> = {
-    course: ["node", "time (ms),activation"],
-    curve: ["far", "long [thinned: 600 values of 1000 samples],output"],
-    heat: ["plane", "x (cm),y (cm),activation"],
-    picture: ["picture", "x (cm),y (cm),output red,output green,output blue"],
-    space_time: ["line", "time (ms),x (cm),activation"],
-    phase: ["node", "time (ms),activation,rate of change (1/ms)"],
-    surface: ["flat", "x (cm),y (cm),output"],
-    volume: ["volume", "x (cm),y (cm),z (cm),activation"],
-    kernel: ["line", "lag in x (cm),weight"],
-    weights: ["map", "x (cm),y (cm),weights"],
-    multiples: ["plane", "x (cm),y (cm),plane,fellow"],
-    polar: ["ring", "angle (deg),activation"],
-  };
-  expect(new Set([...PLOTS.keys(), "polar"])).toEqual(new Set(Object.keys(shown)));
-  const all = Object.entries(shown).map(([kind, [element]]) => [element, kind] as const);
+  expect(new Set([...PLOTS.keys(), "polar"])).toEqual(new Set(Object.keys(SHOWN)));
+  const all = Object.entries(SHOWN).map(([kind, [element]]) => [element, kind] as const);
   await arrange("export.json", [all.slice(0, 4), all.slice(4, 8), all.slice(8)]);
-  for (const [kind, [element, header]] of Object.entries(shown)) {
+  for (const [kind, [element, header]] of Object.entries(SHOWN)) {
     const name = `${PLOTS.get(kind)?.title ?? "Polar plot"} of ${element}`;
     const files: Record<string, Buffer> = {};
     for (const format of ["PNG", "SVG", "CSV"]) {

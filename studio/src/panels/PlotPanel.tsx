@@ -1,7 +1,7 @@
 // A panel with a plot: finds its element and the component for the kind of plot.
 
 import type { IDockviewPanelProps } from "dockview-react";
-import { lazy, Suspense, useEffect, useState } from "react";
+import { type ComponentType, lazy, Suspense, useEffect, useState } from "react";
 import { elementsAlike, mainPort, portAxes, portsOf, weightsOf } from "../plots/kinds/kinds";
 import { PackagedPlot } from "../plots/kinds/PackagedPlot";
 import { PLOTS, plotKinds } from "../plots/kinds/plots";
@@ -11,8 +11,26 @@ import { SideBySide } from "../replay/SideBySide";
 import { useStudio } from "../store";
 import { plotTitle } from "./openPlot";
 
-// Loaded when they are first shown.
-const DRAWN = new Map([...PLOTS].map(([name, plot]) => [name, lazy(plot.load)]));
+type Components = Record<string, ComponentType<PlotProps>>;
+
+// The files of components. Those with three.js are loaded when they are first shown; all others are part of
+// the page, so that a plot is drawn, and has its first sample, as soon as it is opened.
+const FLAT = import.meta.glob<Components>("../plots/kinds/*.tsx", { eager: true });
+const SCENES = import.meta.glob<Components>("../plots/scenes/*.tsx");
+
+function componentOf(name: string): ComponentType<PlotProps> {
+  const flat = FLAT[`../plots/kinds/${name}.tsx`]?.[name];
+  return (
+    flat ??
+    lazy(async () => {
+      const found = (await SCENES[`../plots/scenes/${name}.tsx`]?.())?.[name];
+      if (found === undefined) throw new Error(`No file has the component ${name}.`);
+      return { default: found };
+    })
+  );
+}
+
+const DRAWN = new Map([...PLOTS].map(([name, plot]) => [name, componentOf(plot.component)]));
 
 export function PlotPanel({ api, params }: IDockviewPanelProps<Record<string, unknown>>) {
   const plot = readParams(params);

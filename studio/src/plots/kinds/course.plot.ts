@@ -5,5 +5,5 @@ export const plot: PlotDeclaration = {
   rank: () => 10,
   tab: (name) => `${name} over time`,
   figure: Number.POSITIVE_INFINITY,
-  load: async () => ({ default: (await import("./TimeCourse")).TimeCourse }),
+  component: "TimeCourse",
 };

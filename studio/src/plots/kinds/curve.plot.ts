@@ -5,5 +5,5 @@ export const plot: PlotDeclaration = {
   title: "Curves",
   rank: (axes) => (axes.length === 1 ? 0 : axes.length > 1 && !isPicture(axes) ? 20 : null),
   figure: 1,
-  load: async () => ({ default: (await import("./FieldCurve")).FieldCurve }),
+  component: "FieldCurve",
 };

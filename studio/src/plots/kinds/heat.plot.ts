@@ -5,5 +5,5 @@ export const plot: PlotDeclaration = {
   title: "Heat map",
   rank: (axes) => (axes.length > 1 && !isPicture(axes) ? 0 : null),
   figure: 2,
-  load: async () => ({ default: (await import("./HeatMap")).HeatMap }),
+  component: "HeatMap",
 };

@@ -4,5 +4,5 @@ export const plot: PlotDeclaration = {
   title: "Interaction kernel",
   rank: (axes, { kernel }) => (kernel && axes.length > 0 ? 70 : null),
   tab: (name) => `Kernel of ${name}`,
-  load: async () => ({ default: (await import("./Kernel")).Kernel }),
+  component: "Kernel",
 };

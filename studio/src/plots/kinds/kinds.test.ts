@@ -1,3 +1,5 @@
+import { existsSync } from "node:fs";
+
 import { describe, expect, it } from "vitest";
 import type { AxisView, DocumentView, ElementView, Kind, PlotView } from "../../protocol";
 import {
@@ -135,6 +137,15 @@ describe("kinds of plots", () => {
     expect(weightsOf(documentOf(map), map, undefined)).toEqual([]);
     const row = element("b", "k", { output: [], input: ["y"] }, ["input"]);
     expect(weightsOf(documentOf(row), row, type)).toEqual([]);
+  });
+
+  it("have a component in one file, beside the declarations or among the scenes", () => {
+    for (const [kind, { component }] of PLOTS) {
+      const files = ["../kinds", "../scenes"].map((folder) =>
+        existsSync(new URL(`${folder}/${component}.tsx`, import.meta.url)),
+      );
+      expect(files.filter(Boolean), kind).toHaveLength(1);
+    }
   });
 
   it("have the titles of the page or of the package", () => {

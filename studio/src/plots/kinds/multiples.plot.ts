@@ -5,5 +5,5 @@ export const plot: PlotDeclaration = {
   title: "Small multiples",
   rank: (axes, { several }) => (several && !isPicture(axes) ? 90 : null),
   tab: (name) => `Multiples of ${name}`,
-  load: async () => ({ default: (await import("./Multiples")).Multiples }),
+  component: "Multiples",
 };

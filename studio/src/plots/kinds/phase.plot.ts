@@ -5,5 +5,5 @@ export const plot: PlotDeclaration = {
   title: "Phase plot",
   rank: (axes) => (isPicture(axes) ? null : 40),
   tab: (name) => `Phase of ${name}`,
-  load: async () => ({ default: (await import("./Phase")).Phase }),
+  component: "Phase",
 };

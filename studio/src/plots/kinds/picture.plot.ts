@@ -5,5 +5,5 @@ export const plot: PlotDeclaration = {
   title: "Picture",
   rank: (axes) => (isPicture(axes) ? 0 : null),
   figure: 3,
-  load: async () => ({ default: (await import("./Picture")).Picture }),
+  component: "Picture",
 };

@@ -1,8 +1,6 @@
 // The plots of the page: each file `NAME.plot.ts` of this folder declares one.
 
-import type { ComponentType } from "react";
 import type { AxisView, PlotView } from "../../protocol";
-import type { PlotProps } from "../PlotFrame";
 import { fits, type PlotKind } from "./kinds";
 
 // What an element has to plot besides its port: an interaction kernel, weights that do not learn, and other
@@ -18,7 +16,8 @@ export type PlotDeclaration = {
   tab?: (name: string) => string;
   // The most axes of an array in the figure that `deodar plot` draws of it; without it there is none.
   figure?: number;
-  load: () => Promise<{ default: ComponentType<PlotProps> }>;
+  // What draws it: the export of this name of `NAME.tsx` beside this file, or in `scenes` if it uses three.js.
+  component: string;
 };
 
 const FILES = import.meta.glob<PlotDeclaration>("./*.plot.ts", { eager: true, import: "plot" });

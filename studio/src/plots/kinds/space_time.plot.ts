@@ -6,5 +6,5 @@ export const plot: PlotDeclaration = {
   rank: (axes) => (axes.length > 0 && !isPicture(axes) ? 30 : null),
   tab: (name) => `${name} over time`,
   figure: 1,
-  load: async () => ({ default: (await import("./SpaceTime")).SpaceTime }),
+  component: "SpaceTime",
 };

@@ -4,5 +4,5 @@ import type { PlotDeclaration } from "./plots";
 export const plot: PlotDeclaration = {
   title: "Surface",
   rank: (axes) => (axes.length > 1 && !isPicture(axes) ? 50 : null),
-  load: async () => ({ default: (await import("./Surface")).Surface }),
+  component: "Surface",
 };

@@ -4,5 +4,5 @@ import type { PlotDeclaration } from "./plots";
 export const plot: PlotDeclaration = {
   title: "Volume slices",
   rank: (axes) => (axes.length > 2 && !isPicture(axes) ? 60 : null),
-  load: async () => ({ default: (await import("./Volume")).Volume }),
+  component: "Volume",
 };

@@ -4,5 +4,5 @@ export const plot: PlotDeclaration = {
   title: "Weights",
   rank: (_, { weights }) => (weights ? 80 : null),
   tab: (name) => `Weights of ${name}`,
-  load: async () => ({ default: (await import("./Weights")).Weights }),
+  component: "Weights",
 };
