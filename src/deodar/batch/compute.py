@@ -18,7 +18,8 @@ from deodar.batch.simulation_request import SimulationRequest
 from deodar.compiler import device as devices
 from deodar.compiler import division, hosts
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.executable import Executable, executable
+from deodar.compiler.dynamics import Dynamics
+from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.elements.field import Field
 from deodar.errors import Interrupted, NotFinite, ParameterError, TimeError, WorkerError
@@ -136,15 +137,9 @@ def compute(
         distribution, filled = division.distributed(wide, places)
         more_points = (filled.points or points.size) - points.size
         more_trials = (filled.trials or len(numbers)) - len(numbers)
-        program = executable(
-            model,
-            doc,
-            precision,
-            filled,
-            distribution or device,
-            request.accuracy,
-            embodied(doc, world),
-        )
+        place = distribution or device
+        dynamics = Dynamics(model, doc, precision, request.accuracy, place, embodied(doc, world))
+        program = dynamics.compiled(filled)
         values = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values]
         numbered = [*numbers, *[numbers[-1]] * more_trials]
         if own_noise:

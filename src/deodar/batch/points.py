@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.batch.driven import driven
+from deodar.compiler.driven import driven
 from deodar.compiler.plan import Leaf, cost
 from deodar.errors import ParameterError
 from deodar.leaves import leaves

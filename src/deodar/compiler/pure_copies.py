@@ -10,7 +10,7 @@ from jax import Array
 
 from deodar.compiler.arguments import ProgramState, ProgramValues
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.executable import executable
+from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.functions import Constants
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf
@@ -50,7 +50,7 @@ class PureCopies:
         dt: float,
     ) -> None:
         batch = Batch(points=copies, sweep=tuple(tuple(leaves) for leaves in parameters))
-        self.executable = found = executable(model, doc, precision, batch)
+        self.executable = found = Dynamics(model, doc, precision).compiled(batch)
         self.count, self.dt = copies, dt
         self._base: ProgramValues = {**found.values(doc), "swept": ()}
         self.rebuilt = any(found.program.rebuilt)

@@ -10,7 +10,7 @@ from jax import Array
 
 from deodar.compiler.arguments import ProgramState, ProgramValues
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.executable import executable
+from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf
 from deodar.compiler.program import Chunk, Port, precision_context
@@ -47,7 +47,7 @@ class PureStep:
         at: float = 0.0,
     ) -> None:
         batch = Batch(sweep=tuple(tuple(leaves) for leaves in parameters))
-        self.executable = found = executable(model, doc, PRECISION, batch)
+        self.executable = found = Dynamics(model, doc, PRECISION).compiled(batch)
         self.dt = float(doc.step)
         values = found.values(doc)
         self.values = np.array([float(v[0]) for v in values["swept"][: len(parameters)]])

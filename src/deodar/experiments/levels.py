@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.batch.driven import driven
+from deodar.compiler.driven import driven
 from deodar.compiler.plan import cost
 from deodar.errors import ParameterError
 from deodar.experiments.actions import Action, Push

@@ -9,10 +9,11 @@ from typing import Any
 import jax
 import numpy as np
 
-from deodar.batch.driven import driven
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.executable import RARELY, executable
+from deodar.compiler.driven import driven
+from deodar.compiler.dynamics import Dynamics
+from deodar.compiler.executable import RARELY
 from deodar.errors import NotFinite
 from deodar.experiments.running import RunningTrial, ScheduledAction
 from deodar.model import edit, find
@@ -162,9 +163,8 @@ class RunningCopies:
         sweep = tuple(map(tuple, self.leaves))
         begun = len(self.trials)
         copies = Batch(len(rows), None, sweep, begun) if sweep else Batch(None, len(rows), begun=begun)
-        program = executable(
-            self.model, self.doc, self.precision, copies, body=embodied(self.doc, self.world)
-        )
+        body = embodied(self.doc, self.world)
+        program = Dynamics(self.model, self.doc, self.precision, body=body).compiled(copies)
         trials = [self.trials[r] for r in rows]
         swept = [values[rows] for values in self.swept.values()] if sweep else None
         run = Run(program, self.doc, self.dt, self.seed, trials[:1] if sweep else trials, self.world, swept)

@@ -16,7 +16,8 @@ from deodar.compiler.arguments import ProgramValues
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.device import several
 from deodar.compiler.division import distributed
-from deodar.compiler.executable import Executable, executable
+from deodar.compiler.dynamics import Dynamics
+from deodar.compiler.executable import Executable
 from deodar.compiler.leaf_layout import require_range
 from deodar.compiler.plan import strategies_of
 from deodar.compiler.program import Port
@@ -263,13 +264,8 @@ class Session:
 
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
         """Compile the program that this session would run a document with; `model` caches it."""
-        return executable(
-            model or self._model,
-            document,
-            self._precision,
-            device=self._distribution or self.device,
-            accuracy=self._accuracy,
-        )
+        of, where = model or self._model, self._distribution or self.device
+        return Dynamics(of, document, self._precision, self._accuracy, where).compiled()
 
     def precompile(self, program: Executable) -> None:
         """Compile what this session calls of a program; another thread may do it while the session runs."""

@@ -14,8 +14,7 @@ import numpy as np
 
 from deodar.architectures.looking import looking
 from deodar.batch.simulate import simulate
-from deodar.compiler.copy_batch import Batch
-from deodar.compiler.executable import executable
+from deodar.compiler.dynamics import Dynamics
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
@@ -86,9 +85,7 @@ def learn(
         progress: called with the number of gazes.
     """
     document = model.document
-    program = executable(
-        model, document, "float32", Batch(None, None), None, "default", embodied(document, world)
-    )
+    program = Dynamics(model, document, body=embodied(document, world)).compiled()
     run = Run(program, document, STEP, seed, [0], world)
     idents = {entry.path: entry.id for entry in document.entries}
     names = [name for name in SIGNALS if name.split(".")[0] in idents]

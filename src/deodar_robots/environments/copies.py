@@ -9,9 +9,10 @@ from typing import Any, Protocol
 import jax
 import numpy as np
 
-from deodar.batch.driven import driven
 from deodar.compiler.copy_batch import Batch
-from deodar.compiler.executable import BEGUN, RARELY, executable
+from deodar.compiler.driven import driven
+from deodar.compiler.dynamics import Dynamics
+from deodar.compiler.executable import BEGUN, RARELY
 from deodar.experiments.field_reader import ReadPlace, with_readers
 from deodar.experiments.observable import Observable
 from deodar.model import find
@@ -79,7 +80,7 @@ class StepCopies:
         self._first = [np.full(copies, float(find.value(self._doc, path))) for path in loop.act]
         batch = Batch(copies, None, leaves, restarts=True)
         body = embodied(self._doc, loop.world)
-        program = executable(model, self._doc, loop.precision, batch, body=body)
+        program = Dynamics(model, self._doc, loop.precision, body=body).compiled(batch)
         self._run = Run(program, self._doc, loop.dt, loop.seed, [0], loop.world, self._first)
         given = self._run.values, np.uint32(0), np.zeros(copies, np.uint32)
         own = {**dict.fromkeys(self._run.values), "swept": tuple(0 for _ in self._run.values["swept"])}

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from deodar.batch.driven import driven
+from deodar.compiler.driven import driven
 from deodar.errors import ParameterError, WorldError
 from deodar.experiments.events import Event, Reached
 from deodar.experiments.experiment import Experiment

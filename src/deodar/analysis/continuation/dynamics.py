@@ -14,7 +14,7 @@ import numpy as np
 from jax import Array
 from jax.flatten_util import ravel_pytree
 
-from deodar.batch.driven import driven
+from deodar.compiler.driven import driven
 from deodar.compiler.program import precision_context
 from deodar.compiler.pure_step import PRECISION, PureStep
 from deodar.element import Element

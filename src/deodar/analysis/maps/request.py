@@ -10,7 +10,7 @@ import numpy as np
 
 from deodar.analysis.isolated import Isolated, Isolation, isolate
 from deodar.analysis.selection import DISTANCE, places
-from deodar.batch.driven import driven
+from deodar.compiler.driven import driven
 from deodar.compiler.plan import Leaf
 from deodar.elements.field import Field
 from deodar.elements.gaussian_stimulus import GaussianStimulus
