@@ -139,12 +139,12 @@ def compute(
         more_trials = (filled.trials or len(numbers)) - len(numbers)
         place = distribution or device
         dynamics = Dynamics(model, doc, precision, request.accuracy, place, embodied(doc, world))
-        program = dynamics.compiled(filled)
         values = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values]
         numbered = [*numbers, *[numbers[-1]] * more_trials]
         if own_noise:
             numbered = _numbered(request.first, points.size + more_points, numbered)
-        run = Run(program, doc, float(step), seed, numbered, world, values if swept else None)
+        run = Run(dynamics, filled, float(step), seed, numbered, world, values if swept else None)
+        program = run.program
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
         settings = {name: getattr(request, name) for name in PROVENANCE}

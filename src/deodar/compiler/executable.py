@@ -38,7 +38,7 @@ from deodar.compiler.functions import Constants, Replacements
 from deodar.compiler.leaf_layout import LeafLayout
 from deodar.compiler.moment import packed, unpacked
 from deodar.compiler.plan import Leaf, Plan, plan, strategies_of
-from deodar.compiler.program import Chunk, Port, Program, precision_context
+from deodar.compiler.program import BEGUN, Chunk, Port, Program, precision_context
 from deodar.compiler.shard import DividedFields
 from deodar.element import Arrays
 from deodar.errors import ModelError, ParameterError, Untrusted
@@ -87,9 +87,6 @@ RARELY: cache.CompilerOptions = {"xla_backend_optimization_level": 0}
 """Options for functions that run once, or when a width changes, where `host` does not support them: they
 compile in half the time.
 """
-
-BEGUN = "begun"
-"""Key of the tick at which the time of a copy began, among the keys of noise."""
 
 BUFFER_BYTES = 16 * 2**20
 """Size of the recording buffer of a chunk."""
@@ -155,6 +152,7 @@ class Executable:
             copies=self.part.size if self.device.platform == "cpu" else 0,
             replaced=Replacements(self.kernels, None if self.fields is None else self.fields.tapped),
             pictures=body is None and batch.points is None and distribution is None,
+            restarts=batch.restarts,
         )
         self.division: Division | None = self.fields
         if distribution is not None and self.fields is None:

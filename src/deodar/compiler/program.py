@@ -53,6 +53,10 @@ class Port:
     name: str
 
 
+BEGUN = "begun"
+"""Key of the tick at which a copy began, among the keys of noise."""
+
+
 class _NotHere:
     """The placeholder of a live parameter inside `prepare`, which must not use it: any arithmetic raises.
 
@@ -114,6 +118,7 @@ class Program:
     `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
     `replaced`: functions that replace those of `numerics`.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
+    `restarts`: as of `Batch`.
     """
 
     def __init__(
@@ -125,6 +130,7 @@ class Program:
         copies: int = 1,
         replaced: Replacements | None = None,
         pictures: bool = False,
+        restarts: int = 0,
     ) -> None:
         self.plan = plan
         replaced = replaced or Replacements()
@@ -138,7 +144,10 @@ class Program:
             g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful
         ]
         cells = copies * sum(plan.groups[g].rows * _cells(plan.groups[g]) for g in paired)
-        self.kept = paired if cells >= (LEAST_NOISE if kernels is not None else BLOCKS_FROM) else []
+        enough = LEAST_NOISE if kernels is not None else BLOCKS_FROM
+        # a block of two ticks is drawn in one branch for all copies, unless a kernel contains the branch
+        alike = kernels is not None or restarts % 2 == 0
+        self.kept = paired if cells >= enough and alike else []
         self.slow = [
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
@@ -253,16 +262,18 @@ class Program:
 
     def draw(self, keys: NoiseKeys, tick: Array, start: Array, drawn: Arrays) -> Arrays:
         """The blocks that `tick` lies in: drawn at even ticks and at the tick `start` of the chunk."""
+        own = _since(keys, tick)
 
         def anew() -> Arrays:
             return {
-                str(g): jax.vmap(lambda key, g=g: self._block(g, key, tick))(keys[str(g)]) for g in self.kept
+                str(g): jax.vmap(lambda key, g=g: self._block(g, key, own))(keys[str(g)]) for g in self.kept
             }
 
         if not self.kept:
             return drawn
         if (kernels := self.kernels) is not None:  # a kernel contains the branch
-            rows = jax.vmap(lambda key, row: kernels.noise(key, tick, start, row))
+            first = _since(keys, start)
+            rows = jax.vmap(lambda key, row: kernels.noise(key, own, first, row))
             return {g: rows(keys[g], drawn[g]) for g in drawn}
         # the predicate is that of all copies; a branch is a computation of its own, which XLA fuses with no
         # other
@@ -469,10 +480,10 @@ class Program:
         group = self.plan.groups[g]
         if group.noise is None:
             return None
-        cells = shape(group.noise)
+        cells, own = shape(group.noise), _since(keys, tick)
         if drawn is not None:
-            return jax.vmap(lambda row: of_block(row, tick))(drawn).reshape(group.rows, *cells)
-        own = tick // jnp.uint32(group.like.every)
+            return jax.vmap(lambda row: of_block(row, own))(drawn).reshape(group.rows, *cells)
+        own = own // jnp.uint32(group.like.every)
         shaped = self.plan.shards is not None
         return jax.vmap(lambda key: normal(cells, key, own, self.dtype, shaped))(keys[str(g)])
 
@@ -543,6 +554,11 @@ class Program:
             if inside and group.cost[path] == "rebuild":
                 return True
         return False
+
+
+def _since(keys: NoiseKeys, tick: Array) -> Array:
+    """Return the ticks since a copy began, by which its noise is drawn."""
+    return tick - cast("Array", keys[BEGUN]) if BEGUN in keys else tick
 
 
 def array_key(g: int, path: str) -> str:

@@ -13,7 +13,6 @@ from deodar.compiler.arguments import ProgramState
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.driven import driven
 from deodar.compiler.dynamics import Dynamics
-from deodar.compiler.executable import RARELY
 from deodar.errors import NotFinite
 from deodar.experiments.running import RunningTrial, ScheduledAction
 from deodar.model import edit, find
@@ -65,8 +64,6 @@ class RunningCopies:
         self.leaves = [driven(self.doc, path) for path in self.swept]
         self._cells = memory.copy_bytes(resolve(self.doc)[0], "float32") // 4
         self.batch = self._begin(self.rows)
-        if self.leaves:
-            self._start(self.batch)
         self._first = host(self.batch.state) if self.restarts else None
 
     def good(self, ticks: np.ndarray) -> np.ndarray:
@@ -160,29 +157,16 @@ class RunningCopies:
         """Return a run of some trials at its start: trials of one batch, or points of a sweep if parameters
         differ.
         """
-        sweep = tuple(map(tuple, self.leaves))
-        begun = len(self.trials)
-        copies = Batch(len(rows), None, sweep, begun) if sweep else Batch(None, len(rows), begun=begun)
-        body = embodied(self.doc, self.world)
-        program = Dynamics(self.model, self.doc, self.precision, body=body).compiled(copies)
+        sweep, count, begun = tuple(map(tuple, self.leaves)), len(rows), len(self.trials)
+        own = Batch(count, None, sweep, begun, own_noise=True)
         trials = [self.trials[r] for r in rows]
+        numbers = [[trial] for trial in trials] if sweep else trials
         swept = [values[rows] for values in self.swept.values()] if sweep else None
-        run = Run(program, self.doc, self.dt, self.seed, trials[:1] if sweep else trials, self.world, swept)
-        run.tolerated = len(rows)
+        dynamics = Dynamics(self.model, self.doc, self.precision, body=embodied(self.doc, self.world))
+        copies = own if sweep else Batch(None, count, begun=begun)
+        run = Run(dynamics, copies, self.dt, self.seed, numbers, self.world, swept)
+        run.tolerated = count
         return run
-
-    def _start(self, run: Run) -> None:
-        """Start points as separate trials: points of a sweep share the noise and the world of one."""
-        program, values = run.program, run.values
-        own = {**dict.fromkeys(values), "swept": tuple(0 for _ in values["swept"])}
-        many = jax.vmap(program.program.init, in_axes=(own, None, 0))
-        given = values, np.uint32(self.seed), np.asarray(self.trials, np.uint32)
-        start, _ = program.compile(many, *given, options=RARELY)
-        run.state, run.keys = program.call(start, *given)
-        if run.exchange.inside:
-            assert self.world is not None
-            self.world.reset(self.seed, self.trials, self.precision)
-            run.shared, run.state, run.keys = program.embodied(self.world, run.state, run.keys)
 
 
 class CopyTrial(RunningTrial):

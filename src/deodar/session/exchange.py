@@ -119,7 +119,7 @@ class Exchange:
             own = trials if batch.own_noise else [trials] * (batch.points or 1)
             copies = np.ravel(np.asarray(own, np.uint32)).tolist()
             if (
-                batch.shape
+                batch.size > 1
                 and not self.inside
                 and (each := [s.sensor for s in self.sensors.values() if self._each(s)])
             ):

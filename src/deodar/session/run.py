@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from types import EllipsisType
+from typing import Any
 
 import jax
 import numpy as np
@@ -16,9 +17,14 @@ from jax.stages import Compiled
 from deodar.compiler import hosts
 from deodar.compiler.arguments import EitherArray, ProgramState, ProgramValues
 from deodar.compiler.body import unbatched
+from deodar.compiler.copy_batch import Batch
+from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.executable import ChunkResult, Executable, TrialNumbers
+from deodar.compiler.leaf_layout import require_range
 from deodar.compiler.moment import packed
-from deodar.compiler.program import Port
+from deodar.compiler.plan import strategies_of
+from deodar.compiler.program import BEGUN, Port
+from deodar.compiler.strategies import widths
 from deodar.element import Arrays
 from deodar.errors import NotFinite, TimeError
 from deodar.model.document import Document
@@ -27,6 +33,7 @@ from deodar.model.resolve import Node
 from deodar.model.unit import unit_seconds
 from deodar.numerics.pytree import PyTree
 from deodar.parameters import real, show
+from deodar.session.changes import LeafChange
 from deodar.session.clock import Clock
 from deodar.session.exchange import Exchange, ExchangeInstant
 from deodar.session.failure import CopyIndex, RowSpans, first_steps, not_finite
@@ -61,25 +68,49 @@ class _Looked:
     seen: Arrays
 
 
+@dc.dataclass(frozen=True)
+class _Starts:
+    """State and keys of each copy at the start of a trial."""
+
+    trials: np.ndarray
+    state: Any
+    keys: Any
+
+
 class Run:
-    """The run of one model, or of a batch of copies of it."""
+    """The run of one model, or of a batch of copies of it.
+
+    Args:
+        dynamics: what is computed.
+        copies: the copies that run together.
+        dt: Euler step.
+        seed: seed of all noise.
+        trials: number of the trial of each copy.
+        world: the world of the sensors and motors.
+        swept: for each entry of the sweep its value in each copy.
+
+    Attributes:
+        dynamics: what is computed now; its document has the present values of the parameters.
+        program: the compiled program.
+    """
 
     def __init__(
         self,
-        program: Executable,
-        doc: Document,
+        dynamics: Dynamics,
+        copies: Batch,
         dt: float,
         seed: int,
         trials: TrialNumbers,
         world: World | None,
         swept: Sequence[np.ndarray] | None = None,
     ) -> None:
-        self.seed = seed
+        doc = dynamics.doc
+        self.dynamics, self.seed = dynamics, seed
         self.trials: TrialNumbers = trials
         self.swept = swept
         self.clock = Clock(0, doc.t0, 0, dt)
         self.exchange = Exchange(doc, world)
-        self.load(program, doc)
+        self._load(dynamics.compiled(copies), doc)
         self.probe = PROBE_STEPS
         """Steps of the first chunk, which measures the pace."""
         self.tolerated = 0
@@ -92,22 +123,61 @@ class Run:
 
     # ------------------------------------------------------------------------------------- program and state
 
-    def load(self, program: Executable, doc: Document) -> None:
-        """Use another program and the parameters of a document; the state stays.
+    @property
+    def doc(self) -> Document:
+        """The document with the present values of the parameters."""
+        return self.dynamics.doc
+
+    def load(self, doc: Document) -> None:
+        """Use another document, with a program of its own; the state stays.
 
         After an error nothing changed.
         """
+        self._load(dc.replace(self.dynamics, doc=doc).compiled(self.program.batch), doc)
+
+    def _load(self, program: Executable, doc: Document) -> None:
         require_step(doc, self.clock.dt)
         self.exchange.take(doc)
         self.exchange.body = program.body
-        self.program, self.doc = program, doc
+        self.program, self.dynamics = program, dc.replace(self.dynamics, doc=doc)
         self.pace = 0.0
         """Steps per second of wall time; 0 before the first chunk of a program."""
         self.values = program.values(doc, self.swept)
         self.constants = program.prepare(self.values)
 
+    def cost(self, changed: Sequence[LeafChange] | None, doc: Document) -> str:
+        """Return the cost of continuing with a document, of which these leaves changed: live, rebuild or
+        recompile.
+        """
+        if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
+            return "recompile"
+        if "rebuild" not in {cost for _, _, cost, _ in changed}:
+            return "live"
+        parts, old = self.program.distribution, self.doc
+        if self.program.exact or widths(old) == widths(doc):
+            return "rebuild"
+        count = 1 if parts is None else len(parts.devices)
+        same = strategies_of(old, devices=count) == strategies_of(doc, devices=count)
+        return "rebuild" if same else "recompile"
+
+    def change(self, doc: Document, changed: Sequence[LeafChange]) -> None:
+        """Write new values of leaves to the program's vector and arrays, and rebuild constants if needed."""
+        vector = np.array(self.values["vector"])
+        arrays = {name: np.asarray(a) for name, a in self.values["arrays"].items()}
+        for leaf, value, _, _ in changed:
+            if isinstance(value, np.ndarray):
+                self.program.layout.put_array(arrays, leaf, value)
+            else:
+                require_range(self.doc, leaf, value, self.dynamics.precision)
+                self.program.layout.put(vector, leaf, value)
+        values: ProgramValues = {**self.values, "vector": vector, "arrays": {**arrays}}
+        if any(cost == "rebuild" for _, _, cost, _ in changed):
+            self.constants = self.program.prepare(values)
+        self.values, self.dynamics = values, dc.replace(self.dynamics, doc=doc)
+
     def reset(self) -> None:
         """Reset state, time, noise and world to the start; parameters stay."""
+        self._starts: _Starts | None = None
         self.state, self.keys = self.program.init(self.values, self.seed, self.trials)
         self.clock = Clock(0, self.doc.t0, 0, self.clock.dt)
         self.exchange.reset(self.seed, self.trials, self.program.batch, self.program.precision)
@@ -118,6 +188,52 @@ class Run:
                 self.exchange.world, self.state, self.keys
             )
         self.forget()
+
+    def begin(self, seed: int, trials: TrialNumbers) -> None:
+        """Begin again, at time 0, with other trials of a seed."""
+        self.seed, self.trials = seed, trials
+        self.reset()
+
+    def restart(self, rows: np.ndarray, trials: TrialNumbers) -> None:
+        """Begin again in some copies of a batch that `restarts`, at the present tick; in a world on the host
+        at time 0.
+
+        Args:
+            rows: numbers of these copies.
+            trials: for every copy the number of the trial that it begins, or would.
+        """
+        if self.world is not None and not self.exchange.inside:
+            self.begin(self.seed, trials)
+            return
+        if self._starts is None or np.any(np.take(self._starts.trials, rows, 0) != np.take(trials, rows, 0)):
+            # of all copies at once: each of the others takes its own when it begins again
+            self._starts = self._begun(trials)
+        begun = self._starts
+        begun.keys[BEGUN][rows] = self.clock.tick % 2**32
+
+        def taken(now: Array, start: np.ndarray) -> np.ndarray:
+            values = np.array(now)
+            values[rows] = start[rows]
+            return values
+
+        self.state, self.keys = jax.tree.map(taken, (self.state, self.keys), (begun.state, begun.keys))
+
+    def _begun(self, trials: TrialNumbers) -> _Starts:
+        values: ProgramValues = self.program.values(self.doc, self.swept)
+        state, keys = self.program.init(values, self.seed, trials)
+        if self.exchange.inside:
+            assert self.world is not None
+            self.world.reset(self.seed, np.ravel(trials).tolist(), self.program.precision)
+            self.shared, state, keys = self.program.embodied(self.world, state, keys)
+        return _Starts(np.asarray(trials), *jax.tree.map(np.array, (state, keys)))
+
+    def sweep(self, columns: Sequence[np.ndarray]) -> None:
+        """Give each entry of the sweep other values in the copies; `begin` and `restart` begin with the first
+        ones.
+        """
+        values = self.values.copy()
+        values["swept"] = self.program.layout.points(columns)
+        self.values = values
 
     def forget(self) -> None:
         """Discard all readings of sensors, so that the next step reads them again.
@@ -194,7 +310,7 @@ class Run:
                     hosts.gathered(a)[(slice(None),) * len(self.program.batch.shape) + (slice(0, records),)]
                     for a in seen
                 )
-                self._require_finite(ports, kept, every)
+                self.require_finite(ports, kept, every)
                 collect(taken, kept)
                 taken, done, due = taken + records, done + used, due + records * every
             if progress is not None:
@@ -434,7 +550,7 @@ class Run:
                 return names
         return []
 
-    def _require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
+    def require_finite(self, ports: Sequence[Port], kept: Sequence[np.ndarray], every: int) -> None:
         """Raise NotFinite for records that are not finite although all states are: outputs of couplings."""
         lead = len(self.program.batch.shape)
         for port, values in zip(ports, kept, strict=True):

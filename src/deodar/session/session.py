@@ -12,16 +12,12 @@ from typing import Any
 import numpy as np
 
 from deodar.compiler import hosts
-from deodar.compiler.arguments import ProgramValues
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.device import several
 from deodar.compiler.division import distributed
 from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.executable import Executable
-from deodar.compiler.leaf_layout import require_range
-from deodar.compiler.plan import strategies_of
 from deodar.compiler.program import Port
-from deodar.compiler.strategies import widths
 from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError
 from deodar.leaves import step_limits
 from deodar.model import edit, find
@@ -32,7 +28,7 @@ from deodar.parameters import FrozenArray, show
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described, stored
 from deodar.session import agreement, memory, rearrange
-from deodar.session.changes import LeafChange, changed_leaves
+from deodar.session.changes import changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
 from deodar.session.meter import Meter
@@ -92,16 +88,15 @@ class Session:
         devices: int | str | None = None,
     ) -> None:
         self._model = model
-        self.device, self._accuracy = device, accuracy
-        self._distribution = distributed(Batch(), several(devices, device))[0]
-        self._precision = precision
+        self.device = device
+        distribution = distributed(Batch(), several(devices, device))[0]
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
         self._recorder: Recorder | None = None
         self._agreed: tuple[Document, str] | None = None
         self._ports: dict[str, tuple[Executable, Port]] = {}
         doc = require_model(model).document
-        across = self._distribution is not None and self._distribution.across
+        across = distribution is not None and distribution.across
         hosts.require_one("a world", across and world is not None)
         if across:
             about = {"dt": dt, "seed": seed, "trial": trial, "precision": precision, "accuracy": accuracy}
@@ -111,9 +106,8 @@ class Session:
         memory.require(resolve(doc)[0], precision, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
-        self._run = Run(
-            self.compiled(doc), doc, float(step), require_seed(seed), [require_seed(trial)], world
-        )
+        dynamics = Dynamics(model, doc, precision, accuracy, distribution or device)
+        self._run = Run(dynamics, Batch(), float(step), require_seed(seed), [require_seed(trial)], world)
         agreement.warn(doc, world, stacklevel=2)
 
     # ------------------------------------------------------------------------------------------------ running
@@ -163,9 +157,9 @@ class Session:
         Raises:
             DeviceError: several devices divide the fields, so that no element is computed alone.
         """
-        if self._distribution is not None:
+        if (parts := self.program.distribution) is not None:
             raise DeviceError(
-                f"costs are measured on one device, and {len(self._distribution.devices)} divide the fields",
+                f"costs are measured on one device, and {len(parts.devices)} divide the fields",
                 fix="Make a session without devices",
             )
         return moment(self._run)
@@ -264,8 +258,7 @@ class Session:
 
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
         """Compile the program that this session would run a document with; `model` caches it."""
-        of, where = model or self._model, self._distribution or self.device
-        return Dynamics(of, document, self._precision, self._accuracy, where).compiled()
+        return dc.replace(self._run.dynamics, model=model or self._model, doc=document).compiled()
 
     def precompile(self, program: Executable) -> None:
         """Compile what this session calls of a program; another thread may do it while the session runs."""
@@ -275,19 +268,7 @@ class Session:
 
     def cost(self, document: Document) -> str:
         """Return the cost of continuing with another document: live, rebuild or recompile."""
-        return self._cost(document, changed_leaves(self.document, document))
-
-    def _cost(self, document: Document, changed: Sequence[LeafChange] | None) -> str:
-        if changed is None or not all(self.program.holds(leaf) and not off for leaf, _, _, off in changed):
-            return "recompile"
-        if "rebuild" not in {cost for _, _, cost, _ in changed}:
-            return "live"
-        exact, old = self._accuracy == "exact" or self._precision == "float64", self.document
-        if exact or widths(old) == widths(document):
-            return "rebuild"
-        count = 1 if self._distribution is None else len(self._distribution.devices)
-        same = strategies_of(old, devices=count) == strategies_of(document, devices=count)
-        return "rebuild" if same else "recompile"
+        return self._run.cost(changed_leaves(self.document, document), document)
 
     def read(self, path: str | Handle) -> np.ndarray:
         """Return the present value of a port: an array over the port's axes, of shape () for a node.
@@ -334,7 +315,7 @@ class Session:
             rows(run.program, run.state),
             run.clock,
             run.seed,
-            self._precision,
+            self.precision,
             run.exchange.keep(),
         )
 
@@ -344,9 +325,9 @@ class Session:
             raise ParameterError(
                 f"expected a snapshot, got {show(snapshot)}", fix="Take one with session.snapshot()"
             )
-        if snapshot.precision != self._precision:
+        if snapshot.precision != self.precision:
             raise ParameterError(
-                f"the snapshot was taken in {snapshot.precision}, this session runs in {self._precision}"
+                f"the snapshot was taken in {snapshot.precision}, this session runs in {self.precision}"
             )
         if not set(self.document.by_id()) & set(snapshot.document.by_id()):
             raise ParameterError(f"the snapshot is of another model, {snapshot.document.name!r}")
@@ -372,7 +353,7 @@ class Session:
             if world is not self.world:
                 run.see(world, snapshot.document)
             if snapshot.document != self.document:
-                run.load(self.compiled(snapshot.document), snapshot.document)
+                run.load(snapshot.document)
                 self._ports.clear()
         except BaseException:
             run.clock, run.seed, run.exchange = before
@@ -551,7 +532,7 @@ class Session:
     @property
     def precision(self) -> str:
         """Precision, float32 or float64."""
-        return self._precision
+        return self._run.dynamics.precision
 
     def __repr__(self) -> str:
         return (
@@ -611,30 +592,14 @@ class Session:
             limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)
         ):
             self.require(doc)  # other leaves have no effect on the limit of the step
-        if changed is not None and self._cost(doc, changed) != "recompile":
-            return self._change(doc, changed)
+        cost = run.cost(changed, doc)
+        if changed is not None and cost != "recompile":
+            run.change(doc, changed)
+            return cost
         states = rows(run.program, run.state)
-        run.load(self.compiled(doc), doc)
+        run.load(doc)
         fill(run, states)
         return "recompile"
-
-    def _change(self, doc: Document, changed: Sequence[LeafChange]) -> str:
-        """Write new values of leaves to the program's vector and arrays, and rebuild constants if needed."""
-        run = self._run
-        vector = np.array(run.values["vector"])
-        arrays = {name: np.asarray(a) for name, a in run.values["arrays"].items()}
-        for leaf, value, _, _ in changed:
-            if isinstance(value, np.ndarray):
-                run.program.layout.put_array(arrays, leaf, value)
-            else:
-                require_range(run.doc, leaf, value, self._precision)
-                run.program.layout.put(vector, leaf, value)
-        values: ProgramValues = {**run.values, "vector": vector, "arrays": {**arrays}}
-        costs = {cost for _, _, cost, _ in changed}
-        if "rebuild" in costs:
-            run.constants = run.program.prepare(values)
-        run.values, run.doc = values, doc
-        return "rebuild" if "rebuild" in costs else "live"
 
 
 def require_model(model: Model) -> Model:

@@ -14,6 +14,7 @@ import numpy as np
 
 from deodar.architectures.looking import looking
 from deodar.batch.simulate import simulate
+from deodar.compiler.copy_batch import Batch
 from deodar.compiler.dynamics import Dynamics
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model
@@ -85,8 +86,9 @@ def learn(
         progress: called with the number of gazes.
     """
     document = model.document
-    program = Dynamics(model, document, body=embodied(document, world)).compiled()
-    run = Run(program, document, STEP, seed, [0], world)
+    dynamics = Dynamics(model, document, body=embodied(document, world))
+    run = Run(dynamics, Batch(), STEP, seed, [0], world)
+    program = run.program
     idents = {entry.path: entry.id for entry in document.entries}
     names = [name for name in SIGNALS if name.split(".")[0] in idents]
     ports = [

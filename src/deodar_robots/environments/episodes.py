@@ -9,7 +9,7 @@ import numpy as np
 from deodar.errors import ParameterError
 from deodar.experiments.observations import Observations
 from deodar.parameters import show
-from deodar_robots.environments.copies import HostCopy, LoopCopies, PortValues, StepCopies
+from deodar_robots.environments.copies import LoopCopies, PortValues
 from deodar_robots.environments.loop import ClosedLoop
 
 
@@ -23,7 +23,7 @@ class Episodes:
 
     def __init__(self, loop: ClosedLoop, copies: int) -> None:
         self.loop, self.count = loop, copies
-        self._copies: LoopCopies = StepCopies(loop, copies) if loop.pure else HostCopy(loop)
+        self._copies = LoopCopies(loop, copies)
         self._observed = Observations(loop.until, (), copies)
         self._periods = np.zeros(copies, int)
         self._episode = np.arange(copies)

@@ -217,6 +217,30 @@ def test_the_noise_of_an_episode_follows_from_the_seed_and_its_number():
     assert len({tuple(e[1:].tolist()) for e in episodes}) == 9, "nine episodes with noise of their own"
 
 
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("steps", [2, 3])
+def test_every_episode_of_a_copy_has_the_noise_of_a_run_of_its_trial(steps: int, precision: str):
+    """In blocks of two ticks, which begin at odd ticks of the batch too, and in parts of two ticks."""
+    model, x = dd.Model("noisy", dt=5.0), dd.Axis("x", 0, 500, 501)
+    u = model.add(dd.Field("u", [x], tau=20.0, noise=1.0))
+    model.add(dd.Boost("given", amplitude=1.0)) >> u
+    if steps == 2:
+        u >> model.add(dd.Field("slow", [x], tau=40.0, noise=1.0), ticks=2)
+    experiment = dd.Experiment(
+        "noisy", model, limit=5.0 * 3 * steps, every=5.0 * steps, precision=precision, seed=5
+    )
+    env = dd.as_env(experiment, {"given.amplitude": (-8.0, 8.0)}, ["u"], copies=3)
+    alone = dd.as_env(experiment, {"given.amplitude": (-8.0, 8.0)}, ["u"])
+    env.reset()
+    for episode in range(3):
+        seen = [(s, info) for s, *_, info in (env.step(np.ones((3, 1))) for _ in range(3))]
+        many = np.array([seen[0][0], seen[1][0], seen[2][1]["final_obs"]])
+        for k in range(3):
+            alone.reset(options={"trial": 3 * episode + k})
+            one = [alone.step(np.ones(1))[0] for _ in range(3)]
+            np.testing.assert_allclose(many[:, k], one, atol=1e-4 if precision == "float32" else 1e-10)
+
+
 def test_episodes_repeat_the_trials_of_an_experiment():
     model = driving()
     starts = [(20, 30, 0.0), (25, 30, 1.0), (20, 35, 2.0)]

@@ -16,7 +16,7 @@ export type PlotDeclaration = {
   tab?: (name: string) => string;
   // The most axes of an array in the figure that `deodar plot` draws of it; without it there is none.
   figure?: number;
-  // What draws it: the export of this name of `NAME.tsx`, beside this file or in `scenes` if it uses three.js.
+  // What draws it: the export of this name of `NAME.tsx`, here or in `scenes` if it uses three.js.
   component: string;
 };
 
