@@ -22,8 +22,8 @@ class Batch:
         sweep: the leaves that differ between points, for each entry of the sweep.
         begun: number of copies with which a batch began that has fewer now; 0: those that it has. The
             operations are those of that number, so that the state of the larger batch fits.
-        restarts: each copy begins at a tick of its own, a multiple of this number, from which its time and its
-            noise count (`BEGUN` of the keys); 0: all copies begin together.
+        restarts: each copy begins at a tick of its own, a multiple of this number, from which its time and
+            its noise count (`BEGUN` of the keys); 0: all copies begin together.
         own_noise: whether each point has trial numbers of its own: (points, trials) instead of (trials).
     """
 

@@ -144,15 +144,16 @@ class Executable:
             None if fields is None else DividedFields(fields, self.plan, np.dtype(precision).itemsize)
         )
         self.layout = LeafLayout(self.plan, precision, batch.sweep)
+        # a block of two deviates is drawn in one branch for all copies, unless a kernel contains the branch
+        alike = self.kernels is not None or batch.restarts % 2 == 0
         self.program = Program(
             self.plan,
             precision,
             self.layout.swept,
             body,
-            copies=self.part.size if self.device.platform == "cpu" else 0,
+            copies=self.part.size if self.device.platform == "cpu" and alike else 0,
             replaced=Replacements(self.kernels, None if self.fields is None else self.fields.tapped),
             pictures=body is None and batch.points is None and distribution is None,
-            restarts=batch.restarts,
         )
         self.division: Division | None = self.fields
         if distribution is not None and self.fields is None:

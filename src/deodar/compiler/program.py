@@ -115,10 +115,10 @@ class Program:
         drawn: noise of the fast groups for both ticks of a block (`draw`); without them it is drawn every
             tick.
 
-    `copies`: how many copies of the model are computed at once; 0 on a device that waits at every branch.
+    `copies`: how many copies of the model are computed at once; 0 where no branch serves all of them, and on a
+    device that waits at every branch.
     `replaced`: functions that replace those of `numerics`.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
-    `restarts`: as of `Batch`.
     """
 
     def __init__(
@@ -130,7 +130,6 @@ class Program:
         copies: int = 1,
         replaced: Replacements | None = None,
         pictures: bool = False,
-        restarts: int = 0,
     ) -> None:
         self.plan = plan
         replaced = replaced or Replacements()
@@ -144,10 +143,7 @@ class Program:
             g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful
         ]
         cells = copies * sum(plan.groups[g].rows * _cells(plan.groups[g]) for g in paired)
-        enough = LEAST_NOISE if kernels is not None else BLOCKS_FROM
-        # a block of two ticks is drawn in one branch for all copies, unless a kernel contains the branch
-        alike = kernels is not None or restarts % 2 == 0
-        self.kept = paired if cells >= enough and alike else []
+        self.kept = paired if cells >= (LEAST_NOISE if kernels is not None else BLOCKS_FROM) else []
         self.slow = [
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
