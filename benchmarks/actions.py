@@ -8,9 +8,10 @@ before it is timed, so that none compiles; the least of three rounds counts. Tim
 
 from __future__ import annotations
 
+import functools
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 os.environ["NPROC"] = "1"
 
@@ -56,13 +57,6 @@ def least(run: Callable[[], object]) -> float:
     return min(spent)
 
 
-def alone(model: dd.Model, given: Sequence[dd.Action], world: dd.Arena) -> list[dd.Trial]:
-    """The trials one by one."""
-    return [
-        dd.run_trial(model, STEPS, world, trial=k, events=[TOUCHED], actions=given) for k in range(TRIALS)
-    ]
-
-
 def main() -> None:
     """Print the times."""
     world = dd.Arena(ROOM, unit="cm", start=(10, 20, 0))
@@ -70,12 +64,11 @@ def main() -> None:
     print(f"{TRIALS} trials of {STEPS} steps in an arena; load {os.getloadavg()[0]:.1f}")
     for name, when in (("timed", ""), ("events", "touched")):
         model, given = robot(), actions(when)
-        batch = least(
-            lambda model=model, given=given: dd.run_batch(
-                model, STEPS, range(TRIALS), events=[TOUCHED], actions=given, world=world
-            )
+        plan = dd.TrialPlan(STEPS, events=[TOUCHED], actions=given)
+        batch, single = (
+            least(functools.partial(dd.Trials(model, plan, world, together=together).run, range(TRIALS)))
+            for together in (True, False)
         )
-        single = least(lambda model=model, given=given: alone(model, given, world))
         print(f"{name:8} {batch:6.3f} s in a batch, {single:6.3f} s one by one, {single / batch:.0f} times")
 
 

@@ -153,8 +153,8 @@ from deodar.experiments.merging import merge_results as merge_results
 from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.stored_records import open_records as open_records
-from deodar.experiments.trial_batch import run_batch as run_batch
-from deodar.experiments.trial_run import run_trial as run_trial
+from deodar.experiments.trial_plan import TrialPlan as TrialPlan
+from deodar.experiments.trials import Trials as Trials
 from deodar.exporters.exporting import export as export
 from deodar.figures._files import save_figure as save_figure
 from deodar.figures.bifurcation import bifurcation_diagram as bifurcation_diagram

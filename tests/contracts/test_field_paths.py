@@ -9,6 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.recording.record import about
+from tests.deodar.experiments.calls import run_alone, run_together
 
 X = dd.Axis("x", 0, 10, samples=11)
 
@@ -41,7 +42,7 @@ def test_a_session_reads_the_activation_by_the_path_of_a_field(model: dd.Model) 
 
 
 @pytest.mark.parametrize(
-    "run", [dd.run_trial, lambda *a, **k: dd.run_batch(*a, trials=[0], **k)[0]], ids=["trial", "batch"]
+    "run", [run_alone, lambda *a, **k: run_together(*a, numbers=[0], **k)[0]], ids=["trial", "batch"]
 )
 def test_trials_by_the_path_of_a_field_read_its_activation(model: dd.Model, run) -> None:
     course = run(model, 3, watch=["g.u", "g.u.activation"], measures=[dd.Measure("end", "g.u", "min")])

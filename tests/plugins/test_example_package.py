@@ -14,6 +14,7 @@ import deodar as dd
 from deodar import registry
 from deodar.cli import main
 from deodar_studio.views.view import kinds
+from tests.deodar.experiments.calls import run_alone
 
 pytestmark = pytest.mark.usefixtures("example")
 
@@ -118,7 +119,7 @@ def test_an_experiment_with_the_kind_the_world_and_the_measure_runs(
         capsys.readouterr().err
     )
     results = dd.load_results(tmp_path / "out")
-    trial = dd.run_trial(
+    trial = run_alone(
         dd.load(tmp_path / "model.json"), 30, watch=["field"], world=registry.kind("Lamp")(10), dt=1
     )
     u = trial.values["field"]
@@ -142,7 +143,7 @@ def test_an_experiment_with_a_measure_of_a_package_is_written_and_batched(
     together = dataclasses.replace(loaded, world="", conditions=(), trials=2, measures=loaded.measures[1:])
     together = dataclasses.replace(together, model=_without_eye(tmp_path))
     assert together.setup().batched
-    alone = dd.run_trial(together.model, 30, measures=together.measures)
+    alone = run_alone(together.model, 30, measures=together.measures)
     assert together.run()["width"].values.tolist() == [alone.measures["width"]] * 2
 
 

@@ -108,8 +108,6 @@ def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
         "deodar/analysis/continuation/continuation.py continuation",
         "deodar/batch/simulate.py simulate",
         "deodar_interop/compat/cosivina/window_controls.py __init__",
-        "deodar/experiments/trial_batch.py run_batch",
-        "deodar/experiments/trial_run.py run_trial",
         "deodar/session/session.py __init__",
         "deodar/worlds/arena/arena.py __init__",
         "deodar_robots/eye/eye.py __init__",

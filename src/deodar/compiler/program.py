@@ -115,8 +115,8 @@ class Program:
         drawn: noise of the fast groups for both ticks of a block (`draw`); without them it is drawn every
             tick.
 
-    `copies`: how many copies of the model are computed at once; 0 where no branch serves all of them, and on a
-    device that waits at every branch.
+    `copies`: how many copies of the model are computed at once; 0 where no branch serves all of them, and on
+    a device that waits at every branch.
     `replaced`: functions that replace those of `numerics`.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
     """

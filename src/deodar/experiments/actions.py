@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from deodar.errors import ParameterError, RunWarning, UnknownName, WorldError, did_you_mean
-from deodar.experiments.running import RunningTrial
+from deodar.experiments.running_trial import RunningTrial
 from deodar.family import Family
 from deodar.model import find
 from deodar.model.document import Document

@@ -43,7 +43,7 @@ def acted(
             raise ParameterError(
                 "cannot be set in one trial of a batch: changing it makes another program",
                 where=path,
-                fix="Run the trials one by one: dd.run_trial(...)",
+                fix="Run the trials one by one: dd.Trials(..., together=False)",
             )
         found.setdefault(path, np.full(trials, float(find.value(doc, path))))
     return found | {f"{boost}.amplitude": np.zeros(trials) for boost in pushes.values()}

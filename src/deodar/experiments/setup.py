@@ -20,8 +20,8 @@ from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.record_target import RECORD, PieceRecords, RecordTarget
 from deodar.experiments.rows import KEY, Row
 from deodar.experiments.trial import Trial
-from deodar.experiments.trial_batch import run_batch
-from deodar.experiments.trial_run import run_trial
+from deodar.experiments.trial_plan import TrialPlan
+from deodar.experiments.trials import Trials
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find
 from deodar.model.model import Model, load
@@ -61,6 +61,7 @@ class Setup:
     model: Model
     world: World | None
     store: str = field(default="", repr=False)
+    _kept: dict[Any, tuple[Trials, Model]] = field(default_factory=dict[Any, Any], init=False, repr=False)
 
     @classmethod
     def open(cls, experiment: Design, trust: bool = False) -> Setup:
@@ -230,29 +231,26 @@ class Setup:
         self, trials: Sequence[int], watch: Sequence[str], watched: Sequence[int] | None = None
     ) -> list[tuple[int, Trial, Model]]:
         e = self.experiment
-        given: dict[str, Any] = {
-            "seed": e.seed,
-            "every": e.every,
-            "dt": e.dt,
-            "precision": e.precision,
-            "measures": e.measures,
-            "watch": watch,
-        }
-        given |= {"events": e.conditions, "world": self.world, "tolerant": True}
         if not self.batched:
-            out: list[tuple[int, Trial, Model]] = []
-            for k in trials:
-                model = self._with(self.changes(k))
-                out.append((k, run_trial(model, e.limit, trial=k, actions=e.actions, **given), model))
-            return out
+            alone = [(k, *self._prepared(self.changes(k), watch)) for k in trials]
+            return [(k, prepared.results([k], e.seed)[0], model) for k, prepared, model in alone]
         own = [self.changes(k) for k in trials]
-        model = self._with({path: value for path, value in own[0].items() if path not in self.swept})
-        values = {
-            path: [float(changes.get(path, self.model.get(path))) for changes in own] for path in self.swept
-        }
-        given |= {"values": values, "watched": watched, "actions": e.actions}
-        results = run_batch(model, e.limit, trials, **given)
+        fixed = {path: value for path, value in own[0].items() if path not in self.swept}
+        prepared, model = self._prepared(fixed, watch)
+        values = {path: [float(changes.get(path, model.get(path))) for changes in own] for path in self.swept}
+        results = prepared.results(trials, e.seed, values, watched=watched)
         return [(k, result, model) for k, result in zip(trials, results, strict=True)]
+
+    def _prepared(self, changes: Mapping[str, Any], watch: Sequence[str]) -> tuple[Trials, Model]:
+        """Return the trials of a model with other parameters, and the model; the last ones are kept."""
+        e = self.experiment
+        # levels are the same objects in every trial
+        key = tuple(watch), tuple((path, id(value)) for path, value in changes.items())
+        if key not in self._kept:
+            model = self._with(changes)
+            plan = TrialPlan(e.limit, watch, e.conditions, e.measures, e.actions, e.every, e.dt)
+            self._kept = {key: (Trials(model, plan, self.world, e.precision, self.batched), model)}
+        return self._kept[key]
 
     def _with(self, changes: Mapping[str, Any]) -> Model:
         """Return the model with other parameters; it shares the compiled programs."""

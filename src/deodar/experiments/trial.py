@@ -9,7 +9,7 @@ import numpy as np
 
 from deodar.errors import NotFinite
 from deodar.experiments.observations import TIME as TIME
-from deodar.experiments.running import Kept
+from deodar.experiments.running_trial import Kept
 
 Value = float | list[float] | None
 

@@ -126,7 +126,7 @@ class Exchange:
                 raise WorldError(
                     f"{', '.join(sorted(set(each)))} differ from copy to copy, and a batch of copies cannot"
                     " be run in this world",
-                    fix="Run them one by one: dd.run_trial(..., trial=0), or an experiment",
+                    fix="Run them one by one: dd.Trials(..., together=False), or an experiment",
                 )
             with errors_of(self.world, "reset"):
                 self.world.reset(seed, copies, precision)

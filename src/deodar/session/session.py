@@ -19,7 +19,6 @@ from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
 from deodar.errors import DeviceError, ModelError, ParameterError, TimeError, UnknownName, WorldError
-from deodar.leaves import step_limits
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -28,6 +27,7 @@ from deodar.parameters import FrozenArray, show
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described, stored
 from deodar.session import agreement, memory, rearrange
+from deodar.session.adopt import adopt, require
 from deodar.session.changes import changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
@@ -252,9 +252,7 @@ class Session:
             TimeError: the step is too long for a time constant.
             WorldError: the world does not have a sensor or motor of the document.
         """
-        for step in {self.dt, self.next_dt}:
-            require_step(document, step)
-        self._run.exchange.require(document)
+        require(self._run, document, (self.dt, self.next_dt))
 
     def compiled(self, document: Document, model: Model | None = None) -> Executable:
         """Compile the program that this session would run a document with; `model` caches it."""
@@ -290,7 +288,7 @@ class Session:
         parameter has changed.
         """
         values = edit.assignments(path, value)
-        cost = self._adopt(edit.change_all(self.document, values))
+        cost = adopt(self._run, edit.change_all(self.document, values), (self.dt, self.next_dt))
         self.journal += [
             Change(self.tick, at, FrozenArray(v) if isinstance(v, np.ndarray) else v)
             for at, v in values.items()
@@ -302,7 +300,7 @@ class Session:
 
         Return the cost.
         """
-        cost = self._adopt(document)
+        cost = adopt(self._run, document, (self.dt, self.next_dt))
         self._ports.clear()
         self.journal.append(Change(self.tick, "document", document))
         return cost
@@ -583,23 +581,6 @@ class Session:
             entry, name = find.shown(self.document, path)
             self._ports[path] = (program, program.port(entry.id, name))
         return self._ports[path][1]
-
-    def _adopt(self, doc: Document) -> str:
-        run = self._run
-        changed = changed_leaves(run.doc, doc)
-        by = doc.by_id()
-        if changed is None or any(
-            limit.path == path for (i, path), *_ in changed for limit in step_limits(by[i].element)
-        ):
-            self.require(doc)  # other leaves have no effect on the limit of the step
-        cost = run.cost(changed, doc)
-        if changed is not None and cost != "recompile":
-            run.change(doc, changed)
-            return cost
-        states = rows(run.program, run.state)
-        run.load(doc)
-        fill(run, states)
-        return "recompile"
 
 
 def require_model(model: Model) -> Model:

@@ -74,7 +74,7 @@ class PureWorld(World):
         """
         raise WorldError(
             f"the objects of the world {type(self).__name__} cannot be changed in one trial of a batch",
-            fix="Run the trials one by one: dd.run_trial(...)",
+            fix="Run the trials one by one: dd.Trials(..., together=False)",
         )
 
     def own_values(self, trial: int) -> dict[str, np.ndarray]:

@@ -19,7 +19,8 @@ from deodar.experiments.actions import Action
 from deodar.experiments.events import All, AnyOf, Crosses, Event
 from deodar.experiments.rows import Row
 from deodar.experiments.trial import Trial
-from deodar.experiments.trial_batch import run_batch
+from deodar.experiments.trial_plan import TrialPlan
+from deodar.experiments.trials import Trials
 from deodar.model.model import Model
 from deodar.numerics.windows import Window
 from deodar.worlds.arena.arena import Arena
@@ -166,7 +167,7 @@ def run_many(
         settings: their common settings.
         seed: seed of all noise.
         watch: paths of ports that are sampled too.
-        between: called after each call of the program, as in `run_batch`.
+        between: called after each call of the program, as in `Trials.run`.
 
     Raises:
         ParameterError: a lesson has another number of colours than its sequence, or an arena lacks a wanted
@@ -193,20 +194,10 @@ def run_many(
             Crosses(f"looks for {k}", f"produced {k}.output", 0.5, ends=False) for k in range(1, length + 1)
         )
         events = [*looks, *events]
-    trials = run_batch(
-        model,
-        produced + settings.limit,
-        range(len(runs)),
-        list(dict.fromkeys([*needed, *watch])),
-        events,
-        seed=seed,
-        world=_world(runs, produced, settings),
-        every=every,
-        between=between,
-        values=_values(model, settings.varied),
-        actions=settings.actions,
-        tolerant=True,
-    )
+    limit, watched = produced + settings.limit, list(dict.fromkeys([*needed, *watch]))
+    plan = TrialPlan(limit, watched, events, actions=settings.actions, every=every)
+    prepared = Trials(model, plan, _world(runs, produced, settings))
+    trials = prepared.results(range(len(runs)), seed, _values(model, settings.varied), between)
     return [(trial, produced) for trial in trials]
 
 
@@ -246,16 +237,9 @@ def read_weights(runs: Sequence[TaughtRun], settings: Settings, seed: int = 0) -
     for k in range(1, length + 2):
         pulse >> model[f"item {k}.node"]
     limit = READ * (length + 1)
-    trials = run_batch(
-        model,
-        produced + limit,
-        range(len(runs)),
-        ["all meanings.output"],
-        seed=seed,
-        world=_world([replace(run, arena=replace(run.arena, blocks=())) for run in runs], produced, settings),
-        every=READ / 8,
-        tolerant=True,
-    )
+    world = _world([replace(run, arena=replace(run.arena, blocks=())) for run in runs], produced, settings)
+    plan = TrialPlan(produced + limit, ["all meanings.output"], every=READ / 8)
+    trials = Trials(model, plan, world).results(range(len(runs)), seed)
     # read shortly before each pulse
     at = [round((begin - 200.0) / (READ / 8)) for begin in begins]
     return [trial.values["all meanings.output"][at] for trial in trials]

@@ -16,8 +16,8 @@ from deodar.experiments.actions import Move
 from deodar.experiments.events import Leaves, Within
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.experiments.trial_batch import run_batch
-from deodar.experiments.trial_run import run_trial
+from deodar.experiments.trial_plan import TrialPlan
+from deodar.experiments.trials import Trials
 from deodar.model.model import Model
 from deodar.worlds.arena.arena import Arena
 from deodar_papers.spa import cases
@@ -90,9 +90,10 @@ def planner(name: str, quick: bool, trial: int) -> Sequence[Row]:
     moves = c.name.startswith("moved")
     if moves:  # exchanged outside the step
         actions = [Move(cases.MOVES, "goal", place(*cases.GOES))]
-        course = run_trial(model, LIMIT, arena, trial=trial, watch=watch, events=events, actions=actions)
+        plan = TrialPlan(LIMIT, watch, events, actions=actions)
+        [course] = Trials(model, plan, arena, together=False).run([trial])
     else:
-        [course] = run_batch(model, LIMIT, [trial], [*watch, *motivated.values()], events, world=arena)
+        [course] = Trials(model, TrialPlan(LIMIT, [*watch, *motivated.values()], events), arena).run([trial])
     start, goal = (
         (place(*CASE_3[0]), place(*CASE_3[1]))
         if not c.many_starts

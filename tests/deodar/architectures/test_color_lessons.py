@@ -6,6 +6,7 @@ import numpy as np
 
 import deodar as dd
 from deodar.experiments.trial import Trial
+from tests.deodar.experiments.calls import run_alone
 
 RED = (0.9, 0.0, 0.0)
 WEIGHTS, NODE = "item 1.meaning.weights", "item 1.node.activation"
@@ -26,7 +27,7 @@ def taught(windows: dict[str, tuple[float, float]], limit: float, *changes: dd.S
     for name, window in windows.items():
         arena.place(name, place[name], (50, 50), RED, windows=window, height=70)
     model = dd.architectures.color_search(2)
-    return dd.run_trial(model, limit, arena, watch=[WEIGHTS, NODE], actions=list(changes), every=20.0)
+    return run_alone(model, limit, arena, watch=[WEIGHTS, NODE], actions=list(changes), every=20.0)
 
 
 def first(trial: Trial, true: np.ndarray, after: float) -> float:
@@ -77,7 +78,7 @@ def test_one_of_two_colours_in_view_is_selected_and_learned() -> None:
     )
     for name, y, color in (("red", 60.0, RED), ("blue", -60.0, (0.0, 0.0, 0.9))):
         arena.place(name, (150.0, y), (50, 50), color, windows=(1000.0, 9000.0), height=70)
-    trial = dd.run_trial(dd.architectures.color_search(2), 1600.0, arena, watch=[WEIGHTS], every=20.0)
+    trial = run_alone(dd.architectures.color_search(2), 1600.0, arena, watch=[WEIGHTS], every=20.0)
     learned = trial.values[WEIGHTS][-1]
     red, blue = learned[np.r_[0:10, 170:180]].max(), learned[110:130].max()
     assert max(red, blue) > 0.9 and min(red, blue) < 0.05

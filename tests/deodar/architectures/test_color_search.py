@@ -8,6 +8,7 @@ import pytest
 import deodar as dd
 from deodar.architectures.color_search import color_search
 from deodar.errors import ParameterError
+from tests.deodar.experiments.calls import run_alone
 
 RED, GREEN = (0.9, 0.0, 0.0), (0.0, 0.9, 0.0)
 PRODUCED = 2400.0
@@ -51,7 +52,7 @@ def trial() -> dd.Trial:
         dd.All("over", ["later", "produced"]),
     ]
     change = [dd.Set(PRODUCED, "mode", 1.0)]
-    return dd.run_trial(model, 20_000.0, arena(), watch=watch, events=found, actions=change, every=4.0)
+    return run_alone(model, 20_000.0, arena(), watch=watch, events=found, actions=change, every=4.0)
 
 
 def _at(trial: dd.Trial, path: str, time: float) -> np.ndarray:
@@ -103,7 +104,7 @@ def test_a_block_that_is_in_view_at_once_does_not_start_the_chain_again() -> Non
     made.place("red", (100, 0), (50, 50), RED, height=70)
     nodes = [f"item {k}.node.activation" for k in (1, 2)]
     [begins, ends] = 100.0, 1200.0
-    trial = dd.run_trial(model, ends, made, watch=nodes, actions=[dd.Set(begins, "mode", 1.0)], every=2.0)
+    trial = run_alone(model, ends, made, watch=nodes, actions=[dd.Set(begins, "mode", 1.0)], every=2.0)
     first, second = (trial.values[path] > 0 for path in nodes)
     produced = trial.times > begins + 250
     rises = np.flatnonzero(np.diff((first & produced).astype(int)) == 1)

@@ -20,6 +20,7 @@ from deodar.architectures.serial_order import (
 )
 from deodar.errors import ParameterError
 from deodar.model import document_files
+from tests.deodar.experiments.calls import run_alone
 
 FIRST, SECOND = (40.0, 12.0, 40.0), (12.0, 52.0)
 ITEMS = 3
@@ -199,7 +200,7 @@ def test_a_new_cue_starts_the_chain_again_only_while_a_sequence_is_taught() -> N
     )
     changes = [dd.Set(800.0, "cue", 2.0), dd.Set(1600.0, "mode", 1.0), dd.Set(2400.0, "cue", 1.0)]
     watch = ["item 1.node.activation", "cue nodes.activation"]
-    trial = dd.run_trial(color_search(1, cues=2), 2800.0, arena, watch=watch, actions=changes, every=20.0)
+    trial = run_alone(color_search(1, cues=2), 2800.0, arena, watch=watch, actions=changes, every=20.0)
     on = trial.values[watch[0]] > 0
     at = {t: bool(on[np.searchsorted(trial.times, t)]) for t in (780.0, 900.0, 1580.0, 1700.0, 2380.0)}
     assert at == {780.0: True, 900.0: False, 1580.0: True, 1700.0: False, 2380.0: True}

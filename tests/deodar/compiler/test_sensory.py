@@ -7,8 +7,8 @@ import pytest
 
 import deodar as dd
 from deodar.compiler.executable import executable
-from deodar.experiments.trial_batch import run_batch
 from deodar.session.exchange import embodied
+from tests.deodar.experiments.calls import run_alone, run_together
 
 X, Y = dd.Axis("x", 0, 1.2, 25), dd.Axis("y", 0, 0.8, 17)
 
@@ -45,8 +45,8 @@ def test_couplings_of_readings_are_sensory_where_readings_last_several_steps() -
 def test_they_have_the_values_that_a_session_computes_outside_the_step(watch: str) -> None:
     m, arena = _model(), dd.Arena("blocks", infrared_noise=1.0, slip=0.1)
     arena.place("visitor", (0.9, 0.6), (0.1, 0.1), windows=(200.0, 400.0))
-    [inside] = run_batch(m, 640.0, [3], [watch], world=arena, seed=1, every=4.0)
-    outside = dd.run_trial(m, 640.0, arena, seed=1, trial=3, watch=[watch], every=4.0)
+    [inside] = run_together(m, 640.0, [3], [watch], world=arena, seed=1, every=4.0)
+    outside = run_alone(m, 640.0, arena, seed=1, trial=3, watch=[watch], every=4.0)
     values = inside.values[watch]
     np.testing.assert_allclose(values, outside.values[watch], atol=2e-4)
     assert np.ptp(values[32:], axis=0).max() > 1e-3  # readings change
@@ -77,8 +77,8 @@ def test_a_sensor_of_a_longer_period_has_couplings_of_that_period() -> None:
     paths = {n: [program.plan.groups[c.group].like.path for c in program.sensory[n]] for n in program.sensory}
     assert paths[4] == ["colours"] and {"nearest", "product"} <= set(paths[1])
     watch = ["colours.output", "product.output", "u.activation"]
-    [inside] = run_batch(m, 800.0, [0], watch, world=arena, every=5.0)
-    outside = dd.run_trial(m, 800.0, arena, watch=watch, every=5.0)
+    [inside] = run_together(m, 800.0, [0], watch, world=arena, every=5.0)
+    outside = run_alone(m, 800.0, arena, watch=watch, every=5.0)
     for name in watch:
         np.testing.assert_allclose(inside.values[name], outside.values[name], rtol=2e-4, atol=2e-4)
     changes = np.abs(np.diff(inside.values["colours.output"], axis=0)).sum((1, 2)) > 0

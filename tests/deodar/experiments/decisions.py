@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from deodar.experiments.events import Crosses
-from deodar.experiments.trial_run import run_trial
+from tests.deodar.experiments.calls import run_alone
 from tests.deodar.experiments.robots import decider
 
 
 def one(trial):
     """Return one row."""
-    course = run_trial(decider(), 2000, trial=trial, events=[Crosses("decided", "u.activation")])
+    course = run_alone(decider(), 2000, trial=trial, events=[Crosses("decided", "u.activation")])
     return [{"key": f"d/{trial}", "outcome": course.outcome, "decided": course.events["decided"]}]

@@ -16,17 +16,16 @@ import pytest
 import deodar as dd
 from deodar import cli
 from deodar.errors import NotFinite, RunWarning
-from deodar.experiments import running_copies
+from deodar.experiments import trial_copies
 from deodar.experiments.actions import Set
 from deodar.experiments.events import Crosses, Reached
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor
 from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
-from deodar.experiments.trial_batch import run_batch
-from deodar.experiments.trial_run import run_trial
 from deodar.recording import files
 from deodar.session.run import Run
+from tests.deodar.experiments.calls import run_alone, run_together
 
 LATE = Crosses("late", "v.activation", 1.0)
 RISEN = Crosses("risen", "u.activation", 1.02, ends=False)
@@ -121,11 +120,11 @@ def test_a_sampled_coupling_that_diverges_gives_equal_rows_in_trials_and_batches
 def test_a_trial_that_ends_before_it_diverges_has_its_own_outcome() -> None:
     step = _step(1e6)
     for at, outcome in ((step - 1, "early"), (step, "diverged")):
-        [course, _] = run_batch(
+        [course, _] = run_together(
             model(), 80, [0, 1], events=[Reached("early", at)], values={"g.factor": [1e6, 0.1]}, tolerant=True
         )
         assert course.outcome == outcome and (course.error is None) == (outcome == "early")
-        assert run_trial(model(1e6), 80, events=[Reached("early", at)], tolerant=True).outcome == outcome
+        assert run_alone(model(1e6), 80, events=[Reached("early", at)], tolerant=True).outcome == outcome
 
 
 def _step(factor: float) -> int:
@@ -140,7 +139,7 @@ def test_the_reason_does_not_depend_on_chunks(monkeypatch: pytest.MonkeyPatch, s
     monkeypatch.setattr(Run, "_chunk_steps", lambda run: steps)
     values = {"g.factor": [1e6, 0.1, 1e4]}
     with pytest.warns(RunWarning, match="2 of 3 trials"):
-        courses = run_batch(model(), 80, range(3), ["u.activation", "g.output"], values=values)
+        courses = run_together(model(), 80, range(3), ["u.activation", "g.output"], values=values)
     found = [(c.outcome, len(c.times), str(c.error and c.error.problems[0].what)) for c in courses]
     assert found == [
         ("diverged", 7, "g.output became infinite or undefined in step 7 (time 7 ms, dt 1)"),
@@ -155,9 +154,9 @@ def test_the_reason_does_not_depend_on_chunks(monkeypatch: pytest.MonkeyPatch, s
 def test_a_batch_in_which_all_trials_diverge_raises_as_a_single_trial_does() -> None:
     for trials in ([3], [3, 1]):
         with pytest.raises(NotFinite, match="g became infinite"):
-            run_batch(model(1e6), 80, trials)
+            run_together(model(1e6), 80, trials)
     with pytest.raises(NotFinite, match="g became infinite"):
-        run_trial(model(1e6), 80)
+        run_alone(model(1e6), 80)
 
 
 def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
@@ -166,15 +165,15 @@ def test_an_experiment_of_which_all_trials_diverge_has_their_rows() -> None:
 
 
 def test_diverged_trials_are_dropped_from_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(running_copies, "WORTH", 0)
+    monkeypatch.setattr(trial_copies, "WORTH", 0)
     values = {"g.factor": [1e6, 0.1, 1e6, 0.3, 1e6, 1e6]}
     with pytest.warns(RunWarning, match="4 of 6 trials"):
         made = model()
         made.programs = {}
-        some = run_batch(made, 80, range(6), ["v.activation"], values=values)
+        some = run_together(made, 80, range(6), ["v.activation"], values=values)
     # one of them has diverged and fills the batch
     assert sorted(p.batch.size for p in made.programs.values()) == [3, 6]
-    good = run_batch(
+    good = run_together(
         model(), 80, range(6), ["v.activation"], values={"g.factor": [0.1, 0.1, 0.1, 0.3, 0.1, 0.1]}
     )
     for k in (1, 3):

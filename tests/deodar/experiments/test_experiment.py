@@ -21,8 +21,8 @@ from deodar.experiments.experiment import Experiment
 from deodar.experiments.factor import Factor, assign
 from deodar.experiments.measures import Measure
 from deodar.experiments.results import ROWS, load_results
-from deodar.experiments.trial_run import run_trial
 from deodar.recording import files
+from tests.deodar.experiments.calls import run_alone
 from tests.deodar.experiments.robots import decider, room, straight
 
 
@@ -309,21 +309,21 @@ def test_push_ramp_and_reset_change_the_run():
     model = dd.Model("node")
     model.add(dd.Field("u", [], tau=10, resting_level=-1))
     still = {"watch": ["u.activation"], "precision": "float64"}
-    pushed = run_trial(model, 60, actions=[Push(10, "u", 3.0, 20)], **still).values["u.activation"]
+    pushed = run_alone(model, 60, actions=[Push(10, "u", 3.0, 20)], **still).values["u.activation"]
     assert (
         pushed[10] == -1
         and pushed[30] == pushed.max() == pytest.approx(-1 + 3 * (1 - 0.9**20))
         and pushed[31] < pushed[30]
     )
     up = Crosses("up", "u.activation", 0.5, ends=False)
-    after = run_trial(
+    after = run_alone(
         model, 60, events=[up], actions=[Push(10, "u", 3.0, 20), Push(4, "u", -9.0, 5, when="up")], **still
     )
     moment = int(after.events["up"])
     below = after.values["u.activation"]
     np.testing.assert_array_equal(below[: moment + 5], pushed[: moment + 5])
     assert below[moment + 9] == pytest.approx(pushed[moment + 9] - 9 * (1 - 0.9**5))
-    ramped = run_trial(
+    ramped = run_alone(
         model,
         60,
         actions=[Ramp(10, "u.resting_level", 3.0, 20, start=-1.0), Reset(50), End(55, "enough")],

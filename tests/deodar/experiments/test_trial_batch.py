@@ -9,14 +9,13 @@ import deodar as dd
 from deodar.compiler.copy_batch import Batch
 from deodar.elements.sensor import Sensor
 from deodar.errors import ParameterError, WorldError
-from deodar.experiments import running_copies
+from deodar.experiments import trial_copies
 from deodar.experiments.events import Crosses, Within
 from deodar.experiments.experiment import Experiment
 from deodar.experiments.measures import Measure
-from deodar.experiments.trial_batch import run_batch
-from deodar.experiments.trial_run import run_trial
 from deodar.numerics.choice import MANY
 from deodar.worlds.picture import Picture
+from tests.deodar.experiments.calls import run_alone, run_together
 from tests.deodar.experiments.robots import decider, room, straight
 
 DECIDED = Crosses("decided", "u.activation")
@@ -28,10 +27,10 @@ def sizes(model):
 
 
 def test_a_batch_gives_the_values_of_single_trials():
-    many = run_batch(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
+    many = run_together(decider(), 400, [7, 0, 3, 1], ["u.activation"], [DECIDED], precision="float64")
     assert len({c.duration for c in many}) > 2
     for trial, course in zip([7, 0, 3, 1], many, strict=True):
-        one = run_trial(
+        one = run_alone(
             decider(), 400, trial=trial, watch=["u.activation"], events=[DECIDED], precision="float64"
         )
         np.testing.assert_array_equal(course.times, one.times)
@@ -40,9 +39,9 @@ def test_a_batch_gives_the_values_of_single_trials():
 
 
 def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
-    monkeypatch.setattr(running_copies, "WORTH", 0)
+    monkeypatch.setattr(trial_copies, "WORTH", 0)
     model, left = decider(), []
-    courses = run_batch(model, 600, range(16), events=[DECIDED], between=left.append)
+    courses = run_together(model, 600, range(16), events=[DECIDED], between=left.append)
     assert left[0] == 16 and left[-1] == 0 and sorted(left, reverse=True) == left
     assert sizes(model)[-1] == 16 and len(sizes(model)) >= 3
     assert sum(course.outcome == "decided" for course in courses) > 8
@@ -50,31 +49,31 @@ def test_finished_trials_are_dropped_from_the_batch(monkeypatch):
 
 def test_a_smaller_batch_has_the_state_of_the_larger_one_where_kernels_differ(monkeypatch):
     """With many copies a kernel whose strength differs between trials has a group of its own."""
-    monkeypatch.setattr(running_copies, "WORTH", 0)
+    monkeypatch.setattr(trial_copies, "WORTH", 0)
     model, count = decider(), 2 * MANY
     model.add(dd.Field("v", [], tau=20, resting_level=-1, noise=3.0, kernel=[dd.Gaussian(0.5)]))
     model.set("u.kernel", [dd.Gaussian(0.5)])
     strengths = np.linspace(0.5, 0.6, count).tolist()
     values = {"u.kernel.0.amplitude": strengths}
-    many = run_batch(
+    many = run_together(
         model, 600, range(count), ["u.activation"], [DECIDED], values=values, precision="float32"
     )
     assert {c.outcome for c in many} >= {"decided"} and len(sizes(model)) >= 3
     for k in (0, count - 1):
         model.set("u.kernel.0.amplitude", strengths[k])
-        one = run_trial(model, 600, trial=k, watch=["u.activation"], events=[DECIDED])
+        one = run_alone(model, 600, trial=k, watch=["u.activation"], events=[DECIDED])
         assert one.duration == many[k].duration
 
 
 def test_a_smaller_batch_is_compiled_only_if_it_saves_time():
     model = decider()
-    run_batch(model, 600, range(16), events=[DECIDED])
+    run_together(model, 600, range(16), events=[DECIDED])
     assert sizes(model) == [16]
 
 
 def test_the_same_call_gives_the_same_bits():
     first, second = (
-        run_batch(decider(), 300, range(6), ["u.activation"], [DECIDED], every=5) for _ in range(2)
+        run_together(decider(), 300, range(6), ["u.activation"], [DECIDED], every=5) for _ in range(2)
     )
     for a, b in zip(first, second, strict=True):
         np.testing.assert_array_equal(a.values["u.activation"], b.values["u.activation"])
@@ -82,7 +81,9 @@ def test_the_same_call_gives_the_same_bits():
 
 def test_the_mean_time_of_a_decision_falls_with_noise():
     times = [
-        np.median([c.duration for c in run_batch(decider(noise), 3000, range(40), events=[DECIDED], every=5)])
+        np.median(
+            [c.duration for c in run_together(decider(noise), 3000, range(40), events=[DECIDED], every=5)]
+        )
         for noise in (2.0, 4.0)
     ]
     assert times[0] > 3 * times[1]
@@ -91,7 +92,7 @@ def test_the_mean_time_of_a_decision_falls_with_noise():
 def test_fields_are_sampled_in_a_batch():
     model = dd.Model("line")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, 11)], tau=10, resting_level=-1, noise=0.5))
-    courses = run_batch(model, 50, [4, 5], ["u.activation"], every=10)
+    courses = run_together(model, 50, [4, 5], ["u.activation"], every=10)
     assert [c.values["u.activation"].shape for c in courses] == [(6, 11)] * 2 and {
         c.outcome for c in courses
     } == {"time"}
@@ -105,11 +106,11 @@ def test_each_trial_has_its_own_world_and_drops_it_when_it_ends():
         [Within("there", 5, "pose.output", "goal.output")],
     )
     model.add(Sensor("goal", [dd.Axis("of", 0, 1, 2)], sensor="goal"))
-    many = run_batch(model, 300, range(4), ["pose.output"], there, world=arena, precision="float64")
+    many = run_together(model, 300, range(4), ["pose.output"], there, world=arena, precision="float64")
     assert len({c.duration for c in many}) == 4 and {c.outcome for c in many} == {"there"}
     assert sizes(model) == [1, 2, 4]
     for trial, course in enumerate(many):
-        one = run_trial(
+        one = run_alone(
             model, 300, arena, trial=trial, watch=["pose.output"], events=there, precision="float64"
         )
         np.testing.assert_array_equal(course.times, one.times)
@@ -141,15 +142,15 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
 
 def test_invalid_batches_are_refused():
     with pytest.raises(ParameterError, match="each of them once"):
-        run_batch(decider(), 10, [1, 1])
+        run_together(decider(), 10, [1, 1])
     with pytest.raises(ParameterError, match="each of them once"):
-        run_batch(decider(), 10, [])
+        run_together(decider(), 10, [])
     with pytest.raises(ParameterError, match="the model is empty"):
-        run_batch(dd.Model("nothing"), 10, [1])
+        run_together(dd.Model("nothing"), 10, [1])
     model = straight()
     model.add(Sensor("heading", sensor="heading"))
     with pytest.raises(WorldError, match="no world was given"):
-        run_batch(model, 10, [1], ["heading.output"])
+        run_together(model, 10, [1], ["heading.output"])
     eye = dd.Model("eye")
     eye.add(
         Sensor(
@@ -159,4 +160,4 @@ def test_invalid_batches_are_refused():
         )
     )
     with pytest.raises(WorldError, match="Picture cannot be computed for a batch of copies"):
-        run_batch(eye, 10, [1], ["camera.output"], world=Picture.example())
+        run_together(eye, 10, [1], ["camera.output"], world=Picture.example())

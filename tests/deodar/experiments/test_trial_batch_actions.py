@@ -1,4 +1,4 @@
-"""Actions on the trials of a batch: each trial equals one that `run_trial` runs alone."""
+"""Actions on the trials of a batch: each trial equals one that `run_alone` runs alone."""
 
 from __future__ import annotations
 
@@ -28,8 +28,7 @@ from deodar.experiments.actions import (
 from deodar.experiments.events import Appears, Crosses, Event, Reached
 from deodar.experiments.measures import Measure
 from deodar.experiments.trial import Trial
-from deodar.experiments.trial_batch import run_batch
-from deodar.experiments.trial_run import run_trial
+from tests.deodar.experiments.calls import run_alone, run_together
 from tests.deodar.experiments.robots import ROOM, straight
 
 PROGRAMS: dict[Any, Any] = {}
@@ -63,10 +62,10 @@ def requires_equal(
 ) -> list[Trial]:
     """Require that a batch of four equals four single trials, and return the batch."""
     given |= {"watch": watch, "events": events, "actions": actions, "precision": precision, "seed": 3}
-    many = run_batch(model, limit, [4, 0, 3, 1], **given)
+    many = run_together(model, limit, [4, 0, 3, 1], **given)
     tolerance = {"rtol": 0, "atol": 1e-10 if precision == "float64" else 1e-4}
     for number, trial in zip([4, 0, 3, 1], many, strict=True):
-        one = run_trial(model, limit, trial=number, **given)
+        one = run_alone(model, limit, trial=number, **given)
         assert (trial.outcome, trial.events) == (one.outcome, one.events)
         np.testing.assert_array_equal(trial.times, one.times)
         np.testing.assert_array_equal(trial.recorded, one.recorded)
@@ -108,7 +107,7 @@ def test_each_action_on_a_batch_gives_the_trials_that_run_alone(actions: list[Ac
     measures = [Measure("last", "f.activation", "max"), Measure("then", "u.activation", "max", when="up")]
     many = requires_equal(noisy(), actions, [UP, SEEN], ["u", "f.output"], every=4, measures=measures)
     assert len({trial.events["up"] for trial in many}) > 2
-    free = run_batch(noisy(), 120, [4], ["u", "f"], [UP, SEEN], seed=3, every=4, precision="float64")[0]
+    free = run_together(noisy(), 120, [4], ["u", "f"], [UP, SEEN], seed=3, every=4, precision="float64")[0]
     assert free.duration == 120 and not free.snapshots and len(free.recorded) == 31
 
 
@@ -125,13 +124,13 @@ def test_actions_on_a_batch_give_equal_trials_in_single_precision() -> None:
 def test_trials_may_differ_in_the_parameter_that_an_action_sets() -> None:
     actions, levels = [Ramp(20, "mode", 5.0, 10), Set(90, "u.tau", 30.0)], [0.0, 1.0, 2.0, -1.0]
     given: dict[str, Any] = {"watch": ["u"], "actions": actions, "precision": "float64", "seed": 3}
-    many = run_batch(
+    many = run_together(
         noisy(), 120, range(4), values={"mode": levels, "u.resting_level": [-1, -2, 0, 1]}, **given
     )
     for k, trial in enumerate(many):
         model = noisy()
         model.set({"mode": levels[k], "u.resting_level": [-1, -2, 0, 1][k]})
-        one = run_trial(model, 120, trial=k, **given)
+        one = run_alone(model, 120, trial=k, **given)
         np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
 
 
@@ -187,9 +186,9 @@ def test_a_trial_that_diverges_by_an_action_leaves_the_others() -> None:
     u["activation"] >> model.add(dd.Gain(0.1, name="g")) >> u
     given: dict[str, Any] = {"watch": ["u"], "tolerant": True, "precision": "float64", "every": 2}
     actions = [Set([200, 21, 200, 34], "g.factor", 1e6), Snapshot(30, "then", ["u"])]
-    many = run_batch(model, 200, range(4), actions=actions, **given)
+    many = run_together(model, 200, range(4), actions=actions, **given)
     for k, trial in enumerate(many):
-        one = run_trial(model, 200, trial=k, actions=actions, **given)
+        one = run_alone(model, 200, trial=k, actions=actions, **given)
         assert trial.outcome == one.outcome == ("diverged" if k % 2 else "time")
         np.testing.assert_array_equal(trial.times, one.times)
         np.testing.assert_allclose(trial.values["u"], one.values["u"], atol=1e-10)
@@ -208,8 +207,8 @@ def test_an_action_with_a_time_for_each_trial_is_part_of_the_file_and_needs_enou
     (problem,) = dc.replace(experiment, actions=[Set([10, 61, 3], "u.tau", 10.0)]).check()
     assert problem.what.startswith("is never done: it is due at 61")
     for run in (
-        lambda: run_batch(noisy(), 60, [3], actions=several),
-        lambda: run_trial(noisy(), 60, trial=3, actions=several),
+        lambda: run_together(noisy(), 60, [3], actions=several),
+        lambda: run_alone(noisy(), 60, trial=3, actions=several),
     ):
         with pytest.raises(ParameterError, match="there are 3 times, and trial 3 is run"):
             run()
@@ -282,9 +281,9 @@ def test_a_block_that_is_put_onto_another_one_during_a_run_is_named(alone: bool)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             if alone:
-                run_trial(robot(), 40, world=world, actions=actions)
+                run_alone(robot(), 40, world=world, actions=actions)
             else:
-                run_batch(robot(), 40, [0, 1], world=world, actions=actions)
+                run_together(robot(), 40, [0, 1], world=world, actions=actions)
         return [str(w.message) for w in caught if w.category is RunWarning]
 
     each = 1 if alone else 2
@@ -319,11 +318,11 @@ def test_a_placed_object_has_its_own_height_in_each_trial() -> None:
 def test_trials_in_a_world_may_have_other_parameters_in_one_batch() -> None:
     speeds = [300.0, 600.0, 500.0, 400.0]
     given: dict[str, Any] = {"watch": WATCH, "world": rooms(), "precision": "float64", "events": [TOUCHED]}
-    many = run_batch(robot(), 60, range(4), values={"go left.amplitude": speeds}, **given)
+    many = run_together(robot(), 60, range(4), values={"go left.amplitude": speeds}, **given)
     for k, trial in enumerate(many):
         model = robot()
         model.set("go left.amplitude", speeds[k])
-        one = run_trial(model, 60, trial=k, **given)
+        one = run_alone(model, 60, trial=k, **given)
         assert trial.events == one.events
         for name in WATCH:
             np.testing.assert_allclose(trial.values[name], one.values[name], atol=1e-10)
@@ -359,7 +358,7 @@ def test_an_experiment_with_actions_runs_in_one_batch() -> None:
         model = robot()
         model.set("go left.amplitude", float(data["speed"][k]))
         given = {"world": rooms(), "events": [FAR, TOUCHED], "actions": experiment.actions}
-        one = run_trial(model, 60, trial=k, measures=experiment.measures, precision="float64", **given)  # type: ignore[arg-type]
+        one = run_alone(model, 60, trial=k, measures=experiment.measures, precision="float64", **given)  # type: ignore[arg-type]
         assert float(data["where"][k]) == pytest.approx(one.measures["where"], abs=1e-10)
 
 
@@ -396,7 +395,7 @@ def test_invalid_actions_on_a_batch_are_refused(
     model: Any, action: Action, world: Any, error: type[Exception], says: str
 ) -> None:
     with pytest.raises(error, match=says):
-        run_batch(
+        run_together(
             model(),
             10,
             [0, 1],

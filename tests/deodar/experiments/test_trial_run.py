@@ -9,7 +9,7 @@ import deodar as dd
 from deodar.errors import ParameterError, TimeError, WorldError
 from deodar.experiments.actions import Move, Place, Remove, Set
 from deodar.experiments.events import Crosses, Leaves, Within
-from deodar.experiments.trial_run import run_trial
+from tests.deodar.experiments.calls import run_alone
 from tests.deodar.experiments.robots import decider, room, straight
 
 GOAL = Within("reached", 7.0)
@@ -17,7 +17,7 @@ TOUCH = Crosses("touched", "touching", 0.5)
 
 
 def test_a_goal_that_is_reached_ends_the_trial():
-    course = run_trial(straight(), 500, room(), events=[GOAL, TOUCH], watch=["pose"])
+    course = run_alone(straight(), 500, room(), events=[GOAL, TOUCH], watch=["pose"])
     assert course.outcome == "reached" and course.events == {"reached": course.times[-1], "touched": None}
     last, before = course.values["pose"][-1], course.values["pose"][-2]
     assert np.hypot(last[0] - 80, last[1] - 20) <= 7 < np.hypot(before[0] - 80, before[1] - 20)
@@ -28,8 +28,8 @@ def test_a_goal_that_is_reached_ends_the_trial():
 
 
 def test_an_event_may_require_several_samples_and_need_not_end_the_trial():
-    once = run_trial(straight(), 500, room(), events=[GOAL]).times[-1]
-    course = run_trial(
+    once = run_alone(straight(), 500, room(), events=[GOAL]).times[-1]
+    course = run_alone(
         straight(),
         300,
         room(),
@@ -41,13 +41,13 @@ def test_an_event_may_require_several_samples_and_need_not_end_the_trial():
 
 
 def test_the_limit_ends_a_trial_without_another_end():
-    course = run_trial(straight(0.0), 20, room(), events=[GOAL], every=5)
+    course = run_alone(straight(0.0), 20, room(), events=[GOAL], every=5)
     assert course.outcome == "time" and course.duration == 20
     np.testing.assert_array_equal(course.times, [0, 5, 10, 15, 20])
 
 
 def test_a_port_that_crosses_a_value_ends_a_trial_without_a_world():
-    course = run_trial(
+    course = run_alone(
         decider(), 5000, watch=["u.activation"], events=[Crosses("decided", "u.activation")], trial=3
     )
     u = course.values["u.activation"]
@@ -59,39 +59,39 @@ def test_a_port_that_crosses_a_value_ends_a_trial_without_a_world():
 
 
 def test_the_first_sample_may_end_a_trial():
-    assert run_trial(straight(), 100, room(goal=(12, 20)), events=[GOAL]).duration == 0
+    assert run_alone(straight(), 100, room(goal=(12, 20)), events=[GOAL]).duration == 0
 
 
 def test_an_object_that_appears_stops_the_robot_until_it_is_removed():
     there = Place(60, "box", (50, 20), (4, 30))
     world = room()
-    course = run_trial(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
+    course = run_alone(straight(), 250, world, events=[TOUCH], actions=[there], watch=["pose"])
     assert course.outcome == "touched" and course.values["pose"][-1, 0] == pytest.approx(
         50 - 2 - 3.7, abs=0.05
     )
-    through = run_trial(
+    through = run_alone(
         straight(), 500, world, events=[GOAL], actions=[there, Remove(200, "box")], watch=["pose"]
     )
     assert through.outcome == "reached" and (np.diff(through.values["pose"][:, 0]) < 1e-3).sum() > 50
-    away = run_trial(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
+    away = run_alone(straight(), 500, world, events=[GOAL], actions=[there, Move(100.0, "box", (50, -60))])
     assert away.duration == through.duration - 100
     # the box was removed after each trial
-    assert run_trial(straight(), 500, world, events=[GOAL]).outcome == "reached"
+    assert run_alone(straight(), 500, world, events=[GOAL]).outcome == "reached"
 
 
 def test_a_moved_goal_is_restored_after_the_trial():
     world = room()
-    early = run_trial(straight(), 500, world, events=[GOAL]).duration
+    early = run_alone(straight(), 500, world, events=[GOAL]).duration
     assert (
-        run_trial(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration
+        run_alone(straight(), 500, world, events=[GOAL], actions=[Move(10, "goal", (50, 20))]).duration
         < early - 50
     )
-    assert run_trial(straight(), 500, world, events=[GOAL]).duration == early
+    assert run_alone(straight(), 500, world, events=[GOAL]).duration == early
 
 
 def test_an_action_between_two_samples_has_its_own_time():
     often, seldom = (
-        run_trial(
+        run_alone(
             straight(),
             120,
             room(),
@@ -105,7 +105,7 @@ def test_an_action_between_two_samples_has_its_own_time():
 
 
 def test_a_parameter_is_set_at_a_time():
-    course = run_trial(
+    course = run_alone(
         straight(),
         60,
         room(),
@@ -122,7 +122,7 @@ def test_an_action_has_a_document_time_from_any_start(t0):
     model.add(dd.Field("n", []))
     model.add(dd.Boost("b", [], amplitude=0.0)) >> model["n"]
     model.describe(t0=t0)
-    course = run_trial(model, 20, actions=[Set(t0 + 12, "b.amplitude", 5.0)], watch=["n.input"])
+    course = run_alone(model, 20, actions=[Set(t0 + 12, "b.amplitude", 5.0)], watch=["n.input"])
     np.testing.assert_array_equal(course.times, t0 + np.arange(21))
     # the sample at the time of an action is taken before it
     np.testing.assert_array_equal(course.values["n.input"], 5.0 * (np.arange(21) > 12))
@@ -131,9 +131,9 @@ def test_an_action_has_a_document_time_from_any_start(t0):
 def test_a_trial_does_not_depend_on_earlier_trials():
     world = room(slip=0.3, place_noise=0.5, start=[(10, 15, 0), (10, 25, 0.2)])
     given = {"limit": 80, "world": world, "watch": ["pose", "place"], "seed": 4}
-    first = run_trial(straight(), trial=1, **given)
-    other = run_trial(straight(), trial=0, **given)
-    again = run_trial(straight(), trial=1, **given)
+    first = run_alone(straight(), trial=1, **given)
+    other = run_alone(straight(), trial=0, **given)
+    again = run_alone(straight(), trial=1, **given)
     assert [round(float(c.values["pose"][0, 1]), 4) for c in (first, other)] == [25, 15]
     np.testing.assert_array_equal(first.values["place"], again.values["place"])
     assert not np.array_equal(first.values["place"], other.values["place"])
@@ -141,17 +141,17 @@ def test_a_trial_does_not_depend_on_earlier_trials():
 
 def test_invalid_trials_are_refused():
     with pytest.raises(WorldError, match="the action Remove needs a world, and none is given"):
-        run_trial(decider(), 10, actions=[Remove(3, "box")])
+        run_alone(decider(), 10, actions=[Remove(3, "box")])
     with pytest.raises(ParameterError, match="name of two events"):
-        run_trial(straight(), 10, room(), events=[GOAL, GOAL])
+        run_alone(straight(), 10, room(), events=[GOAL, GOAL])
     with pytest.raises(ParameterError, match="reduce: is 'uper'; expected one of max"):
         Crosses("late", "u.activation", reduce="uper")
     with pytest.raises(ParameterError, match="sampled over axes that a model states"):
-        run_trial(straight(), 10, room(), watch=["above"])
+        run_alone(straight(), 10, room(), watch=["above"])
     with pytest.raises(TimeError, match=r"time of an action of 1\.5"):
-        run_trial(straight(), 10, room(), actions=[Remove(1.5, "far")])
+        run_alone(straight(), 10, room(), actions=[Remove(1.5, "far")])
     with pytest.raises(TimeError, match="every is 0"):
-        run_trial(straight(), 10, room(), every=0)
+        run_alone(straight(), 10, room(), every=0)
 
 
 class Shelf(dd.World):
@@ -187,7 +187,7 @@ def test_actions_change_any_world_that_has_their_methods():
     }
     # both trials start with the same objects; at the time of an action the sample is taken first
     for _ in range(2):
-        assert run_trial(decider(), 8, world, **given).values["things"].tolist() == [
+        assert run_alone(decider(), 8, world, **given).values["things"].tolist() == [
             1,
             1,
             1,
@@ -233,14 +233,14 @@ class Fixed(Shelf):
 )
 def test_an_action_refuses_a_world_without_its_method(world: dd.World, action: dd.Action, what: str):
     with pytest.raises(WorldError, match=what):
-        run_trial(decider(), 10, world, actions=[action])
+        run_alone(decider(), 10, world, actions=[action])
 
 
 def test_a_height_needs_a_world_whose_objects_have_one():
     tall = Place(3, "plate", (0, 0), (1, 1), height=7.0)
     says = r"the action Place has a height, and Shelf\.place has no argument 'height'\. Leave height out"
     with pytest.raises(WorldError, match=says):
-        run_trial(decider(), 10, Shelf(), actions=[tall])
+        run_alone(decider(), 10, Shelf(), actions=[tall])
     with pytest.raises(ParameterError, match=r"Place\.height: is 0; expected a number above 0"):
         Place(3, "plate", (0, 0), (1, 1), height=0.0)
     written = dd.Experiment("tall", decider(), 10, actions=[tall], world=room()).to_data()["actions"]

@@ -104,7 +104,7 @@ def test_trials_of_an_experiment_run_one_by_one_and_a_batch_is_refused():
     )
     table = trials.run()
     assert list(table["outcome"].values) == ["top"] * 3 and len(set(table["duration"].values)) > 1
-    with pytest.raises(WorldError, match=r"dd\.run_trial"):
+    with pytest.raises(WorldError, match=r"dd\.Trials"):
         dd.simulate(dd.Model(document=model), 40, record="reward", trials=2, world=world)
 
 

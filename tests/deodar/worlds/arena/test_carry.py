@@ -9,7 +9,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
-from deodar.experiments.trial_batch import run_batch
+from tests.deodar.experiments.calls import run_alone, run_together
 
 
 def model() -> dd.Model:
@@ -33,7 +33,7 @@ CARRIED = [dd.Move(200.0, "khepera", (-100.0, 50.0, math.pi / 2)), dd.Move(400.0
 
 
 def test_it_is_there_after_the_next_period_with_its_new_heading() -> None:
-    trial = dd.run_trial(model(), 600.0, arena(), watch=["pose.output"], actions=CARRIED)
+    trial = run_alone(model(), 600.0, arena(), watch=["pose.output"], actions=CARRIED)
     pose = trial.values["pose.output"]
     assert pose[10] == pytest.approx([9 * 1.0, 0, 0], abs=1.5)  # 600 pulses a second are 50 mm/s
     assert pose[11] == pytest.approx([-100, 50, math.pi / 2], abs=1e-3)
@@ -43,16 +43,16 @@ def test_it_is_there_after_the_next_period_with_its_new_heading() -> None:
 
 
 def test_a_batch_carries_the_vehicle_of_each_trial() -> None:
-    trials = run_batch(model(), 600.0, [0, 1], ["pose.output"], world=arena(), actions=CARRIED)
-    alone = dd.run_trial(model(), 600.0, arena(), watch=["pose.output"], actions=CARRIED)
+    trials = run_together(model(), 600.0, [0, 1], ["pose.output"], world=arena(), actions=CARRIED)
+    alone = run_alone(model(), 600.0, arena(), watch=["pose.output"], actions=CARRIED)
     for trial in trials:
         np.testing.assert_allclose(trial.values["pose.output"], alone.values["pose.output"], atol=1e-3)
 
 
 def test_a_second_trial_starts_at_the_start() -> None:
     world = arena()
-    first = dd.run_trial(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
-    again = dd.run_trial(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
+    first = run_alone(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
+    again = run_alone(model(), 600.0, world, watch=["pose.output"], actions=CARRIED)
     np.testing.assert_array_equal(first.values["pose.output"], again.values["pose.output"])
 
 

@@ -8,10 +8,9 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from deodar.session.keep import with_learned
+from deodar.experiments.trial_copies import TrialCopies
+from deodar.model import find
 from deodar.session.run import whole
-from deodar.session.session import Session
-from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 
@@ -43,9 +42,10 @@ class ScheduledAction(Protocol):
 
 
 class RunningTrial:
-    """A running trial, and its scheduled actions; its subclasses are a session, and a copy in a batch.
+    """A running trial, and its scheduled actions.
 
     Attributes:
+        row: index of the trial among those of the call.
         dt: Euler step.
         pushes: for each push whose time is not the same in all trials, the path of its boost in the model.
         recording: whether values are recorded now.
@@ -55,24 +55,22 @@ class RunningTrial:
 
     def __init__(
         self,
-        trial: int,
+        copies: TrialCopies,
+        row: int,
         actions: Sequence[ScheduledAction],
-        start: float,
-        dt: float,
         pushes: Mapping[Any, str],
     ) -> None:
-        self.dt = dt
-        self.pushes = pushes
+        self._copies, self.row, self.dt, self.pushes = copies, row, copies.dt, pushes
         self.recording = True
         self.snapshots: dict[str, Kept] = {}
         self.outcome = ""
-        self._begun = start
+        self._begun = start = copies.run.clock.time
         self._due: list[tuple[int, int, Callable[[], object]]] = []
         self._waiting: list[tuple[int, ScheduledAction]] = []
         self._count = 0
         for action in actions:
-            at = action.time(trial)
-            moment = whole(at if action.when else at - start, dt, "the time of an action")
+            at = action.time(copies.trials[row])
+            moment = whole(at if action.when else at - start, self.dt, "the time of an action")
             if action.when:
                 self._waiting.append((moment, action))
             else:
@@ -83,35 +81,35 @@ class RunningTrial:
     @property
     def tick(self) -> int:
         """Number of steps so far."""
-        raise NotImplementedError
+        return self._copies.run.clock.tick
 
     @property
     def time(self) -> float:
         """Document time."""
-        raise NotImplementedError
+        return self._copies.run.clock.time
 
     @property
     def world(self) -> World | None:
         """The world that actions change."""
-        raise NotImplementedError
+        return self._copies.world_of(self.row)
 
     def get(self, path: str) -> Any:
         """Return the present value of a parameter."""
-        raise NotImplementedError
+        return find.value(self._copies.document(self.row), path)
 
     def set(self, path: str, value: Any) -> None:
         """Change a parameter from the next step on."""
-        raise NotImplementedError
+        self._copies.set(self.row, path, value)
 
     def read(self, path: str) -> np.ndarray:
         """Return the present value of a port."""
-        raise NotImplementedError
+        return self._copies.read(self.row, path)
 
     def restart(self, keep_learned: bool) -> None:
         """Reset the states of all elements, those that were learned only if `keep_learned` is false, to their
         values at the start; everything else continues.
         """
-        raise NotImplementedError
+        self._copies.restart(self.row, keep_learned)
 
     def later(self, steps: int, what: Callable[[], object]) -> None:
         """Call `what` in `steps` steps from now; 0: before the next step."""
@@ -157,53 +155,4 @@ class RunningTrial:
             return
         with errors_of(world, action.world_method):
             action.apply(self)
-        self._world_changed()
-
-    def _world_changed(self) -> None:
-        """Use the changed objects of the world from now on."""
-
-
-class SessionTrial(RunningTrial):
-    """A trial that a session runs.
-
-    Attributes:
-        session: the model in its world.
-    """
-
-    def __init__(
-        self,
-        session: Session,
-        trial: int,
-        actions: Sequence[ScheduledAction],
-        pushes: Mapping[Any, str],
-        restarts: bool,
-    ) -> None:
-        self.session = session
-        super().__init__(trial, actions, session.time, session.dt, pushes)
-        self._start: SessionSnapshot | None = session.snapshot() if restarts else None
-
-    @property
-    def tick(self) -> int:
-        return self.session.tick
-
-    @property
-    def time(self) -> float:
-        return self.session.time
-
-    @property
-    def world(self) -> World | None:
-        return self.session.world
-
-    def get(self, path: str) -> Any:
-        return self.session.get(path)
-
-    def set(self, path: str, value: Any) -> None:
-        self.session.set(path, value)
-
-    def read(self, path: str) -> np.ndarray:
-        return self.session.read(path).copy()
-
-    def restart(self, keep_learned: bool) -> None:
-        assert self._start is not None
-        states = self._start.states
-        self.session.put_states(with_learned(self.session.snapshot(), states) if keep_learned else states)
+        self._copies.use_world(self.row)

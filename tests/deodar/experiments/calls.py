@@ -1,0 +1,52 @@
+"""Trials of a plan in one call, together or one alone beside its world."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import deodar as dd
+from deodar.experiments.trial import Trial
+
+PLAN = ("watch", "events", "measures", "actions", "every", "dt")
+CALL = ("seed", "values", "between", "watched")
+
+
+def run_alone(
+    model: dd.Model,
+    limit: float,
+    world: dd.World | None = None,
+    trial: int = 0,
+    tolerant: bool = False,
+    **given: Any,
+) -> Trial:
+    """Run one trial, beside its world on the host; `tolerant`: also if it diverges."""
+    return _run(model, limit, False, tolerant, [trial], given | {"world": world})[0]
+
+
+def run_together(
+    model: dd.Model,
+    limit: float,
+    numbers: Sequence[int],
+    watch: Sequence[str] = (),
+    events: Sequence[dd.Event] = (),
+    tolerant: bool = False,
+    **given: Any,
+) -> list[Trial]:
+    """Run trials in one batch; `tolerant`: also if all diverge."""
+    return _run(model, limit, True, tolerant, numbers, given | {"watch": watch, "events": events})
+
+
+def _run(
+    model: dd.Model,
+    limit: float,
+    together: bool,
+    tolerant: bool,
+    numbers: Sequence[int],
+    given: dict[str, Any],
+) -> list[Trial]:
+    plan = dd.TrialPlan(limit, **{name: given[name] for name in PLAN if name in given})
+    settings = {name: value for name, value in given.items() if name not in (*PLAN, *CALL)}
+    trials = dd.Trials(model, plan, **settings, together=together)
+    call = {name: given[name] for name in CALL if name in given}
+    return (trials.results if tolerant else trials.run)(numbers, **call)
