@@ -168,7 +168,7 @@ MEASURES = [
         "deodar.experiments.stored_records.StoredRecords",
         "dd.TrialPlan",
         "dd.Trials",
-        "deodar.experiments.trial.Trial",
+        "dd.Trial",
     ),
     *_derived(dd.Event),
     *_derived(dd.Action),

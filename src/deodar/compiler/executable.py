@@ -628,7 +628,7 @@ def executable(
             raise ModelError(found)
         request = _Request(key, doc, precision, batch, place, exact, body, distribution)
         while len(model.programs) >= MOST_KEPT:
-            del model.programs[next(iter(model.programs))]
+            model.programs.pop(next(iter(model.programs)), None)  # another thread may have dropped it
         model.programs[key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
     return model.programs[key]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 import warnings
 from collections.abc import Callable, Generator, Mapping, Sequence
 
@@ -33,7 +34,8 @@ class Trials:
     """Trials of one model by one plan.
 
     What they have in common is prepared and compiled once: for repeated calls with other trials, seeds and
-    values keep the object.
+    values keep the object. Threads may call it at once; trials in a world then wait for each other. A pickled
+    object has what it was made from, and is prepared again.
 
     Together, trials are one batch, each with its world inside the step. When half of the copies have ended,
     the others continue in a batch of half the width: always in a world, otherwise where this saves more time
@@ -68,6 +70,9 @@ class Trials:
         together: bool = True,
     ) -> None:
         self.plan, self.world, self.precision, self.together = plan, world, precision, together
+        self._model = model
+        # a world has one state on the host, which all trials reset
+        self._world_lock = threading.RLock() if world is not None else contextlib.nullcontext()
         base = require_model(model)
         require_actions(plan.actions, world)
         require_events(plan.events, plan.measures)
@@ -94,6 +99,13 @@ class Trials:
         self.dynamics = Dynamics(staged, doc, precision, body=body)
         self._nodes = resolve(doc)[0]
         self._places = SampledPlaces(doc, plan, None if together else world, readers)
+
+    def __reduce__(self) -> tuple[type[Trials], tuple[object, ...]]:
+        return Trials, (self._model, self.plan, self.world, self.precision, self.together)
+
+    def memory(self, trials: int = 1) -> int:
+        """Return about how many bytes this number of trials needs that run at once, without their samples."""
+        return memory.run_bytes(self._nodes, self.precision, trials if self.together else 1)
 
     def run(
         self,
@@ -150,14 +162,16 @@ class Trials:
             raise ParameterError(f"expected trial numbers, each of them once, not {list(trials)}")
         if self.together:
             swept = acted(self.dynamics.doc, self.plan.actions, self._pushes, values or {}, len(numbers))
-            return self._results(Numbered(seed, numbers, swept), between, watched)
+            with self._world_lock:
+                return self._results(Numbered(seed, numbers, swept), between, watched)
         if values:
             raise ParameterError(
                 "trials that run one by one have the parameters of the model",
                 where=next(iter(values)),
                 fix="Run them together, or set the parameter of the model",
             )
-        return [self._results(Numbered(seed, [number]), between, watched)[0] for number in numbers]
+        with self._world_lock:
+            return [self._results(Numbered(seed, [number]), between, watched)[0] for number in numbers]
 
     def _results(
         self, numbered: Numbered, between: Callable[[int], None] | None, watched: Sequence[int] | None

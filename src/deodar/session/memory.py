@@ -48,12 +48,9 @@ def require(
         points: number of such points that run at once, in each process.
         workers: number of worker processes; they keep their records until this process has received them.
     """
-    size, processes = _size(precision), max(1, workers)
-    constants = sum(_constants(n) * (points if n.id in rebuilt else 1) for n in nodes)
-    need = (
-        size * (processes * (copies * COPIES * sum(_cells(n) for n in nodes) + constants) + recorded)
-        + workers * PROCESS
-    )
+    constants = sum(_constants(n) * (points - 1) for n in nodes if n.id in rebuilt)
+    one = run_bytes(nodes, precision, copies) + _size(precision) * constants
+    need = max(1, workers) * one + _size(precision) * recorded + workers * PROCESS
     free = psutil.virtual_memory().available
     if need > SHARE * free:
         largest = max(nodes, key=lambda n: _cells(n) * copies + _constants(n))
@@ -65,6 +62,12 @@ def require(
             + ("fewer workers, " if workers > 1 else "")
             + "or a larger `every`",
         )
+
+
+def run_bytes(nodes: list[Node], precision: str, copies: int) -> int:
+    """Return about how many bytes the states and the constants of copies of a model need that run at once."""
+    cells = copies * COPIES * sum(_cells(n) for n in nodes)
+    return _size(precision) * (cells + sum(_constants(n) for n in nodes))
 
 
 def copy_bytes(nodes: list[Node], precision: str, rebuilt: Collection[str] = (), trials: int = 1) -> int:
