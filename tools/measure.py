@@ -25,6 +25,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
+from typing import Any
 
 import packages as architecture
 import suite
@@ -37,6 +38,27 @@ WIDTH = 110
 PARAMETERS = 8
 CROWDED = 9
 """Most functions with that many parameters: 5 when `simulate` takes objects."""
+BRANCHED = 25
+NOT_SPLIT = frozenset(
+    {
+        "deodar/analysis/regime_words.py rows",
+        "deodar/batch/compute.py compute",
+        "deodar/compiler/plan.py plan",
+        "deodar/diagrams/given.py placed",
+        "deodar/diagrams/layout.py _Level._places",
+        "deodar/experiments/trial_batch.py run_batch",
+        "deodar/experiments/trial_run.py run_trial",
+        "deodar/model/checks/kernels.py _kernel",
+        "deodar/model/uses.py _refreshed",
+        "deodar_interop/importers/cedar/parameter_links.py _link",
+        "deodar_interop/importers/cosivina/launchers/matlab_values.py joined",
+        "deodar_papers/pointing/targets.py _of_scenes",
+        "deodar_papers/spa/sentences.py _section_6_2",
+    }
+)
+"""Functions that may still be above BRANCHED. The list only shrinks."""
+TANGLED, MOST_TANGLED = 20, 49
+"""The complexity above which functions are counted, and how many of them there may be: only ever fewer."""
 BLANK = {
     *(tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE),
     *(tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER),
@@ -352,6 +374,25 @@ def _complex() -> list[str]:
     return [f"{Path(x['filename']).relative_to(SOURCE)}:{x['location']['row']}" for x in json.loads(text)]
 
 
+def branched(*roots: Path) -> dict[str, int]:
+    """Return the functions above TANGLED with their complexity: loops, branches, and each `and`, `or`, `if`
+    of an expression.
+    """
+    found: dict[str, list[dict[str, Any]]] = json.loads(
+        _python("-m", "radon", "cc", "--json", "--min", "D", *map(str, roots))
+    )
+    return {
+        f"{Path(path).relative_to(roots[0].parent).as_posix()} {_qualified(block)}": block["complexity"]
+        for path, blocks in found.items()
+        for block in blocks
+        if block["type"] != "class" and block["complexity"] > TANGLED
+    }
+
+
+def _qualified(block: Mapping[str, Any]) -> str:
+    return f"{block['classname']}.{block['name']}" if block.get("classname") else block["name"]
+
+
 def _timed(*command: str) -> tuple[float, int]:
     """Wall seconds of a command, and its status."""
     began = time.perf_counter()
@@ -384,6 +425,13 @@ def counted() -> Iterator[Figure]:
     yield Figure("modules in the first cycle of imports", len(ring), 0, ring)
     found = _complex()
     yield Figure("functions of a complexity above 15", len(found), 0, found)
+    above = branched(*roots)
+    found = [f"{name} ({n})" for name, n in above.items() if n > BRANCHED and name not in NOT_SPLIT]
+    yield Figure(f"functions of a complexity above {BRANCHED}, conditions counted", len(found), 0, found)
+    found = [f"{name} ({n})" for name, n in sorted(above.items(), key=lambda item: -item[1])]
+    yield Figure(
+        f"functions of a complexity above {TANGLED}, conditions counted", len(found), MOST_TANGLED, found
+    )
     found = [str(Path(x).relative_to(ROOT)) for x in long_lines(_tracked("*.py", "*.pyi"))]
     yield Figure(f"lines of Python above {WIDTH} columns, all folders", len(found), 0, found)
     found = crowded(modules)
