@@ -159,39 +159,40 @@ class _Arranger:
         return ident if len(group) == len(level) else group[: len(level) + 1]
 
     def _orient(self, level: GroupPath) -> None:
+        """Decide from which side each wire meets the groups on this level, and rank the children by it."""
         nodes = [_key(c) for c in self.children[level]]
-        inner: list[tuple[str, str, int]] = []
-        edges: list[_Edge] = []
-        for w, wire in enumerate(self.graph.wires):
-            a, b = self._child(wire.source, level), self._child(wire.target, level)
-            if a is not None and b is not None:
-                if a != b:
-                    inner.append((_key(a), _key(b), w))
-            elif a is not None or b is not None:
-                inside, side = a if a is not None else b, self.sides[w, level]
-                assert inside is not None
-                edges.append(
-                    _Edge(_port(w), _key(inside), w) if side == LEFT else _Edge(_key(inside), _port(w), w)
-                )
-                if not isinstance(inside, str):
-                    self.sides[w, inside] = side
-        place = layers.forward(nodes, [(a, b) for a, b, _ in inner])
-        for a, b, w in inner:
+        ends = [(self._child(w.source, level), self._child(w.target, level)) for w in self.graph.wires]
+        edges = [
+            self._crossing(w, a if b is None else b, level)
+            for w, (a, b) in enumerate(ends)
+            if (a is None) != (b is None)
+        ]
+        inner = [(w, a, b) for w, (a, b) in enumerate(ends) if a is not None and b is not None and a != b]
+        place = layers.forward(nodes, [(_key(a), _key(b)) for _, a, b in inner])
+        for w, a, b in inner:
             self.home[w] = level
-            self.backwards[w] = place[a] > place[b]
+            self.backwards[w] = place[_key(a)] > place[_key(b)]
             left, right = (b, a) if self.backwards[w] else (a, b)
-            edges.append(_Edge(left, right, w))
-            wire = self.graph.wires[w]
-            for ident, key in ((wire.source, a), (wire.target, b)):
-                child = self._child(ident, level)
-                if child is not None and not isinstance(child, str):
-                    self.sides[w, child] = RIGHT if key == left else LEFT
+            edges.append(_Edge(_key(left), _key(right), w))
+            self._meet(left, w, RIGHT)
+            self._meet(right, w, LEFT)
         real = [(e.left, e.right) for e in edges if e.left in place and e.right in place]
         self.rank[level] = layers.ranks(sorted(nodes, key=lambda n: place[n]), real)
         self.edges[level] = edges
         for child in self.children[level]:
             if not isinstance(child, str):
                 self._orient(child)
+
+    def _crossing(self, w: int, inside: str | GroupPath | None, level: GroupPath) -> _Edge:
+        """Return the edge of a wire that crosses the border of a group."""
+        assert inside is not None
+        side = self.sides[w, level]
+        self._meet(inside, w, side)
+        return _Edge(_port(w), _key(inside), w) if side == LEFT else _Edge(_key(inside), _port(w), w)
+
+    def _meet(self, child: str | GroupPath, w: int, side: str) -> None:
+        if not isinstance(child, str):
+            self.sides[w, child] = side
 
     # --------------------------------------------------------------- from inside out: where everything stands
 
@@ -220,6 +221,19 @@ class _Arranger:
         return _Block(ItemSize(found.width, found.height, 0.0, found.height), found, made.ports)
 
 
+@dataclass(frozen=True)
+class _Columns:
+    """Left edge and width of each column of a group, and the right edge of the group."""
+
+    lefts: Sequence[float]
+    widths: Sequence[float]
+    right: float
+
+    def middle(self, column: int, width: float) -> float:
+        """Return the left edge of what stands in the middle of a column."""
+        return self.lefts[column] + (self.widths[column] - width) / 2
+
+
 class _Level:
     """Lay out one group: its children in columns."""
 
@@ -228,6 +242,7 @@ class _Level:
         labels: Mapping[int, tuple[float, float]], home: Mapping[int, GroupPath], least: float,
     ) -> None:  # fmt: skip
         self.level, self.blocks, self.edges, self.least = level, blocks, edges, least
+        self.margin = FRAME if level else 0.0
         self.labels = {w: size for w, size in labels.items() if home.get(w) == level}
         low = min(rank.values(), default=0)
         self.column = {n: 2 * (r - low) + 1 for n, r in rank.items()}
@@ -352,90 +367,68 @@ class _Level:
     def _end(self, n: str, side: str, w: int) -> float:
         return self.offset[n + side, w] if n in self.blocks else self.size[n][1] / 2
 
-    def _places(self, columns: Sequence[Sequence[str]], y: dict[str, float]) -> Arrangement:
+    def _places(self, columns: Sequence[Sequence[str]], y: Mapping[str, float]) -> Arrangement:
+        across = self._across(columns, y)
+        low = min(y.values(), default=0.0)
+        bottom = max((at + self.size[n][1] for n, at in y.items()), default=0.0)
+        down = (HEAD + FRAME * 0.5 if self.level else 0.0) - low
+        found = Arrangement(width=across.right, height=bottom + down + self.margin)
+        place = {n: (across.middle(self.column[n], self.size[n][0]), at + down) for n, at in y.items()}
+        self.corners = {n: place[n] for n in self.blocks}
+        self.ports = {self.carries[n]: place[n][1] for n in (*columns[0], *columns[-1])}
+        found.runs = {w: self._runs(w, path, place, across) for w, path in self.path.items()}
+        for lane, w in self.carries.items():
+            (x, top), (width, height) = place[lane], self.size[lane]
+            if width:
+                found.captions[w] = (x + width / 2, top + height / 2)
+        return found
+
+    def _across(self, columns: Sequence[Sequence[str]], y: Mapping[str, float]) -> _Columns:
+        """Return the columns from left to right; the first and the last hold the wires of the border."""
         widths = [max((self.size[n][0] for n in column), default=0.0) for column in columns]
-        climbs = [0.0] * len(columns)
+        spaces = self._spaces(y)
+        x, lefts = self.margin, [0.0]
+        for c in range(1, self.last):
+            lefts.append(x)
+            x += widths[c]
+            if c + 1 < self.last:
+                x += spaces[c]
+        shift = max(0.0, spaces[0] - FRAME) if columns[0] else 0.0
+        right = x + (max(FRAME, spaces[-2]) if columns[-1] else self.margin) + shift
+        spare = max(0.0, self.least - right)  # the name of a group is wider than its content
+        inner = [left + shift + spare / 2 for left in lefts[1:]]
+        return _Columns([0.0, *inner, right + spare], widths, right + spare)
+
+    def _spaces(self, y: Mapping[str, float]) -> list[float]:
+        """Return the space behind each column, which grows with the steepest climb of a connection there."""
+        climbs = [0.0] * (self.last + 1)
         for w, path in self.path.items():
             for a, b in itertools.pairwise(path):
                 climb = abs(y[a] + self._end(a, RIGHT, w) - y[b] - self._end(b, LEFT, w))
                 climbs[self.column[a]] = max(climbs[self.column[a]], climb)
-        framed = bool(self.level)
-        x, lefts = FRAME if framed else 0.0, list[float]()
-        inner = [c for c in range(len(columns)) if 0 < c < self.last]
-        for c, wide in enumerate(widths):
-            lefts.append(x)
-            if c in (0, self.last):
-                continue
-            x += wide
-            if c != inner[-1]:
-                x += min(WIDEST_GAP, GAP + STEEPEST * climbs[c])
-        crossing = [
-            any(n not in self.blocks and n in self.carries for n in columns[c]) for c in (0, self.last)
-        ]
-        shift = 0.0
-        if framed and crossing[0]:
-            shift = min(WIDEST_GAP, GAP + STEEPEST * climbs[0]) - FRAME
-        right = x + (FRAME if framed else 0.0)
-        if framed and crossing[1]:
-            right = x + max(FRAME, min(WIDEST_GAP, GAP + STEEPEST * climbs[self.last - 1]))
-        shift = max(0.0, shift)
-        lefts = [left + shift for left in lefts]
-        right += shift
-        spare = max(0.0, self.least - right)  # the name of a group is wider than its content
-        lefts, right = [left + spare / 2 for left in lefts], right + spare
-        lefts[0], lefts[self.last] = 0.0, right
-        top = min((y[n] for column in columns for n in column), default=0.0)
-        down = (HEAD + FRAME * 0.5 if framed else 0.0) - top
-        bottom = max((y[n] + self.size[n][1] for column in columns for n in column), default=0.0)
-        found = Arrangement(width=right, height=bottom + down + (FRAME if framed else 0.0))
-        place = {
-            n: (lefts[c] + (widths[c] - self.size[n][0]) / 2, y[n] + down)
-            for c, column in enumerate(columns)
-            for n in column
-        }
-        self.corners = {n: place[n] for n in self.blocks}
-        for w, path in self.path.items():
-            found.runs[w] = self._runs(w, path, place, lefts, widths)
-        for lane in self.carries:
-            if lane.startswith("lane ") and self.size[lane][0]:
-                found.captions[self.carries[lane]] = (
-                    place[lane][0] + self.size[lane][0] / 2,
-                    place[lane][1] + self.size[lane][1] / 2,
-                )
-        self.ports = {
-            w: place[end][1]
-            for w, path in self.path.items()
-            for end in (path[0], path[-1])
-            if end not in self.blocks
-        }
-        return found
+        return [min(WIDEST_GAP, GAP + STEEPEST * climb) for climb in climbs]
 
     def _runs(
         self,
         w: int,
         path: Sequence[str],
         place: Mapping[str, tuple[float, float]],
-        lefts: Sequence[float],
-        widths: Sequence[float],
+        across: _Columns,
     ) -> list[Segment]:
         runs: list[Segment] = []
         for k, n in enumerate(path):
             x, y = place[n]
             c = self.column[n]
-            if n.startswith("lane ") and not widths[c]:
+            left, right = across.lefts[c], across.lefts[c] + across.widths[c]
+            if n.startswith("lane ") and not across.widths[c]:
                 continue  # this column has no box: one smooth curve to the next
             if n not in self.blocks:
-                runs.append(Segment(lefts[c], lefts[c] + widths[c], y + self.size[n][1] / 2))
+                runs.append(Segment(left, right, y + self.size[n][1] / 2))
             elif k == 0:
-                runs.append(
-                    Segment(
-                        x + self.size[n][0],
-                        max(x + self.size[n][0], lefts[c] + widths[c]),
-                        y + self.offset[n + RIGHT, w],
-                    )
-                )
+                edge = x + self.size[n][0]
+                runs.append(Segment(edge, max(edge, right), y + self.offset[n + RIGHT, w]))
             else:
-                runs.append(Segment(lefts[c], x, y + self.offset[n + LEFT, w]))
+                runs.append(Segment(left, x, y + self.offset[n + LEFT, w]))
         return runs
 
 
