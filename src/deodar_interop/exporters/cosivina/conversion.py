@@ -77,22 +77,26 @@ def _contracted(
     }
     if reduce not in factors:
         raise NoConversion(f"cosivina has no {reduce} over a dimension")
-    kept = [a for d, a in enumerate(source) if a is not None and d not in lost]
-    # the sum is reshaped to any size, so it has the dimensions of the target where their order is the same
-    wanted = [names[a.name] for a in kept]
-    there = [b.name for b in target if b is not None and b.name in wanted]
-    if wanted == there:
-        own = {names[a.name]: a for a in kept}
-        dims: Dims = tuple(None if b is None else own.get(b.name) for b in target)
-        while len(dims) > 2 and dims[-1] is None:
-            dims = dims[:-1]
-    else:
-        dims = tuple(kept) if len(kept) > 1 else (None, *kept)
+    dims = _summed([a for d, a in enumerate(source) if a is not None and d not in lost], target, names)
     return (
         "SumDimension",
         {"sumDimensions": [d + 1 for d in lost], "size": size(dims), "amplitude": factors[reduce]},
         dims,
     )
+
+
+def _summed(kept: Sequence[Axis], target: Dims, names: Mapping[str, str]) -> Dims:
+    """Return the dimensions of a sum: a sum is reshaped to any size, so they are those of the target where
+    their order is the same.
+    """
+    own = {names[a.name]: a for a in kept}
+    wanted = [names[a.name] for a in kept]
+    if wanted != [b.name for b in target if b is not None and b.name in wanted]:
+        return tuple(kept) if len(kept) > 1 else (None, *kept)
+    dims: Dims = tuple(None if b is None else own.get(b.name) for b in target)
+    while len(dims) > 2 and dims[-1] is None:
+        dims = dims[:-1]
+    return dims
 
 
 def _other_grid(a: Axis | None, names: Mapping[str, str], target: Dims) -> bool:

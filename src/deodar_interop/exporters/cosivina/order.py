@@ -20,13 +20,7 @@ def ordered(parts: Sequence[FilePart], names: FreeNames) -> list[FilePart]:
     """Return the parts in an order that fits their links, near the preferred places; add relays where there
     is none.
     """
-    waiting: dict[FilePart, set[FilePart]] = {p: set() for p in parts}
-    for p in parts:
-        for link in p.links:
-            if link.part is p or link.after is None or link.part not in waiting:
-                continue
-            first, second = (p, link.part) if link.after else (link.part, p)
-            waiting[second].add(first)
+    waiting = _waiting(parts)
     followers: dict[FilePart, list[FilePart]] = {p: [] for p in parts}
     for p, before in waiting.items():
         for q in before:
@@ -53,6 +47,18 @@ def ordered(parts: Sequence[FilePart], names: FreeNames) -> list[FilePart]:
                 if not waiting[q] and q in left:
                     heapq.heappush(ready, (q.place, number[q], q))
     return out
+
+
+def _waiting(parts: Sequence[FilePart]) -> dict[FilePart, set[FilePart]]:
+    """Return for each part those that are listed before it."""
+    waiting: dict[FilePart, set[FilePart]] = {p: set() for p in parts}
+    for p in parts:
+        for link in p.links:
+            if link.part is p or link.after is None or link.part not in waiting:
+                continue
+            first, second = (p, link.part) if link.after else (link.part, p)
+            waiting[second].add(first)
+    return waiting
 
 
 def _relayed(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from deodar.errors import DeodarError
-from deodar.importers.report import Line
+from deodar.importers.report import Line, Verdict
 from deodar.model import edit
 from deodar.model.document import Document, Entry
 from deodar_interop.importers.cedar.equation import solved
@@ -23,53 +23,95 @@ def linked(doc: Document, root: CedarGroup, by: Mapping[StepPath, Entry]) -> tup
     lines: list[Line] = []
     for group in root.all_groups():
         for entry in group.links:
-            doc, line = _link(doc, group, entry, by)
-            lines.append(line)
+            link = CedarLink.read(group, entry)
+            try:
+                doc, verdict, why = _applied(doc, link, by)
+            except DeodarError as error:
+                verdict, why = "dropped", error.problems[0].what
+            lines.append(Line(link.where, "parameter", link.what, verdict, why))
     return doc, lines
 
 
-def _link(
-    doc: Document, group: CedarGroup, entry: Mapping[str, Any], by: Mapping[StepPath, Entry]
-) -> tuple[Document, Line]:
-    source, target = text(entry.get("source element")), text(entry.get("target element"))
-    given, taken = text(entry.get("source parameter")), text(entry.get("target parameter"))
-    where = ".".join((*group.path, *([target] if target else [])))
-    what = f"{'.'.join(w for w in (source, given) if w)} -> {taken}"
-    if any(taken.startswith(word) for word in STRUCTURE):
-        return doc, Line(where, "parameter", what, "carried", "a link of sizes; they have the file's values")
-    end = _end(group, target, taken, by)
+@dc.dataclass(frozen=True)
+class CedarLink:
+    """One link of a file.
+
+    Attributes:
+        group: the group that has it.
+        source, given: the step and its parameter that drive; the group itself if `source` is empty.
+        target, taken: the step and its parameter that are driven.
+        equation: the equation of the target; None: it is the value of the source.
+    """
+
+    group: CedarGroup
+    source: str
+    given: str
+    target: str
+    taken: str
+    equation: str | None
+
+    @classmethod
+    def read(cls, group: CedarGroup, entry: Mapping[str, Any]) -> CedarLink:
+        """Return what the file states."""
+        direct = text(entry.get("type")).endswith("DirectParameterLink")
+        equation = None if direct else text(members(entry.get("configuration")).get("equation"))
+        source, given = text(entry.get("source element")), text(entry.get("source parameter"))
+        target, taken = text(entry.get("target element")), text(entry.get("target parameter"))
+        return cls(group, source, given, target, taken, equation)
+
+    @property
+    def where(self) -> str:
+        """The label of the driven step."""
+        return ".".join((*self.group.path, *([self.target] if self.target else [])))
+
+    @property
+    def what(self) -> str:
+        """Both parameters."""
+        return f"{'.'.join(w for w in (self.source, self.given) if w)} -> {self.taken}"
+
+    @property
+    def name(self) -> str:
+        """The name of a document parameter for it."""
+        return " ".join((*self.group.path, *([self.source] if self.source else []), self.given))
+
+    def result(self, value: float) -> float | None:
+        """Return the target's value for a value of the source; None: the equation cannot be read."""
+        return value if self.equation is None else solved(self.equation, value)
+
+    def keeps(self, value: float) -> bool:
+        """Return whether the target has the value of the source, this one and others."""
+        return all(self.result(v) == v for v in (value, 0.0, 1.0, 2.0))
+
+
+def _applied(doc: Document, link: CedarLink, by: Mapping[StepPath, Entry]) -> tuple[Document, Verdict, str]:
+    """Return a document with a link, and what became of it; raise DeodarError if it is dropped."""
+    if link.taken.startswith(STRUCTURE):
+        return doc, "carried", "a link of sizes; they have the file's values"
+    end = _end(link.group, link.target, link.taken, by)
     if end is None:
-        return doc, Line(where, "parameter", what, "dropped", "the parameter has no counterpart here")
-    first = _end(group, source, given, by) if source else None
-    if source and first is None:
-        return doc, Line(where, "parameter", what, "dropped", "its source has no counterpart here")
-    value = number(group.values.get(given)) if first is None else first.value
+        raise DeodarError("the parameter has no counterpart here")
+    first = _end(link.group, link.source, link.given, by) if link.source else None
+    if link.source and first is None:
+        raise DeodarError("its source has no counterpart here")
+    value = number(link.group.values.get(link.given)) if first is None else first.value
     if value is None:
-        return doc, Line(where, "parameter", what, "dropped", "its source holds no number")
-    equation = text(members(entry.get("configuration")).get("equation"))
-    direct = text(entry.get("type")).endswith("DirectParameterLink")
-    result = value if direct else solved(equation, value)
+        raise DeodarError("its source holds no number")
+    result = link.result(value)
     if result is None:
-        why = f"the equation {equation!r} cannot be read; the parameter has the file's value"
-        return doc, Line(where, "parameter", what, "dropped", why)
-    same = direct or all(solved(equation, v) == v for v in (value, 0.0, 1.0, 2.0))
-    try:
-        if not same or (first is not None and first.sign != end.sign):
-            new = edit.put(doc, end.ident, end.leaf, end.sign * result)
-            why = f"as the value {result:g}; it does not follow when its source changes"
-            return new, Line(where, "parameter", what, "approximated", why)
-        ends = [e for e in (first, end) if e is not None]
-        name = next((doc.links()[e.place] for e in ends if e.place in doc.links()), "")
-        new = doc
-        if not name:
-            name = " ".join((*group.path, *([source] if source else []), given))
-            new = edit.document_parameter(doc, name, end.sign * value)
-        for e in ends:
-            if e.place not in new.links():
-                new = edit.link(new, *e.place, name)
-    except DeodarError as error:
-        return doc, Line(where, "parameter", what, "dropped", error.problems[0].what)
-    return new, Line(where, "parameter", what, "carried", f"the document parameter {name!r}")
+        why = f"the equation {link.equation!r} cannot be read; the parameter has the file's value"
+        raise DeodarError(why)
+    if not link.keeps(value) or (first is not None and first.sign != end.sign):
+        doc = edit.put(doc, end.ident, end.leaf, end.sign * result)
+        return doc, "approximated", f"as the value {result:g}; it does not follow when its source changes"
+    ends = [end] if first is None else [first, end]
+    name = next((doc.links()[e.place] for e in ends if e.place in doc.links()), "")
+    if not name:
+        name = link.name
+        doc = edit.document_parameter(doc, name, end.sign * value)
+    for e in ends:
+        if e.place not in doc.links():
+            doc = edit.link(doc, *e.place, name)
+    return doc, "carried", f"the document parameter {name!r}"
 
 
 @dc.dataclass(frozen=True)

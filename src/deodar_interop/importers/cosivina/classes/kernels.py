@@ -54,6 +54,39 @@ class KernelForm:
         )
 
 
+@dc.dataclass(frozen=True)
+class TransformForm:
+    """The common properties of the kernels of a transform: dimensions, which of them are rings, whether
+    amplitudes are integrals, and the padding in widths.
+    """
+
+    dims: Dims
+    circular: Sequence[bool]
+    normalized: bool
+    padding: float
+
+    def kernel(self, amplitude: float, sigmas: Sequence[float]) -> Kernel:
+        """Return the kernel of an amplitude and of widths, one for each axis."""
+        long = axes(self.dims)
+        ends = ["periodic" if c else "zero" for c in self.circular][: len(long)]
+        if self._sampled(sigmas):
+            return KernelForm(long, ends, self.normalized, WHOLE).gaussian(amplitude, sigmas[: len(long)])
+        same = sigmas[0] if len(set(sigmas)) == 1 else sigmas
+        return Gaussian(amplitude + 0.0, same, self.normalized, boundary=boundary(self.dims, ends))
+
+    def differs(self, amplitude: float, sigmas: Sequence[float]) -> bool:
+        """Return whether this kernel is not cosivina's, which is cut by its padding and by the ring."""
+        if not amplitude or self._sampled(sigmas):
+            return False
+        of = zip(sigmas, axes(self.dims), self.circular, strict=False)
+        return self.padding < PADDED or max((s / a.samples for s, a, c in of if c), default=0.0) > ALIKE
+
+    def _sampled(self, sigmas: Sequence[float]) -> bool:
+        # cosivina samples what the grid does not resolve; Gaussian keeps its integral
+        narrow = not self.normalized and min(sigmas, default=1.0) < 1
+        return all(self.circular) or not axes(self.dims) or narrow
+
+
 def kernel_1d(b: SourceElement) -> Piece:
     """Translate GaussKernel1D."""
     form = _form(b)
@@ -109,14 +142,10 @@ def kernel_fft(b: SourceElement) -> Piece:
     """
     b.values.size()
     dims = b.dims()
-    long = [a for a in dims if a is not None]
-    count = max(len(long), 1)
-    circular = (
-        [v != 0 for v in b.values.numbers("circular", [1.0] * count, count)]
-        if b.element.kind == "KernelFFT"
-        else [True] * count
-    )
-    ends = ["periodic" if c else "zero" for c in circular][: len(long)]
+    count = max(len(axes(dims)), 1)
+    circular = [True] * count
+    if b.element.kind == "KernelFFT":
+        circular = [v != 0 for v in b.values.numbers("circular", [1.0] * count, count)]
     normalized = b.values.flag("normalized", True)
     up, down = b.values.number("amplitudeExc", 0), b.values.number("amplitudeInh", 0)
     wide, wider = (
@@ -127,26 +156,14 @@ def kernel_fft(b: SourceElement) -> Piece:
     alone = b.element.kind == "KernelInverseFFT" and overall and not up and not down
     if alone and b.bug("KernelInverseFFT drops amplitudeGlobal where both amplitudes are 0"):
         overall = 0.0
-    padding = b.values.number("paddingFactor", 5, 0)
-    why, verdict = "Interaction", "carried"
-    kernels: list[Kernel] = []
-    for amplitude, sigmas in ((up, wide), (-down, wider)):
-        # cosivina samples what the grid does not resolve; Gaussian keeps its integral
-        narrow = not normalized and min(sigmas, default=1.0) < 1
-        if all(circular) or not long or narrow:
-            form = KernelForm(tuple(long), ends, normalized, WHOLE)
-            kernels.append(form.gaussian(amplitude, sigmas[: len(long)]))
-        else:
-            same = sigmas[0] if len(set(sigmas)) == 1 else sigmas
-            kernels.append(Gaussian(amplitude + 0.0, same, normalized, boundary=boundary(dims, ends)))
-            rings = [s / a.samples for s, a, c in zip(sigmas, long, circular, strict=False) if c]
-            if amplitude and (padding < PADDED or max(rings, default=0.0) > ALIKE):
-                verdict, why = (
-                    "approximated",
-                    "Interaction, as if the padding were endless and Gaussians on rings had all their images",
-                )
+    form = TransformForm(dims, circular, normalized, b.values.number("paddingFactor", 5, 0))
+    both = ((up, wide), (-down, wider))
+    kernels = [form.kernel(amplitude, sigmas) for amplitude, sigmas in both]
     piece = _interaction(b, dims, Interaction(kernels, -overall + 0.0, name=b.label))
-    return dc.replace(piece, why=why, verdict=verdict)
+    if not any(form.differs(amplitude, sigmas) for amplitude, sigmas in both):
+        return dc.replace(piece, why="Interaction", verdict="carried")
+    why = "Interaction, as if the padding were endless and Gaussians on rings had all their images"
+    return dc.replace(piece, why=why, verdict="approximated")
 
 
 def fourier(b: SourceElement) -> Piece:

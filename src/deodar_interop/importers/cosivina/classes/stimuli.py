@@ -119,26 +119,8 @@ def custom_stimulus(b: SourceElement) -> Piece:
 
 def sequence(b: SourceElement) -> Piece:
     """Translate CustomStimulusSequence: one pattern after another, and zero before the first."""
-    given = b.values.matrix("stimulusPatterns")
-    if given is None or given.ndim > 3:
-        raise Unfit("its stimulusPatterns are not patterns")
-    patterns = (
-        np.moveaxis(given, -1, 0) if given.ndim == 3 else given.reshape(1, -1) if given.ndim < 2 else given
-    )
-    own = (1, patterns.shape[1]) if patterns.ndim == 2 else patterns.shape[1:]
-    if "stimulusSize" in b.element.values and b.values.size("stimulusSize") != own:
-        raise Unfit(f"its patterns have the size {list(own)}, which is not its stimulusSize")
-    if patterns.ndim == 3 and b.bug(
-        "CustomStimulusSequence forgets, when it is read from a file, that its patterns are planes"
-    ):
-        raise Unfit("cosivina cannot show patterns that are planes after it has read them from a file")
-    starts = b.values.matrix("startTimes")
-    if starts is None and not empty(b.element.values.get("startTimes")):
-        raise Unfit("its startTimes are not times")
-    times = np.arange(1.0, len(patterns) + 1) if starts is None else starts.reshape(-1)
-    if times.size != len(patterns) or (np.diff(times) < 0).any():
-        raise Unfit(f"its startTimes are not {len(patterns)} rising numbers")
-    dims = b.of(own)
+    patterns, dims = _patterns(b)
+    times = _start_times(b, len(patterns))
     rows = {
         max(first, 1): pattern
         for t, pattern in zip(times, patterns, strict=True)
@@ -155,6 +137,34 @@ def sequence(b: SourceElement) -> Piece:
     values = np.stack([rows[tick] for tick in order]).reshape(len(order), *shape(axes(dims)))
     element = TimeSeries(b.label, axes(dims), moments, values, interpolation="hold")
     return Piece([element], [], {"output": Outlet(b.label, dims)}, why="TimeSeries")
+
+
+def _patterns(b: SourceElement) -> tuple[np.ndarray, Dims]:
+    """Return the patterns of a sequence, one after another, and their dimensions."""
+    given = b.values.matrix("stimulusPatterns")
+    if given is None or given.ndim > 3:
+        raise Unfit("its stimulusPatterns are not patterns")
+    patterns = given.reshape(1, -1) if given.ndim < 2 else given
+    if given.ndim == 3:
+        patterns = np.moveaxis(given, -1, 0)
+    own = (1, patterns.shape[1]) if patterns.ndim == 2 else patterns.shape[1:]
+    if "stimulusSize" in b.element.values and b.values.size("stimulusSize") != own:
+        raise Unfit(f"its patterns have the size {list(own)}, which is not its stimulusSize")
+    if patterns.ndim == 3 and b.bug(
+        "CustomStimulusSequence forgets, when it is read from a file, that its patterns are planes"
+    ):
+        raise Unfit("cosivina cannot show patterns that are planes after it has read them from a file")
+    return patterns, b.of(own)
+
+
+def _start_times(b: SourceElement, count: int) -> np.ndarray:
+    starts = b.values.matrix("startTimes")
+    if starts is None and not empty(b.element.values.get("startTimes")):
+        raise Unfit("its startTimes are not times")
+    times = np.arange(1.0, count + 1) if starts is None else starts.reshape(-1)
+    if times.size != count or (np.diff(times) < 0).any():
+        raise Unfit(f"its startTimes are not {count} rising numbers")
+    return times
 
 
 def scalar_to_gaussian(b: SourceElement) -> Piece:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, cast
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from deodar.importers.imported import Imported
 from deodar.importers.report import Line
 from deodar.model.document import Document
 from deodar_interop.importers.cosivina import file
+from deodar_interop.importers.cosivina.launchers.matlab_values import is_cells, is_text
 from deodar_interop.importers.cosivina.launchers.objects import BuiltSimulator, BuiltWindow
 from deodar_interop.importers.cosivina.launchers.script_controls import control_of, plot_of
 from deodar_interop.importers.cosivina.launchers.script_reader import ScriptReader, decoded
@@ -116,22 +118,33 @@ def simulator_file(sim: BuiltSimulator) -> bytes:
 
 def plain(value: Any) -> Any:
     """Return a value of a script as parameter files hold it: a row as a list, a matrix as a list of rows."""
-    if isinstance(value, np.ndarray) and value.dtype == object:
-        return [plain(cell) for cell in value.reshape(-1)]
-    if isinstance(value, np.ndarray) and value.dtype.kind == "U":
-        return "".join(value.reshape(-1).tolist())
-    if isinstance(value, np.ndarray):
-        if value.size == 1:
-            return plain(value.reshape(-1)[0].item())
-        return plain(
-            value.reshape(-1).tolist() if value.shape[0] == 1 and value.ndim == 2 else value.tolist()
-        )
-    if isinstance(value, (list, tuple)):
-        return [plain(inner) for inner in value]
-    if isinstance(value, bool):
-        return int(value)
-    if isinstance(value, float) and not math.isfinite(value):
+    match value:
+        case np.ndarray():
+            return _plain_array(value)
+        case list() | tuple():
+            return [plain(inner) for inner in cast("Sequence[Any]", value)]
+        case bool():
+            return int(value)
+        case float():
+            return _plain_number(value)
+        case int() | str() | dict():
+            return cast("Any", value)
+        case _:
+            return None
+
+
+def _plain_array(value: np.ndarray) -> Any:
+    flat = value.reshape(-1)
+    if is_cells(value):
+        return [plain(cell) for cell in flat]
+    if is_text(value):
+        return "".join(flat.tolist())
+    if value.size == 1:
+        return plain(flat[0].item())
+    return plain(flat.tolist() if value.shape[0] == 1 and value.ndim == 2 else value.tolist())
+
+
+def _plain_number(value: float) -> float | str:
+    if not math.isfinite(value):
         return "_NaN_" if math.isnan(value) else "_Inf_" if value > 0 else "-_Inf_"
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return int(value)
-    return value if isinstance(value, (int, float, str, dict)) else None
+    return int(value) if value.is_integer() and abs(value) < 1e15 else value

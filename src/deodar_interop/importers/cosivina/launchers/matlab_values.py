@@ -6,7 +6,7 @@ Numbers are arrays of floats or booleans, text is an array of characters, a cell
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -132,27 +132,25 @@ def described(value: Any) -> str:
 
 def joined(rows: Sequence[Sequence[Any]]) -> np.ndarray:
     """Return the matrix that rows of arrays make; empty ones are left out."""
-    parts = [[v for v in row if not (isinstance(v, np.ndarray) and v.size == 0)] for row in rows]
-    every = [v for row in rows for v in row]
-    if any(not isinstance(v, np.ndarray) for v in every):
+    values = [v for row in rows for v in row]
+    if not all(isinstance(v, np.ndarray) for v in values):
         raise NotRead("objects are not joined")
-    if any(is_cells(v) for v in every):
-        parts = [[v if is_cells(v) else cells([v]) for v in row] for row in parts]
-    elif any(is_text(v) for v in every):
-        parts = [[v if is_text(v) else _characters(v) for v in row] for row in parts]
-    else:
-        parts = [[v.astype(float) for v in row] for row in parts]
+    dtype, entry = _entries(values)
+    parts = [[entry(v) for v in row if v.size] for row in rows]
     require_size(sum(v.size for row in parts for v in row))
     lines = [np.concatenate(row, axis=1) for row in parts if row]
-    if lines:
-        return np.concatenate(lines, axis=0)
-    return (
-        np.empty((0, 0), dtype=object)
-        if any(is_cells(v) for v in every)
-        else np.zeros((0, 0), dtype="<U1")
-        if any(is_text(v) for v in every)
-        else np.zeros((0, 0))
-    )
+    return np.concatenate(lines, axis=0) if lines else np.zeros((0, 0), dtype=dtype)
+
+
+def _entries(values: Sequence[np.ndarray]) -> tuple[Any, Callable[[np.ndarray], np.ndarray]]:
+    """Return the type of the matrix that arrays make, and the function that gives an array this type: a cell
+    makes all of them cells, a text characters.
+    """
+    if any(is_cells(v) for v in values):
+        return object, lambda v: v if is_cells(v) else cells([v])
+    if any(is_text(v) for v in values):
+        return "<U1", lambda v: v if is_text(v) else _characters(v)
+    return float, lambda v: v.astype(float)
 
 
 def _characters(value: np.ndarray) -> np.ndarray:
@@ -190,37 +188,45 @@ def put_at(value: np.ndarray | None, indices: Sequence[Any], new: np.ndarray) ->
     """Return an array with other entries at indices from 1; it grows as far as needed."""
     if value is None:
         value = np.empty((0, 0), dtype=new.dtype if new.dtype != bool else float)
-    if value.dtype != new.dtype:
-        if is_cells(value) or is_cells(new) or is_text(value) != is_text(new):
-            if value.size or is_cells(value):
-                raise NotRead("an array would have values of different kinds")
-            value = value.astype(new.dtype)
-        elif value.dtype == bool and value.size:
-            new = new != 0
-        else:
-            value, new = value.astype(float), new.astype(float)
+    value, new = _alike(value, new)
     if len(indices) == 1:
         indices = _along(value, indices[0])
     shape = (*value.shape, *(1,) * max(0, len(indices) - value.ndim))
     if len(indices) < len(shape):
         raise NotRead("fewer indices than dimensions are not read")
-    extent = new.reshape(-1).size
-    places: list[np.ndarray] = []
-    for k, n in zip(indices, shape, strict=True):
-        if k is None:
-            places.append(np.arange(n if n or not extent else extent))
-        else:
-            places.append(_places(k, MOST_ENTRIES).reshape(-1))
-    need = tuple(max(n, int(p.max()) + 1 if p.size else 0) for n, p in zip(shape, places, strict=True))
+    places = [
+        np.arange(n or new.size) if k is None else _places(k, MOST_ENTRIES).reshape(-1)
+        for k, n in zip(indices, shape, strict=True)
+    ]
+    grown = _grown(value, shape, [int(p.max()) + 1 if p.size else 0 for p in places])
+    target = tuple(len(p) for p in places)
+    filled = np.repeat(new.reshape(-1), math.prod(target)) if new.size == 1 else new.reshape(-1, order="F")
+    grown[np.ix_(*places)] = filled.reshape(target, order="F")
+    return grown
+
+
+def _alike(value: np.ndarray, new: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return an array and its new entries with one type."""
+    if value.dtype == new.dtype:
+        return value, new
+    if is_cells(value) or is_cells(new) or is_text(value) != is_text(new):
+        if value.size or is_cells(value):
+            raise NotRead("an array would have values of different kinds")
+        return value.astype(new.dtype), new
+    if value.dtype == bool and value.size:
+        return value, new != 0
+    return value.astype(float), new.astype(float)
+
+
+def _grown(value: np.ndarray, shape: Sequence[int], least: Sequence[int]) -> np.ndarray:
+    """Return a copy of an array, of a shape and as large as needed; its new cells are empty."""
+    need = tuple(map(max, shape, least))
     require_size(math.prod(need))
     grown = np.full(need, "\0" if is_text(value) else 0, dtype=value.dtype)
     if is_cells(value):
         for k in np.ndindex(need):
             grown[k] = np.zeros((0, 0))
     grown[tuple(slice(0, n) for n in shape)] = value.reshape(shape)
-    target = tuple(len(p) for p in places)
-    filled = np.repeat(new.reshape(-1), math.prod(target)) if extent == 1 else new.reshape(-1, order="F")
-    grown[np.ix_(*places)] = filled.reshape(target, order="F")
     return grown
 
 
