@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses as dc
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from deodar import codec
@@ -169,22 +169,29 @@ def relocate(
 
     paths = {e.id: elements.get(e.id) or new_path(e.names) for e in doc.entries}
     moved = [e for e in doc.entries if paths[e.id] != e.names]
-    taken = dict(doc.by_names())
-    for e in moved:
-        del taken[e.names]
     kept = {g: new_path(g) for g in doc.groups if g not in dissolved}
-    occupied = {g for g, to in kept.items() if g == to}
-    for to in [to for g, to in kept.items() if g != to]:
-        _vacant(doc, to, taken, occupied)
-        occupied.add(to)
-    for e in moved:
-        _vacant(doc, paths[e.id], taken, occupied)
-        _unambiguous(doc, paths[e.id], e.element)
-        taken[paths[e.id]] = e
+    _require_vacant(doc, [(e, paths[e.id]) for e in moved], kept)
     entries = tuple(e if paths[e.id] == e.names else _renamed(e, paths[e.id]) for e in doc.entries)
     inside = _with_groups(kept.values(), dict.fromkeys(paths[e.id][:-1] for e in moved))
     uses = tuple(dc.replace(u, group=new_path(u.group)) for u in doc.uses if u.group not in dissolved)
     return dc.replace(doc, entries=entries, groups=inside, uses=uses)
+
+
+def _require_vacant(
+    doc: Document, moved: Sequence[tuple[Entry, PathNames]], groups: Mapping[PathNames, PathNames]
+) -> None:
+    """Refuse the new paths of elements and groups if they are taken once all are moved."""
+    taken = dict(doc.by_names())
+    for e, _ in moved:
+        del taken[e.names]
+    occupied = {g for g, to in groups.items() if g == to}
+    for to in [to for g, to in groups.items() if g != to]:
+        _vacant(doc, to, taken, occupied)
+        occupied.add(to)
+    for e, to in moved:
+        _vacant(doc, to, taken, occupied)
+        _unambiguous(doc, to, e.element)
+        taken[to] = e
 
 
 def _renamed(entry: Entry, names: PathNames) -> Entry:
@@ -231,29 +238,37 @@ def insert(
         if c.source in new and c.target in new
     ]
     doc = dc.replace(doc, connections=(*doc.connections, *inside))
-    for k in template.parameters:
-        links = tuple((new[i], leaf) for i, leaf in k.links if i in new)
-        if k.name not in [j.name for j in doc.parameters]:
-            doc = document_parameter(doc, k.name, k.value) if links else doc
-        for i, leaf in links:
-            doc = link(doc, i, leaf, k.name)
-    groups = [place((*g, ""))[:-1] for g in template.groups] if ids is None else []
-    uses = (
-        [
-            Use(place((*u.group, ""))[:-1], u.template, tuple((t, new[i]) for t, i in u.elements))
+    doc = _with_links(doc, template, new)
+    groups, uses = list[PathNames](), list[Use]()
+
+    def group_at(names: PathNames) -> PathNames:
+        return place((*names, ""))[:-1]
+
+    if ids is None:
+        groups = [at for g in template.groups if (at := group_at(g))]
+        uses = [
+            Use(group_at(u.group), u.template, tuple((t, new[i]) for t, i in u.elements))
             for u in template.uses
         ]
-        if ids is None
-        else []
-    )
-    uses += [Use(place(("",))[:-1], template.name, tuple(new.items()))] if linked else []
-    foreign = doc.foreign or template.asks()
+    if linked:
+        uses.append(Use(group_at(()), template.name, tuple(new.items())))
     return dc.replace(
         doc,
-        groups=_with_groups(doc.groups, [g for g in groups if g]),
+        groups=_with_groups(doc.groups, groups),
         uses=(*doc.uses, *uses),
-        foreign=foreign,
+        foreign=doc.foreign or template.asks(),
     )
+
+
+def _with_links(doc: Document, template: Document, new: Mapping[str, str]) -> Document:
+    """Return a document in which a template's document parameters drive the copies; `new` has their ids."""
+    for k in template.parameters:
+        links = [(new[i], leaf) for i, leaf in k.links if i in new]
+        if links and k.name not in [j.name for j in doc.parameters]:
+            doc = document_parameter(doc, k.name, k.value)
+        for i, leaf in links:
+            doc = link(doc, i, leaf, k.name)
+    return doc
 
 
 def connect(

@@ -151,21 +151,8 @@ def _from_json(
     problems: list[Problem],
     given: dict[str, Any],
 ) -> Any:
-    if not isinstance(data, dict) or not isinstance(typing.cast(Any, data).get("kind"), str):
-        problems.append(Problem(where, f"needs an object with a kind, not {show(data)}"))
-        return None
-    data = typing.cast("dict[str, Any]", data)
-    try:
-        cls = registry.kind(data["kind"])
-    except UnknownName as error:
-        own = (
-            "For a kind of your own, import its module first (on the command line: deodar --import MODULE"
-            " ...)"
-        )
-        problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
-        return None
-    if not issubclass(cls, base):
-        problems.append(Problem(where, f"expected {an(base.__name__)}, got {an(cls.__name__)}"))
+    cls = _kind_of(data, where, base, problems)
+    if cls is None:
         return None
     known = {p.name: p for p in parameters(cls)}
     values: dict[str, Any] = dict(given)
@@ -198,6 +185,26 @@ def _from_json(
     except TypeError as error:
         problems.append(Problem(where, str(error)))
     return None
+
+
+def _kind_of(data: Any, where: str, base: type[Any], problems: list[Problem]) -> type[Any] | None:
+    """Return the class that data name; None with a problem if they name none of a base."""
+    if not isinstance(data, dict) or not isinstance(typing.cast(Any, data).get("kind"), str):
+        problems.append(Problem(where, f"needs an object with a kind, not {show(data)}"))
+        return None
+    try:
+        cls = registry.kind(typing.cast("dict[str, Any]", data)["kind"])
+    except UnknownName as error:
+        own = (
+            "For a kind of your own, import its module first (on the command line: deodar --import MODULE"
+            " ...)"
+        )
+        problems.append(Problem(where, error.problems[0].what, f"{error.problems[0].fix} {own}".strip()))
+        return None
+    if not issubclass(cls, base):
+        problems.append(Problem(where, f"expected {an(base.__name__)}, got {an(cls.__name__)}"))
+        return None
+    return cls
 
 
 def _value(

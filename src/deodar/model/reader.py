@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Mapping
+import re
+from collections import Counter
+from collections.abc import Collection, Mapping
 from typing import Any, cast
 
 from deodar import plugins, registry
@@ -25,6 +27,8 @@ from deodar.model.parts import part_from_json
 from deodar.model.paths import PathNames, display, split, stored_id
 from deodar.numerics.axes import Axis
 from deodar.parameters import FrozenArray, show
+
+IDENT = re.compile("[0-9a-f]{8}")
 
 MOST_PROBLEMS = 100
 """Largest number of connections whose problems are listed: each is compared with all names, which takes long
@@ -141,54 +145,43 @@ class _Reader:
         return out
 
     def elements(self, doc: Document, axes: Mapping[str, Axis]) -> Document:
-        entries: list[Entry] = []
-        ids: set[str] = set()
+        entries: dict[str, Entry] = {}
         for path, value in self.table("elements").items():
-            where = f"elements.{path}"
-            if not isinstance(value, dict):
-                self.problem(where, f"needs an object, not {show(value)}")
-                continue
-            body = dict(cast("dict[str, Any]", value))
-            ident, every = body.pop("id", None), body.pop("every", 1)
-            if "name" in body:
-                self.problem(f"{where}.name", "a name is the last part of the path, not a parameter")
-                continue
             try:
-                names = split(path)
-                part = part_from_json(body, path, axes, self.arrays, Element, names[-1])
+                entry = self.entry(path, value, axes, entries)
             except (ParameterError, UnknownName) as error:
                 self.problems += error.problems
-                continue
-            if ident is None:
-                ident = stored_id(display(names), ids)
-            if (
-                not isinstance(ident, str)
-                or len(ident) != 8
-                or any(c not in "0123456789abcdef" for c in ident)
-            ):
-                self.problem(f"{where}.id", f"is {show(ident)}; expected eight hexadecimal digits")
-                continue
-            if ident in ids:
-                self.problem(f"{where}.id", f"{ident} belongs to another element too")
-                continue
-            try:
-                edit.require_ticks(every, where)
-            except ParameterError as error:
-                self.problems += error.problems
-                continue
-            ids.add(ident)
-            entries.append(Entry(ident, names, part, every))
-        paths = {e.names for e in entries}
-        for e in (
-            {e.names: e for e in entries if [o.names for o in entries].count(e.names) > 1}.values()
-            if len(paths) < len(entries)
-            else ()
-        ):
+            else:
+                entries[entry.id] = entry
+        counts = Counter(e.names for e in entries.values())
+        for e in {e.names: e for e in entries.values() if counts[e.names] > 1}.values():
             self.problem(f"elements.{e.path}", "occurs twice, in two spellings")
-        for e in entries:
-            if any(e.names[:k] in paths for k in range(1, len(e.names))) or any(not n for n in e.names):
+        for e in entries.values():
+            if any(e.names[:k] in counts for k in range(1, len(e.names))) or not all(e.names):
                 self.problem(f"elements.{e.path}", "lies inside an element; only groups contain elements")
-        return dc.replace(doc, entries=tuple(entries), groups=_groups(e.group for e in entries))
+        return dc.replace(
+            doc, entries=tuple(entries.values()), groups=_groups(e.group for e in entries.values())
+        )
+
+    def entry(self, path: str, value: Any, axes: Mapping[str, Axis], ids: Collection[str]) -> Entry:
+        """Return the element at a path; `ids` are those of the elements before it."""
+        where = f"elements.{path}"
+        if not isinstance(value, dict):
+            raise ParameterError(f"needs an object, not {show(value)}", where)
+        body = dict(cast("dict[str, Any]", value))
+        ident, every = body.pop("id", None), body.pop("every", 1)
+        if "name" in body:
+            raise ParameterError("a name is the last part of the path, not a parameter", f"{where}.name")
+        names = split(path)
+        part = part_from_json(body, path, axes, self.arrays, Element, names[-1])
+        if ident is None:
+            ident = stored_id(display(names), ids)
+        if not isinstance(ident, str) or not IDENT.fullmatch(ident):
+            raise ParameterError(f"is {show(ident)}; expected eight hexadecimal digits", f"{where}.id")
+        if ident in ids:
+            raise ParameterError(f"{ident} belongs to another element too", f"{where}.id")
+        edit.require_ticks(every, where)
+        return Entry(ident, names, part, every)
 
     def groups(self, doc: Document) -> Document:
         for g in self.rows("groups"):

@@ -437,34 +437,41 @@ def _remedy(source: str, target: str, axes: Axes, want: Axes, other_grid: bool) 
         ]
         return f"{ends[0]} >> {coupling} >> {ends[1]}"
 
-    names, there = ", ".join(a.name for a in want), ", ".join(a.name for a in axes)
+    names = ", ".join(a.name for a in want)
     if other_grid:
         return _regrid(chain, axes, want, names)
     missing = [a for a in want if a.name not in [b.name for b in axes]]
     extra = [a for a in axes if a.name not in [b.name for b in want]]
-    if len(missing) == len(extra) == 1 and dc.replace(extra[0], unit="").fits(
-        dc.replace(missing[0], unit="")
-    ):
+    one = len(missing) == len(extra) == 1
+    if one and dc.replace(extra[0], unit="").fits(dc.replace(missing[0], unit="")):
         return chain(f"Project([{names}], rename={{{extra[0].name!r}: {missing[0].name!r}}})")
+    ways = _diagonal(chain, axes, want, names)
+    ways.append(f"{chain(f'Weights(w, [{names}])')} with an array w that says which place goes where")
+    if one:
+        ways.append(f"give both the same axis, if {extra[0].name} and {missing[0].name} are one dimension")
+    lost, flat = (", ".join(a.name for a in found) for found in (extra, missing))
+    project = chain(f"Project([{names}])")
+    if len(extra) == len(axes) and len(missing) == len(want):
+        lose = (
+            f"{project} loses the signal: it keeps one number, the integral over {lost}, and {target} is"
+            f" uniform along {flat}"
+        )
+    else:
+        lose = (
+            f"{project} loses the places: it integrates over {lost}, and {target} gets the same value"
+            f" everywhere along {flat}"
+        )
+    return f"{', or '.join(ways)}. {lose}"
+
+
+def _diagonal(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> list[str]:
+    """Return the couplings between two axes and one as long as both."""
     ways: list[str] = []
     if len(axes) == 2 and [a.samples for a in want] == [sum(shape(axes)) - 1]:
         ways.append(f"{chain(f'DiagonalSum([{names}])')} where the target is the sum of the two")
     if len(want) == 2 and [a.samples for a in axes] == [sum(shape(want)) - 1]:
         ways.append(f"{chain(f'DiagonalExpansion([{names}])')} where the source is the sum of the two")
-    ways.append(f"{chain(f'Weights(w, [{names}])')} with an array w that says which place goes where")
-    if len(missing) == len(extra) == 1:
-        ways.append(f"give both the same axis, if {extra[0].name} and {missing[0].name} are one dimension")
-    lost, flat = (", ".join(a.name for a in found) for found in (extra, missing))
-    lose = (
-        f"{chain(f'Project([{names}])')} loses the places: it integrates over {lost}, and {target} gets the"
-        f" same value everywhere along {flat}"
-    )
-    if there == lost and names == flat:
-        lose = (
-            f"{chain(f'Project([{names}])')} loses the signal: it keeps one number, the integral over {lost},"
-            f" and {target} is uniform along {flat}"
-        )
-    return f"{', or '.join(ways)}. {lose}"
+    return ways
 
 
 def _regrid(chain: Callable[[str], str], axes: Axes, want: Axes, names: str) -> str:

@@ -8,11 +8,11 @@ from __future__ import annotations
 import dataclasses as dc
 import re
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from deodar.diagrams.boxes import number
-from deodar.diagrams.graph import Graph, Item, ItemForm, Wire
+from deodar.diagrams.graph import Graph, GroupPath, Item, ItemForm, Wire
 from deodar.element import Coupling, Element
 from deodar.elements.motor import Motor
 from deodar.elements.placeholder import Placeholder
@@ -107,20 +107,17 @@ class _Sketch:
             self._wire(c, set()) for c in self.connections if c.source in chained and c.source not in passed
         ]
         items = [self._item(e, axes.get(e.id, {})) for e in self.doc.entries if e.id not in passed]
-        by = {item.id: item for item in items}
-        items = [
-            dc.replace(
-                i,
-                axes_shown=i.form != "source"
-                or any(by[w.target].axes != i.axes for w in wires if w.source == i.id),
-            )
-            for i in items
-        ]
+        own = {item.id: item.axes for item in items}
+        differ = {w.source for w in wires if own[w.target] != own[w.source]}
+        items = tuple(dc.replace(i, axes_shown=i.form != "source" or i.id in differ) for i in items)
+        return Graph(self.doc.name, items, tuple(wires), self._groups(items), self._given())
+
+    def _groups(self, items: Sequence[Item]) -> dict[GroupPath, str]:
         groups = {g: "" for g in self.doc.groups} | {use.group: use.template for use in self.doc.uses}
         for item in items:
             for k in range(1, len(item.group) + 1):
                 groups.setdefault(item.group[:k], "")
-        return Graph(self.doc.name, tuple(items), tuple(wires), dict(sorted(groups.items())), self._given())
+        return dict(sorted(groups.items()))
 
     def _item(self, entry: Entry, outs: Mapping[str, Axes]) -> Item:
         element = entry.element

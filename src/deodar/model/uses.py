@@ -28,12 +28,27 @@ def refresh(doc: Document, template: Document) -> Document:
 
 
 def _refreshed(doc: Document, use: Use, template: Document) -> Document:
-    own = dict(use.elements)
-    mine = set(own.values())
     _require_ends(doc, use, template)
-    doc = edit.remove(doc, [here for there, here in own.items() if there not in template.by_id()])
+    doc, now = _with_elements(_emptied(doc, use, template), use, template)
+    inside = tuple(dc.replace(c, source=now[c.source], target=now[c.target]) for c in template.connections)
+    doc = _driven(dc.replace(doc, connections=(*doc.connections, *inside)), template, now)
+    nested = [
+        Use(use.group + u.group, u.template, tuple((t, now[i]) for t, i in u.elements)) for u in template.uses
+    ]
+    doc = dc.replace(doc, uses=(*doc.uses, *nested, Use(use.group, use.template, tuple(now.items()))))
+    for g in template.groups:
+        doc = edit.group(doc, use.group + g)
+    return doc
+
+
+def _emptied(doc: Document, use: Use, template: Document) -> Document:
+    """Return a document without the elements of a use that its template lacks, and without the connections,
+    links to parameters of the template, and uses among the others.
+    """
+    mine = {here for _, here in use.elements}
+    doc = edit.remove(doc, [here for there, here in use.elements if there not in template.by_id()])
     driving = {k.name for k in template.parameters}
-    doc = dc.replace(
+    return dc.replace(
         doc,
         connections=tuple(c for c in doc.connections if not (c.source in mine and c.target in mine)),
         parameters=tuple(
@@ -46,6 +61,13 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
             if u.group[: len(use.group)] != use.group or not mine >= {i for _, i in u.elements}
         ),
     )
+
+
+def _with_elements(doc: Document, use: Use, template: Document) -> tuple[Document, dict[str, str]]:
+    """Return a document in which a use has the elements of its template, and their ids by those of the
+    template.
+    """
+    own = dict(use.elements)
     # elements renamed in the template move to free names first, so that two names can be exchanged
     names = {own[e.id]: use.group + e.names for e in template.entries if e.id in own}
     for k, (here, place) in enumerate(names.items()):
@@ -62,15 +84,7 @@ def _refreshed(doc: Document, use: Use, template: Document) -> Document:
         else:
             doc, entry = edit.add(doc, element, place[:-1], e.every)
         now[e.id] = entry.id
-    inside = tuple(dc.replace(c, source=now[c.source], target=now[c.target]) for c in template.connections)
-    doc = _driven(dc.replace(doc, connections=(*doc.connections, *inside)), template, now)
-    nested = [
-        Use(use.group + u.group, u.template, tuple((t, now[i]) for t, i in u.elements)) for u in template.uses
-    ]
-    doc = dc.replace(doc, uses=(*doc.uses, *nested, Use(use.group, use.template, tuple(now.items()))))
-    for g in template.groups:
-        doc = edit.group(doc, use.group + g)
-    return doc
+    return doc, now
 
 
 def _driven(doc: Document, template: Document, now: dict[str, str]) -> Document:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Iterator
 
@@ -40,68 +41,98 @@ def check(wiring: Wiring) -> Iterator[Problem]:
             yield from _waiting(wiring, n)
 
 
+@dc.dataclass(frozen=True)
+class Levels:
+    """The levels between which the activation of a field lies.
+
+    Attributes:
+        rest: the resting level.
+        threshold: the threshold of its sigmoid.
+        low, high: what its inputs add, at least and at most.
+        most: the highest activation.
+    """
+
+    rest: float
+    threshold: float
+    low: float
+    high: float
+    most: float
+
+
 def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
     threshold: float = getattr(e.sigmoid, "threshold", 0.0)
-    h, (low, high) = e.resting_level, wiring.arriving(n)
-    rest, (_, most) = (
-        e.sigmoid.bounds((h, h))[1],
-        wiring.bounds[n.id].get("activation", (-math.inf, math.inf)),
-    )
-    silent = most < threshold - CLEAR * (threshold - h) and e.sigmoid.bounds((most, most))[1] < SILENT
-    if silent and not n.reads["input"] and wiring.driven:
+    _, most = wiring.bounds[n.id].get("activation", (-math.inf, math.inf))
+    at = Levels(e.resting_level, threshold, *wiring.arriving(n), most)
+    yield from _never_on(wiring, n, e, at)
+    yield from _always_on(wiring, n, e, at)
+    if at.rest < threshold and isinstance(e.sigmoid, Logistic):
+        yield from _flat(n, e.sigmoid, at)
+    if isinstance(e, Field):
+        yield from _noisy(n, e, at)
+
+
+def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: Levels) -> Iterator[Problem]:
+    h, threshold = at.rest, at.threshold
+    short = at.most < threshold - CLEAR * (threshold - h)
+    if not (short and e.sigmoid.bounds((at.most, at.most))[1] < SILENT):
+        return
+    if not n.reads["input"] and wiring.driven:
         what = (
             f"nothing is connected to it, and its resting level {h:g} lies below its threshold {threshold:g}:"
             " it is never active"
         )
         yield warning(n, what, f"Connect an input: model.connect(..., {n.path!r}); or remove it")
-    elif silent and n.id in wiring.driven and high <= 0 and low < 0:
+    elif n.id in wiring.driven and at.high <= 0 and at.low < 0:
         what = (
-            f"gets only inhibition (at most {high:g}), and its resting level {h:g} lies below its threshold"
-            f" {threshold:g}: it is never on"
+            f"gets only inhibition (at most {at.high:g}), and its resting level {h:g} lies below its"
+            f" threshold {threshold:g}: it is never on"
         )
         yield warning(n, what, "Change the sign of what should excite it, or connect what does")
-    elif silent and n.id in wiring.driven:
+    elif n.id in wiring.driven:
         what = (
             f"never reaches its threshold {threshold:g}: its resting level is {h:g}, its inputs add at most"
-            f" {high:.3g}, and its own excitation does not help below the threshold; activation stays below"
-            f" {most:.3g}"
+            f" {at.high:.3g}, and its own excitation does not help below the threshold; activation stays"
+            f" below {at.most:.3g}"
         )
-        yield warning(
-            n,
-            what,
-            f"Make its inputs stronger than {threshold - h:g}, or raise resting_level above"
-            f" {threshold - high:.3g}",
-        )
-    least = h + low + wiring.bounds[n.id].get("interaction", (0.0, 0.0))[0]
+        raised = f"raise resting_level above {threshold - at.high:.3g}"
+        yield warning(n, what, f"Make its inputs stronger than {threshold - h:g}, or {raised}")
+
+
+def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: Levels) -> Iterator[Problem]:
+    own = wiring.bounds[n.id].get("interaction", (0.0, 0.0))[0]
     if isinstance(e, RateNode):
-        least = h + low + min(0.0, e.self_excitation)
-    if least > threshold + CLEAR and n.reads["input"]:
+        own = min(0.0, e.self_excitation)
+    least = at.rest + at.low + own
+    if least > at.threshold + CLEAR and n.reads["input"]:
         what = (
-            f"is always above its threshold {threshold:g}: with its resting level {h:g} and its weakest input"
-            f" ({low:g}) activation stays at {least:g} or above"
+            f"is always above its threshold {at.threshold:g}: with its resting level {at.rest:g} and its"
+            f" weakest input ({at.low:g}) activation stays at {least:g} or above"
         )
-        yield warning(
-            n,
-            what,
-            f"Use a resting_level below {threshold - low:g}; resting levels are usually negative (-5)",
-        )
-    if h < threshold and isinstance(e.sigmoid, Logistic) and rest > AT_REST:
+        fix = f"Use a resting_level below {at.threshold - at.low:g}; resting levels are usually negative (-5)"
+        yield warning(n, what, fix)
+
+
+def _flat(n: Node, sigmoid: Logistic, at: Levels) -> Iterator[Problem]:
+    output = sigmoid.bounds((at.rest, at.rest))[1]
+    if output > AT_REST:
         what = (
-            f"gives an output of {rest:.2g} at rest: with beta = {e.sigmoid.beta:g} its sigmoid is too flat"
-            f" for a resting level of {h:g}"
+            f"gives an output of {output:.2g} at rest: with beta = {sigmoid.beta:g} its sigmoid is too flat"
+            f" for a resting level of {at.rest:g}"
         )
-        yield warning(n, what, f"Use beta of {4 / (threshold - h):.2g} or more, or a lower resting_level")
-    if isinstance(e, Field):
-        white = not any(
-            v for v in (e.noise_length if isinstance(e.noise_length, tuple) else (e.noise_length,))
+        steeper = 4 / (at.threshold - at.rest)
+        yield warning(n, what, f"Use beta of {steeper:.2g} or more, or a lower resting_level")
+
+
+def _noisy(n: Node, e: Field, at: Levels) -> Iterator[Problem]:
+    lengths = e.noise_length if isinstance(e.noise_length, tuple) else (e.noise_length,)
+    deviation = e.noise / math.sqrt(2 * e.tau * (1.0 if any(lengths) else cell(tuple(e.axes))))
+    missing = at.threshold - at.rest
+    if 0 < missing < deviation:
+        what = (
+            "its noise alone brings it above its threshold: activation has a standard deviation of"
+            f" {deviation:.2g}, and its resting level lies {missing:g} below the threshold"
         )
-        deviation = e.noise / math.sqrt(2 * e.tau * (cell(tuple(e.axes)) if white else 1.0))
-        if 0 < threshold - h < deviation:
-            what = (
-                "its noise alone brings it above its threshold: activation has a standard deviation of"
-                f" {deviation:.2g}, and its resting level lies {threshold - h:g} below the threshold"
-            )
-            yield warning(n, what, f"Use noise below {e.noise * (threshold - h) / deviation / 4:.2g}")
+        yield warning(n, what, f"Use noise below {e.noise * missing / deviation / 4:.2g}")
 
 
 def _waiting(wiring: Wiring, n: Node) -> Iterator[Problem]:

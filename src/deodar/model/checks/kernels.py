@@ -9,10 +9,14 @@ from deodar.errors import Problem
 from deodar.leaves import per_axis
 from deodar.model.resolve import Node
 from deodar.model.wiring import Wiring, warning
+from deodar.numerics.axes import Axes
 from deodar.numerics.kernels._base import Kernel
 from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.kernels.mexican_hat import MexicanHat
 from deodar.numerics.kernels.shifted import Shifted
+
+Fault = tuple[str, str]
+"""What is wrong with a kernel, and what to write."""
 
 NARROW = 0.4
 """Width in grid steps below which a Gaussian acts on its centre alone: neighbours get less than 5 % of its
@@ -46,61 +50,78 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 def _kernel(n: Node, where: str, kernel: Kernel) -> Iterator[Problem]:
     own: Any = getattr(n.element, "axes", None)
     axes = tuple(own) if own is not None else n.ins.get("input", ())
-    if isinstance(kernel, Shifted):
-        for axis, by in zip(axes, per_axis(kernel.shift, axes), strict=True):
-            if not axis.periodic and abs(by) > axis.range:
-                what = (
-                    f"{where}: the shift {by:g} is longer than the axis {axis.name!r} ({axis.range:g}), so it"
-                    " has no effect"
-                )
-                yield warning(n, what, f"Use a shift below {axis.range:g}")
-        return
-    if isinstance(kernel, MexicanHat):
-        if kernel.inhibition < 0 or kernel.excitation < 0:
-            name = "inhibition" if kernel.inhibition < 0 else "excitation"
-            does = "excites" if kernel.inhibition < 0 else "inhibits"
-            what = (
-                f"{where}: {name} is {getattr(kernel, name):g}, and both are counted positive, so it {does}"
+    for what, fix in _faults(kernel, axes):
+        yield warning(n, f"{where}: {what}", fix)
+
+
+def _faults(kernel: Kernel, axes: Axes) -> Iterator[Fault]:
+    match kernel:
+        case Shifted():
+            yield from _beyond(kernel, axes)
+        case MexicanHat():
+            yield from _signs(kernel)
+            yield from _order(kernel, axes)
+            yield from _width(kernel, axes, True)
+        case Gaussian():
+            yield from _width(kernel, axes, kernel.amplitude > 0)
+        case _:
+            pass
+
+
+def _beyond(kernel: Shifted, axes: Axes) -> Iterator[Fault]:
+    for axis, by in zip(axes, per_axis(kernel.shift, axes), strict=True):
+        if not axis.periodic and abs(by) > axis.range:
+            yield (
+                f"the shift {by:g} is longer than the axis {axis.name!r} ({axis.range:g}), so it has no"
+                " effect",
+                f"Use a shift below {axis.range:g}",
             )
-            yield warning(n, what, f"Write {name}={-getattr(kernel, name):g}")
-        elif kernel.inhibition > kernel.excitation and not kernel.normalized:
-            what = (
-                f"{where}: inhibits at its centre, since inhibition {kernel.inhibition:g} is larger than"
-                f" excitation {kernel.excitation:g}"
-            )
-            yield warning(n, what, "Exchange the two, or make the excitation the larger one")
-        pairs = zip(
-            per_axis(kernel.sigma_excitation, axes), per_axis(kernel.sigma_inhibition, axes), strict=True
+
+
+def _signs(kernel: MexicanHat) -> Iterator[Fault]:
+    if kernel.inhibition < 0 or kernel.excitation < 0:
+        name, does = ("inhibition", "excites") if kernel.inhibition < 0 else ("excitation", "inhibits")
+        value: float = getattr(kernel, name)
+        yield (
+            f"{name} is {value:g}, and both are counted positive, so it {does}",
+            f"Write {name}={-value:g}",
         )
-        if kernel.inhibition > 0 and axes and all(float(b) <= float(a) for a, b in pairs):
-            what = (
-                f"{where}: sigma_inhibition is not larger than sigma_excitation, so near positions inhibit"
-                " and distant ones excite"
-            )
-            yield warning(n, what, "Make sigma_inhibition the larger one")
-    if not isinstance(kernel, (Gaussian, MexicanHat)):
-        return
-    excites = isinstance(kernel, MexicanHat) or kernel.amplitude > 0
+    elif kernel.inhibition > kernel.excitation and not kernel.normalized:
+        yield (
+            f"inhibits at its centre, since inhibition {kernel.inhibition:g} is larger than excitation"
+            f" {kernel.excitation:g}",
+            "Exchange the two, or make the excitation the larger one",
+        )
+
+
+def _order(kernel: MexicanHat, axes: Axes) -> Iterator[Fault]:
+    near, far = per_axis(kernel.sigma_excitation, axes), per_axis(kernel.sigma_inhibition, axes)
+    if kernel.inhibition > 0 and axes and all(float(b) <= float(a) for a, b in zip(near, far, strict=True)):
+        yield (
+            "sigma_inhibition is not larger than sigma_excitation, so near positions inhibit and distant ones"
+            " excite",
+            "Make sigma_inhibition the larger one",
+        )
+
+
+def _width(kernel: Gaussian | MexicanHat, axes: Axes, excites: bool) -> Iterator[Fault]:
+    """Yield the first width that is too small, or too large for a kernel that excites."""
     for width in kernel.widths():
         pairs = [(axis, float(s)) for axis, s in zip(axes, per_axis(width, axes), strict=True)]
         # a kernel that is narrow on one of several axes may be intended: no blur along hue
         if pairs and all(s < NARROW * axis.step for axis, s in pairs):
             axis, s = pairs[0]
-            what = (
-                f"{where}: a sigma of {s:g} is narrower than the step {axis.step:g} of the axis"
-                f" {axis.name!r}: no sample reaches its neighbours"
-            )
-            yield warning(
-                n,
-                what,
+            yield (
+                f"a sigma of {s:g} is narrower than the step {axis.step:g} of the axis {axis.name!r}: no"
+                " sample reaches its neighbours",
                 f"Use a sigma of {axis.step:g} or more, or more samples; widths are in units of the axis",
             )
             return
         for axis, s in pairs if excites else ():
             if s >= WIDE * axis.range:
-                what = (
-                    f"{where}: a sigma of {s:g} is wider than the axis {axis.name!r} ({axis.range:g}), so the"
-                    " kernel is the same everywhere"
+                yield (
+                    f"a sigma of {s:g} is wider than the axis {axis.name!r} ({axis.range:g}), so the kernel"
+                    " is the same everywhere",
+                    f"Use a sigma far below {axis.range:g}",
                 )
-                yield warning(n, what, f"Use a sigma far below {axis.range:g}")
                 return
