@@ -41,17 +41,13 @@ CROWDED = 9
 BRANCHED = 25
 NOT_SPLIT = frozenset(
     {
-        "deodar/analysis/regime_words.py rows",
         "deodar/batch/compute.py compute",
-        "deodar/compiler/plan.py plan",
         "deodar/experiments/trial_batch.py run_batch",
         "deodar/experiments/trial_run.py run_trial",
-        "deodar_papers/pointing/targets.py _of_scenes",
-        "deodar_papers/spa/sentences.py _section_6_2",
     }
 )
 """Functions that may still be above BRANCHED. The list only shrinks."""
-TANGLED, MOST_TANGLED = 20, 29
+TANGLED, MOST_TANGLED = 20, 23
 """The complexity above which functions are counted, and how many of them there may be: only ever fewer."""
 BLANK = {
     *(tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE),

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from deodar.analysis.peaks import Peak
 from deodar.analysis.preshape import Boosted
 from deodar.analysis.regimes import NOT_ASKED, Regimes
+
+Rows = Iterator[tuple[str, str]]
 
 
 def heading(found: Regimes) -> list[str]:
@@ -34,69 +38,75 @@ def heading(found: Regimes) -> list[str]:
 
 def rows(found: Regimes) -> list[tuple[str, str]]:
     """Return the measurements: a name each, and its value in words."""
-    isolated, up, down = found.isolated, found.thresholds.detection, found.thresholds.reverse
-    out = [("regime", "; ".join(found.words))]
-    what = "peak" if isolated.axes else "activation above threshold"
+    return [
+        ("regime", "; ".join(found.words)),
+        *_detection(found),
+        *_memory(found),
+        *_selection(found),
+        *_notes(found),
+    ]
+
+
+def _lit(found: Regimes) -> str:
+    return "peak" if found.isolated.axes else "activation above threshold"
+
+
+def _detection(found: Regimes) -> Rows:
+    up, down = found.thresholds.detection, found.thresholds.reverse
     if up is not None:
         kind = (
             "the activation jumps: an instability"
             if up.jump
             else "the activation grows gradually: no instability"
         )
-        out.append(("detection threshold", f"{_bracket(found, 'detection')}  ({kind})"))
-        low = "0" if isolated.axes else f"-{found.thresholds.searched:g}"
-        stays = f"none: the {what} stays down to an input of {low}"
-        out.append(("reverse detection", _bracket(found, "reverse") if down is not None else stays))
+        yield "detection threshold", f"{_bracket(found, 'detection')}  ({kind})"
+        low = "0" if found.isolated.axes else f"-{found.thresholds.searched:g}"
+        stays = f"none: the {_lit(found)} stays down to an input of {low}"
+        yield "reverse detection", _bracket(found, "reverse") if down is not None else stays
         both = found.bistable
-        out.append(
-            ("bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none")
-        )
+        yield "bistable range", f"{both[0]:.4g} to {both[1]:.4g}" if both and both[0] < both[1] else "none"
     if found.peak is not None:
-        out.append(("just above detection", _peak(found, found.peak)))
-    memory = found.memory
-    if memory is not None:
-        left = len(memory.left)
-        out.append(
-            (
-                "input taken away",
-                (
-                    f"{left} peak{'' if left == 1 else 's'} left: {_peak(found, memory.left[0])}"
-                    if left
-                    else f"no {what} is left"
-                ),
-            )
-        )
+        yield "just above detection", _peak(found, found.peak)
+
+
+def _memory(found: Regimes) -> Rows:
+    if found.memory is not None:
+        left = found.memory.left
+        kept = f"{_count(len(left))} left: {_peak(found, left[0])}" if left else f"no {_lit(found)} is left"
+        yield "input taken away", kept
     if found.forgetting is not None:
         stays = (
             "is erased by a homogeneous input below"
             if found.self_sustained
             else "would stay with a homogeneous input above"
         )
-        out.append(("memory", f"a peak {stays} {_bracket(found, 'forgetting')}"))
+        yield "memory", f"a peak {stays} {_bracket(found, 'forgetting')}"
         if found.suppression is not None:
-            out.append(("", f"or by a localised input below {_bracket(found, 'suppression')}"))
+            yield "", f"or by a localised input below {_bracket(found, 'suppression')}"
     if found.boosts:
-        out.append(("boost on a pre-shape", "; ".join(_boosted(b) for b in found.boosts)))
-    if found.selection is not None:
-        s = found.selection
-        stronger = (
-            "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
-        )
-        apart = (
-            f"; both stay from a distance of {_distance(found)} on"
-            if found.separation
-            else "; at no distance do both stay"
-        )
-        out.append(("two equal inputs", _count(len(s.equal)) + apart))
-        out.append(("two inputs, one stronger", _count(len(s.different)) + stronger))
-    if found.transitions and found.coarse_alone not in ("", NOT_ASKED) and isolated.axes:
-        out.append(("discretisation error", f"not measured: {found.coarse_alone}"))
+        yield "boost on a pre-shape", "; ".join(_boosted(b) for b in found.boosts)
+
+
+def _selection(found: Regimes) -> Rows:
+    s = found.selection
+    if s is None:
+        return
+    stronger = (
+        "" if s.right is None else " (at the stronger one)" if s.right else " (not at the stronger one)"
+    )
+    apart = "at no distance do both stay"
+    if found.separation:
+        apart = f"both stay from a distance of {_distance(found)} on"
+    yield "two equal inputs", f"{_count(len(s.equal))}; {apart}"
+    yield "two inputs, one stronger", _count(len(s.different)) + stronger
+
+
+def _notes(found: Regimes) -> Rows:
+    if found.transitions and found.coarse_alone not in ("", NOT_ASKED) and found.isolated.axes:
+        yield "discretisation error", f"not measured: {found.coarse_alone}"
     swept = found.ramp
     if not (swept.up.settled.all() and swept.down.settled.all()):
-        out.append(
-            ("note", "the field did not settle at some inputs; their values are where it stood at the limit")
-        )
-    return out
+        yield "note", "the field did not settle at some inputs; their values are where it stood at the limit"
 
 
 def _bracket(found: Regimes, name: str) -> str:

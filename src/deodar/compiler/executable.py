@@ -163,27 +163,31 @@ class Executable:
         self.compiled = 0
         self.seconds = 0.0
         self._known: dict[Hashable, Any] = {}
-        seed, trials = np.uint32(0), np.zeros(batch.numbered, np.uint32)
         values: ProgramValues = self.values(doc)
         self._example: ProgramArguments | None = None
         self._prepare, constants = self.once(self.program.prepare, values)
-        self._init, (state, keys) = self.once(self._start, values, seed, trials)
-        if body is not None:
-            with errors_of(body.world, "reset"):
-                body.world.reset(0, [0] * batch.size, precision)
-            shared, state, keys = self.embodied(body.world, state, keys)
+        numbers = np.zeros(batch.numbered, np.uint32)
+        self._init, (state, keys) = self.once(self._start, values, np.uint32(0), numbers)
+        self._example = self._forms(values, constants, state, keys)
+        if self.fields is not None:
+            self.fields.require(self.chunk(())[0].as_text() or "")
+        self.seconds = time.process_time() - began
+
+    def _forms(
+        self, values: ProgramValues, constants: list[Constants], state: ProgramState, keys: NoiseKeys
+    ) -> ProgramArguments:
+        """Return the shapes, types and places of the arguments of a chunk."""
+        if self.body is not None:
+            with errors_of(self.body.world, "reset"):
+                self.body.world.reset(0, [0] * self.batch.size, self.precision)
+            shared, state, keys = self.embodied(self.body.world, state, keys)
             values = {**values, "world": shared}
         sensed = {**self.blind(), **self.program.unseen()}
         now = packed({"period": 1}, self.program.dtype)
         example = ProgramArguments(values, constants, state, keys, sensed, *now)
-        self._example = (
-            jax.tree.map(_form, example)
-            if self.division is None
-            else jax.tree.map(_form, example, self.division.shardings(example))
-        )
-        if self.fields is not None:
-            self.fields.require(self.chunk(())[0].as_text() or "")
-        self.seconds = time.process_time() - began
+        if self.division is None:
+            return jax.tree.map(_form, example)
+        return jax.tree.map(_form, example, self.division.shardings(example))
 
     # ------------------------------------------------------------------------------------------------- values
 
@@ -601,50 +605,58 @@ def executable(
         raise ParameterError(f"accuracy is {accuracy!r}; expected default or exact")
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
-    lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
-    neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
-    outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
-    part = batch if distribution is None else distribution.part(batch)
-    devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
-    about = (doc, lifted, part.planned, body is not None, devices_of)
-    strategies = () if exact else tuple(strategies_of(*about).items())
-    key = (
-        signature(doc),
-        strategies,
-        outside,
-        precision,
-        exact,
-        batch,
-        neutral,
-        devices.name(place),
-        native.version(native.kernels(place.platform, precision)),
-        body and body.key,
-        distribution and distribution.key,
-    )
-    if key not in model.programs:
+    request = _Request(doc, precision, batch, place, exact, body, distribution)
+    if request.key not in model.programs:
         if doc is model.document:
             model.require()
         elif found := problems(doc):
             raise ModelError(found)
-        request = _Request(key, doc, precision, batch, place, exact, body, distribution)
         while len(model.programs) >= MOST_KEPT:
             model.programs.pop(next(iter(model.programs)), None)  # another thread may have dropped it
-        model.programs[key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
-    return model.programs[key]
+        model.programs[request.key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
+    return model.programs[request.key]
 
 
-@dc.dataclass(frozen=True)
+@dc.dataclass(frozen=True, eq=False)
 class _Request:
     """What an executable is made from. Requests with equal keys ask for the same one."""
 
-    key: Hashable
-    doc: Document = dc.field(compare=False)
-    precision: str = dc.field(compare=False)
-    batch: Batch = dc.field(compare=False)
-    device: Device | None = dc.field(compare=False)
-    exact: bool = dc.field(compare=False)
-    body: Body | None = dc.field(compare=False)
-    distribution: Distribution | None = dc.field(compare=False)
+    doc: Document
+    precision: str
+    batch: Batch
+    device: Device
+    exact: bool
+    body: Body | None
+    distribution: Distribution | None
+
+    @functools.cached_property
+    def key(self) -> Hashable:
+        doc, distribution = self.doc, self.distribution
+        lifted = frozenset(leaf for leafs in self.batch.sweep for leaf in leafs)
+        neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
+        outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
+        part = self.batch if distribution is None else distribution.part(self.batch)
+        devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
+        about = (doc, lifted, part.planned, self.body is not None, devices_of)
+        return (
+            signature(doc),
+            () if self.exact else tuple(strategies_of(*about).items()),
+            outside,
+            self.precision,
+            self.exact,
+            self.batch,
+            neutral,
+            devices.name(self.device),
+            native.version(native.kernels(self.device.platform, self.precision)),
+            self.body and self.body.key,
+            distribution and distribution.key,
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Request) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
 
     def make(self) -> Executable:
         return Executable(

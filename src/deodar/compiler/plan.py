@@ -215,16 +215,13 @@ def plan(
         ModelError: the document has problems.
         DeviceError: it has no axis that these devices can divide.
     """
-    nodes, problems = resolve(doc)
-    acts, loops = order(nodes) if not problems else ([], [])
-    if problems or loops:
-        raise ModelError([*problems, *loops])
+    nodes, acts = _ordered(doc)
     neutral = {
         n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes
     }
     still = _still(nodes, readings != "constant")
-    swept = _swept(nodes, lifted)
     shards = divided_axis(nodes, devices) if devices > 1 else None
+    swept = _swept(nodes, lifted)
     found = strategies(nodes, still, {n.id for n in nodes} if exact else swept, copies, shards)
     if copies // trials >= MANY > trials:
         for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
@@ -235,16 +232,20 @@ def plan(
     groups, row = _groups(nodes, neutral, still, sensory, found)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
-    reads = {
-        (g, port): _reads(group, port, groups, row)
-        for g, group in enumerate(groups)
-        for port in group.like.reads
-    }
-    sensors = {
-        n.id: k for k, n in enumerate(n for n in sorted(nodes, key=lambda n: n.id) if n.element.external)
-    }
+    ports = [(g, port) for g, group in enumerate(groups) for port in group.like.reads]
+    reads = {(g, port): _reads(groups[g], port, groups, row) for g, port in ports}
+    sensors = {ident: k for k, ident in enumerate(sorted(n.id for n in nodes if n.element.external))}
     ticks = int(np.lcm.reduce([n.every for n in nodes] or [1]))
     return Plan(groups, calls, reads, row, sensors, size, ticks, shards)
+
+
+def _ordered(doc: Document) -> tuple[list[Node], Sequence[tuple[str, NodeRole, Instant]]]:
+    """Return the nodes of a document without problems, and their calls in order."""
+    nodes, problems = resolve(doc)
+    acts, loops = order(nodes) if not problems else ([], [])
+    if problems or loops:
+        raise ModelError([*problems, *loops])
+    return nodes, acts
 
 
 def strategies_of(

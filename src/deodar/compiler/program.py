@@ -133,17 +133,13 @@ class Program:
     ) -> None:
         self.plan = plan
         replaced = replaced or Replacements()
-        self.kernels = kernels = replaced.kernels
+        self.kernels = replaced.kernels
         self.body = body
         self.precision = precision
         self.dtype: np.dtype[np.floating] = np.dtype(precision)
         self.sweep = [tuple(s) for s in sweep]
         self.noisy = [g for g, group in enumerate(plan.groups) if group.noise is not None]
-        paired = [
-            g for g in self.noisy if plan.groups[g].like.every == 1 and plan.groups[g].like.element.stateful
-        ]
-        cells = copies * sum(plan.groups[g].rows * _cells(plan.groups[g]) for g in paired)
-        self.kept = paired if cells >= (LEAST_NOISE if kernels is not None else BLOCKS_FROM) else []
+        self.kept = self._kept(copies)
         self.slow = [
             g for g, group in enumerate(plan.groups) if group.like.every > 1 and group.like.element.stateful
         ]
@@ -158,6 +154,13 @@ class Program:
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
         self.functions = [functions(g.like, g.strategy, *replaced) for g in plan.groups]
+
+    def _kept(self, copies: int) -> list[int]:
+        """Return the groups whose noise is drawn for two ticks at once, where that is worth it."""
+        groups = {g: self.plan.groups[g] for g in self.noisy}
+        paired = [g for g, group in groups.items() if group.like.every == 1 and group.like.element.stateful]
+        cells = copies * sum(groups[g].rows * _cells(groups[g]) for g in paired)
+        return paired if cells >= (LEAST_NOISE if self.kernels is not None else BLOCKS_FROM) else []
 
     # --------------------------------------------------------------------------------------- prepare and init
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import functools
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from typing import Literal
 
@@ -160,30 +160,36 @@ def _cycles(
     """Yield nodes that are linked through filters of one kind of boundaries, if sharing spectral modes is
     cheaper than using them separately.
     """
-    by = {n.id: n for n in free}
     keys = {n.id: _key(n) for n in free if role(n) == "filter"}
-    readers: dict[str, list[str]] = {}
-    for n in free:
-        for slot in n.reads["input"]:
-            readers.setdefault(slot[0], []).append(n.id)
     taken: set[str] = set()
     for first, key in keys.items():
         if not key or first in taken:
             continue
-        members, todo = {first}, [first]
-        while todo:
-            n = by[todo.pop()]
-            beside = [s[0] for s in n.reads["input"] if s[1] == "output"] + readers.get(n.id, [])
-            for i in beside:
-                if i in by and i not in members | taken and keys.get(i, key) == key and _linked(n, by[i]):
-                    members.add(i)
-                    todo.append(i)
+        other = {i for i, own in keys.items() if own != key}
+        members = _reached(first, [n for n in free if n.id not in taken | other])
         taken |= members
         found = [n for n in free if n.id in members]
         choice = _waves_of(found, key, copies, shards)
         apart = sum(_alone(n, key, alone, acted_axes(n), copies) for n in found if role(n) != "gain")
         if any(role(n) == "source" for n in found) and _shared_cost(found, key, choice) < apart:
             yield found, key, choice
+
+
+def _reached(first: str, nodes: Sequence[Node]) -> set[str]:
+    """Return the nodes that are linked to one of them, through any number of others."""
+    by = {n.id: n for n in nodes}
+    beside: dict[str, list[str]] = defaultdict(list)
+    for n in nodes:
+        for source, port, _ in n.reads["input"]:
+            beside[source].append(n.id)
+            beside[n.id] += [source] if port == "output" else []
+    reached, todo = {first}, [first]
+    while todo:
+        n = by[todo.pop()]
+        new = {i for i in beside[n.id] if i in by and i not in reached and _linked(n, by[i])}
+        reached |= new
+        todo += new
+    return reached
 
 
 def _linked(a: Node, b: Node) -> bool:

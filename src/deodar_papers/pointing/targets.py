@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -65,23 +65,27 @@ def _of_scenes(rows: Sequence[Row], prefix: str, quick: bool, required: bool) ->
     pairs = [r for r in rows if "matches" in r]
     one = [r for r in pairs if r["matches"] == 1 and not r["hidden"]]
     more = [r for r in pairs if r["matches"] > 1]
-    reached = [r for r in (*one, *more) if r["right"] and r["miss"] is not None]
-    table: list[tuple[str, list[bool], float, str]] = [
-        ("the camera alone: no peak", [r["peaks"] == 0 for r in rows if _is(r, "camera")], SILENT, FIGURE_8),
-        ("one cue alone: no peak", [r["peaks"] == 0 for r in rows if _is(r, *CUES)], SILENT, FIGURE_8),
-        ("no match: no peak", [silent(r) for r in pairs if _unmatched(r)], SILENT, FIGURE_8),
-        ("one match: the right object, in order", [cycled(r) for r in one], RIGHT, FIGURE_11),
-        ("several matches: exactly one, right, in order", [single(r) for r in more], RIGHT, FIGURE_8),
-        ("the tool is inside the rim at satisfaction", [inside(r) for r in reached], RIGHT, ""),
-        ("the tool is inside the rim 1 s later", [inside(r, "miss_after") for r in reached], RIGHT, ""),
-        ("everything is below threshold afterwards", [_rests(r) for r in (*one, *more)], RIGHT, FIGURE_11),
+    matched = [*one, *more]
+    reached = [r for r in matched if r["right"] and r["miss"] is not None]
+    table: list[tuple[str, Sequence[Row], Callable[[Row], bool], float, str]] = [
+        ("the camera alone: no peak", _named(rows, "camera"), _no_peak, SILENT, FIGURE_8),
+        ("one cue alone: no peak", _named(rows, *CUES), _no_peak, SILENT, FIGURE_8),
+        ("no match: no peak", [r for r in pairs if _unmatched(r)], silent, SILENT, FIGURE_8),
+        ("one match: the right object, in order", one, cycled, RIGHT, FIGURE_11),
+        ("several matches: exactly one, right, in order", more, single, RIGHT, FIGURE_8),
+        ("the tool is inside the rim at satisfaction", reached, inside, RIGHT, ""),
+        ("the tool is inside the rim 1 s later", reached, _stays_inside, RIGHT, ""),
+        ("everything is below threshold afterwards", matched, _rests, RIGHT, FIGURE_11),
     ]
-    out = [
-        required_share(prefix + name, true, least, source, quick)
-        if required
-        else reported_share(prefix + name, true, source)
-        for name, true, least, source in table
-    ]
+    out: list[Claim] = []
+    for name, of, holds, least, source in table:
+        good = [holds(r) for r in of]
+        text = prefix + name
+        out.append(
+            required_share(text, good, least, source, quick)
+            if required
+            else reported_share(text, good, source)
+        )
     misses = [100 * r["miss"] for r in reached]
     text = f"{prefix}distance of the tool from the middle of the object, cm: median and largest"
     value = [round(float(np.median(misses)), 2), round(max(misses), 2)] if misses else None
@@ -155,12 +159,16 @@ def inside(row: Row, at: str = "miss") -> bool:
     return row[at] is not None and row["radius"] is not None and row[at] < row["radius"]
 
 
+def _stays_inside(row: Row) -> bool:
+    return inside(row, "miss_after")
+
+
 def judged(row: Row) -> bool:
     """Return whether a special case went as it has to."""
     case = row["condition"]
     if case == "equal":
         return bool(row["right"]) and row["peaks"] == 1
-    there = cycled(row) and inside(row) and inside(row, "miss_after")
+    there = cycled(row) and inside(row) and _stays_inside(row)
     if case in ("moved", "jumped"):
         return there and row.get("way") is not None
     if case == "pushed":
@@ -191,5 +199,10 @@ def _rests(row: Row) -> bool:
     return "rest" in row["events"]
 
 
-def _is(row: Row, *names: str) -> bool:
-    return row["key"].rpartition("/")[2].partition(" ")[2] in names
+def _no_peak(row: Row) -> bool:
+    return row["peaks"] == 0
+
+
+def _named(rows: Sequence[Row], *names: str) -> list[Row]:
+    """Return the rows of controls with one of these names."""
+    return [r for r in rows if r["key"].rpartition("/")[2].partition(" ")[2] in names]

@@ -5,7 +5,7 @@ of deodar's own settings on them.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -342,9 +342,13 @@ def _case_3_late(runs: Runs) -> list[Claim]:
 
 
 def _section_6_2(runs: Runs) -> list[Claim]:
+    return [*_wave(runs), *_clearances(runs), *_velocities(runs), *_long_paths(runs)]
+
+
+def _wave(runs: Runs) -> Iterator[Claim]:
+    """Yield the speed at which activation spreads, and how long planning again takes."""
     rows = [r for r in _planned(runs) if r["plan"] is not None and r["shortest"] is not None]
     far, when = numbers(rows, "shortest"), numbers(rows, "plan")
-    out: list[Claim] = []
     if len(far) > 2:
         slope, offset = np.polyfit(far, when, 1)
         rest = float(1 - np.var(when - slope * far - offset) / np.var(when))
@@ -352,18 +356,16 @@ def _section_6_2(runs: Runs) -> list[Claim]:
             "activation spreads with a constant speed: share of variance of planning time that is linear"
             " in Lo"
         )
-        out.append(Sentence("6.2", text).bounds(rest, len(far), (0.9, 1.0), ">= 0.9"))
-        out.append(Sentence("6.2", "speed of the wave, cm a step").value(1 / slope, len(far)))
+        yield Sentence("6.2", text).bounds(rest, len(far), (0.9, 1.0), ">= 0.9")
+        yield Sentence("6.2", "speed of the wave, cm a step").value(1 / slope, len(far))
     switched = [r for noise in NOISES for r in between(runs.kept("full", noise), route=SWITCH)]
     text = "planning again is shorter than planning: time without motion over the time of the first plan"
-    out.append(
-        _ratio(
-            Sentence("6.2", text, assumes=START),
-            numbers(switched, "still"),
-            numbers(runs.of("free/planner/low"), "plan"),
-            False,
-        )
-    )
+    still, first = numbers(switched, "still"), numbers(runs.of("free/planner/low"), "plan")
+    yield _ratio(Sentence("6.2", text, assumes=START), still, first, False)
+
+
+def _clearances(runs: Runs) -> Iterator[Claim]:
+    """Yield how far paths keep from walls."""
     for maze in MAZE:
         found = [
             r["clearance"] - r["shortest_clearance"]
@@ -375,30 +377,26 @@ def _section_6_2(runs: Runs) -> list[Claim]:
             f" cm, {MAZE[maze]}"
         )
         value = float(np.mean(found)) if found else None
-        out.append(
-            Sentence("6.2", text, assumes=_assumed(maze)).larger(
-                value, mean_interval(found), len(found), 0.0, 0.5
-            )
-        )
-    south = numbers(
-        [r for k in NOISES for o in ("full", "partial") for r in between(runs.kept(o, k), route=SOUTH)],
-        "clearance",
-    )
-    north = numbers(
-        [r for k in NOISES for r in between(runs.kept("partial", k), (200, 400), (200, 500), route=NORTH)],
-        "clearance",
-    )
+        said = Sentence("6.2", text, assumes=_assumed(maze))
+        yield said.larger(value, mean_interval(found), len(found), 0.0, 0.5)
+    south = [r for k in NOISES for o in ("full", "partial") for r in between(runs.kept(o, k), route=SOUTH)]
+    north = [r for k in NOISES for r in between(runs.kept("partial", k), (200, 400), (200, 500), route=NORTH)]
     text = "the south route keeps farther from walls than the north one past a partial obstacle: ratio"
-    out.append(_ratio(Sentence("6.2", text, assumes=START), south, north, True))
-    slow = [
-        v
-        for k in NOISES
-        for r in between(runs.kept("partial", k), route=NORTH)
-        if (v := _passage(r)) is not None
-    ]
-    free = [v for k in NOISES for r in runs.of(f"free/planner/{k}") if (v := _passage(r)) is not None]
+    said = Sentence("6.2", text, assumes=START)
+    yield _ratio(said, numbers(south, "clearance"), numbers(north, "clearance"), True)
+
+
+def _velocities(runs: Runs) -> Iterator[Claim]:
+    """Yield how much a narrow passage reduces the velocity."""
+    past = [r for k in NOISES for r in between(runs.kept("partial", k), route=NORTH)]
+    without = [r for k in NOISES for r in runs.of(f"free/planner/{k}")]
+    slow, free = (np.asarray([v for r in rows if (v := _passage(r)) is not None]) for rows in (past, without))
     text = "the narrow passage beside a partial obstacle reduces the velocity: ratio to that without one"
-    out.append(_ratio(Sentence("6.2", text, assumes=START), np.asarray(slow), np.asarray(free), False))
+    yield _ratio(Sentence("6.2", text, assumes=START), slow, free, False)
+
+
+def _long_paths(runs: Runs) -> Iterator[Claim]:
+    """Yield the success over the longest paths less that over the shortest."""
     ordered = sorted(
         (r for r in _planned(runs, "large") if r["shortest"] is not None), key=lambda r: r["shortest"]
     )
@@ -408,8 +406,7 @@ def _section_6_2(runs: Runs) -> list[Claim]:
         "long paths do not suffer from low gradients: success over the longest third in the large maze less"
         " that over the shortest"
     )
-    out.append(Sentence("6.2", text, assumes=REFLECTION, inferred=True).as_often(longest, shortest))
-    return out
+    yield Sentence("6.2", text, assumes=REFLECTION, inferred=True).as_often(longest, shortest)
 
 
 def _ratio(said: Sentence, above: np.ndarray, below: np.ndarray, more: bool) -> Claim:
