@@ -56,7 +56,8 @@ def seconds(sensor: str, copies: int, period: float, every: int, noise: dict[str
     """CPU time of a run of STEPS steps of 1 ms."""
     import deodar as dd
 
-    world = dd.Arena(blocks(), vehicle="khepera", period=period, camera_every=every, **noise)
+    physics = dd.ArenaPhysics(period, camera_every=every)
+    world = dd.Arena(blocks(), vehicle="khepera", physics=physics, noise=dd.ArenaNoise(**noise))
     record = {"record": "heading.output", "every": float(STEPS)}
     began = time.process_time()
     dd.simulate(model(sensor), float(STEPS), trials=copies, world=world, progress=False, **record)

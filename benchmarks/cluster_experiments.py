@@ -110,7 +110,7 @@ def robot(trials: int) -> dd.Experiment:
         model.connect(push, model.add(Motor(wheel, motor=wheel)))
     for name, size in (("pose", 3), ("goal", 2)):
         model.add(dd.Sensor(name, [dd.Axis("value", 0, size - 1, samples=size)], sensor=name))
-    room = Arena(ROOM, start=(10, 20, 0), goal=(80, 20), unit="cm", slip=0.2)
+    room = Arena(ROOM, start=(10, 20, 0), goal=(80, 20), unit="cm", noise=dd.ArenaNoise(slip=0.2))
     wall = [dd.Place(5, "block", (60, 20), (5, 5), (1, 0, 0), height=10)]
     seen = [dd.Within("there", 60, "pose.output", "goal.output")]
     return dd.Experiment("robot", model, 60, trials, seen, wall, world=room)

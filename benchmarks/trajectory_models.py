@@ -92,7 +92,9 @@ def _photograph() -> World:
 EXAMPLE_WORLDS: Mapping[str, Callable[[], World]] = {
     "saliency": _photograph,
     "spa": lambda: Arena("z"),
-    "color_search": lambda: Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4),
+    "color_search": lambda: Arena(
+        "search", unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20, camera_every=4)
+    ),
     "pointing": MuJoCo.example,
 }
 

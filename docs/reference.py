@@ -24,6 +24,7 @@ import msgspec
 import deodar as dd
 from deodar import cli, docstring, kinds, registry
 from deodar.parameters import Needed
+from deodar.worlds import _settings
 
 DOCS = Path(__file__).parent
 MADE = "<!-- Written by tools/generate.py from the code: change the docstrings, not this page. -->\n"
@@ -267,6 +268,9 @@ def kind_section(kind: kinds.Description) -> str:
         out.append(table(head, rows))
     if kind.arguments:
         out.append(table(("argument", "meaning"), [(f"`{k}`", v) for k, v in kind.arguments.items()]))
+    for group in _settings.groups(registry.kind(kind.name)).values() if kind.room == "worlds" else ():
+        read = docstring.parse(docstring.source(type(group)))
+        out += [f"`dd.{type(group).__name__}`\n", prose(read.opening) + "\n", attributes(read)]
     ports = [(f"`{name}`", text) for name, text in kind.ports.items() if text]
     if ports:
         out.append(table(("sensor or motor" if kind.room == "worlds" else "port", "what it carries"), ports))

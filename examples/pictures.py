@@ -356,7 +356,13 @@ def looking() -> Figure:
 def color_search() -> Figure:
     """The way of the robot to blue, yellow and red, which it was shown in this order, from above."""
     figure = blank()
-    arena = dd.Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4, hue_noise=6)
+    arena = dd.Arena(
+        "search",
+        unit="mm",
+        vehicle="khepera",
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
+        noise=dd.ArenaNoise(hue_noise=6),
+    )
     session = dd.Session(dd.load(HERE / "color_search.json"), world=arena)
     session.run(1000)
     blocks = {box.name: box for box in arena.scene().boxes}

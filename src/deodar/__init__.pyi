@@ -211,6 +211,8 @@ from deodar.worlds._base import Signal as Signal
 from deodar.worlds._base import World as World
 from deodar.worlds._pure import PureWorld as PureWorld
 from deodar.worlds.arena.arena import Arena as Arena
+from deodar.worlds.arena.arena_settings import ArenaNoise as ArenaNoise
+from deodar.worlds.arena.arena_settings import ArenaPhysics as ArenaPhysics
 from deodar.worlds.camera import Camera as Camera
 from deodar.worlds.combined import Combined as Combined
 from deodar.worlds.picture import Picture as Picture

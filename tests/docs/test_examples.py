@@ -242,7 +242,13 @@ def test_spa_spreads_its_wave_from_the_goal() -> None:
 
 
 def test_color_search_learns_what_is_shown_and_looks_for_it_in_this_order() -> None:
-    arena = Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4, hue_noise=6)
+    arena = Arena(
+        "search",
+        unit="mm",
+        vehicle="khepera",
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
+        noise=dd.ArenaNoise(hue_noise=6),
+    )
     session = dd.Session(dd.load(EXAMPLES / "color_search.json"), world=arena)
     blocks = {box.name: box for box in arena.scene().boxes}
 

@@ -23,7 +23,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -48,6 +47,7 @@ from deodar.numerics.kernels.gaussian import Gaussian
 from deodar.numerics.sigmoids.logistic import Logistic
 from deodar.numerics.sigmoids.step import Step
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.arena_settings import ArenaNoise, ArenaPhysics
 
 STEP_MS = 64.0
 STEP = 5.0
@@ -139,7 +139,8 @@ def maze(
     noise: str = "low",
     start: Sequence[float] | np.ndarray | None = None,
     goal: Sequence[float] | np.ndarray | None = None,
-    **others: Any,
+    contact: str = "slide",
+    reflection: float = 0.6,
 ) -> Arena:
     """Create a published maze with the robot, lengths in cm.
 
@@ -150,18 +151,14 @@ def maze(
         noise: `none`, `low` or `high`: noise of the position sensor, resampled every second step.
         start: x, y and heading (rad), or a row for each trial.
         goal: x and y, or a row for each trial.
-        others: see `Arena`.
+        contact: `slide` along walls, or `stick` to them.
+        reflection: infrared reflectance of walls, as in `dd.ArenaPhysics`.
     """
     if name == "z":
         start = (*place(*CASE_3[0]), 0.0) if start is None else start
         goal = place(*CASE_3[1]) if goal is None else goal
-    settings: dict[str, Any] = {
-        "unit": "cm",
-        "period": STEP_MS,
-        "place_noise": level(noise)[1],
-        "place_every": 2,
-    }
-    return Arena(name, start, goal, **settings | others)
+    physics = ArenaPhysics(STEP_MS, contact, reflection, place_every=2)
+    return Arena(name, start, goal, "cm", physics=physics, noise=ArenaNoise(level(noise)[1]))
 
 
 def level(noise: str) -> tuple[float, float, float]:

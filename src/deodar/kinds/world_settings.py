@@ -7,6 +7,7 @@ import inspect
 from collections.abc import Mapping
 from typing import Any, Literal
 
+from deodar import docstring
 from deodar.codec import Json
 from deodar.errors import WorldError, did_you_mean
 from deodar.parameters import show
@@ -36,7 +37,8 @@ class WorldSetting:
 def world_settings(cls: type, meanings: Mapping[str, str]) -> tuple[WorldSetting, ...]:
     """Return the settings of a world, the argument of `open` first; empty if it cannot be opened.
 
-    Arguments whose values are objects, such as the vehicle of an arena, are left out.
+    Those of a dataclass among the arguments are its fields. Arguments whose values are other objects, such as
+    the vehicle of an arena, are left out.
     """
     if not issubclass(cls, World) or (cls.open.__func__ is World.open.__func__ and cls is not Recording):
         return ()
@@ -48,11 +50,14 @@ def world_settings(cls: type, meanings: Mapping[str, str]) -> tuple[WorldSetting
     default = first.default if isinstance(first.default, (str, int)) else None
     form: SettingForm = "file" if cls.opens else "text"
     found = [WorldSetting(name, form, meanings.get(name, ""), None if default is None else str(default))]
-    for argument in () if cls is Recording else others:
-        kind = _form(argument)
-        if kind is not None:
+    if cls is Recording:
+        return tuple(found)
+    for argument in others:
+        if dc.is_dataclass(argument.default):
+            found += _fields(argument.default)
+        else:
             meaning = meanings.get(argument.name, "")
-            found.append(WorldSetting(argument.name, kind, meaning, argument.default))
+            found += _setting(argument.name, argument.default, str(argument.annotation), meaning)
     return tuple(found)
 
 
@@ -68,15 +73,28 @@ def require_settings(cls: type, values: Mapping[str, Any]) -> None:
             raise WorldError(f"{name} is {show(value)}", where=cls.__name__)
 
 
-def _form(argument: inspect.Parameter) -> SettingForm | None:
-    default = argument.default
+def _fields(group: Any) -> list[WorldSetting]:
+    meanings = docstring.parse(docstring.source(type(group))).entries("Attributes")
+    return [
+        setting
+        for f in dc.fields(group)
+        for setting in _setting(f.name, getattr(group, f.name), str(f.type), meanings.get(f.name, ""))
+    ]
+
+
+def _setting(name: str, default: Any, annotation: str, meaning: str) -> list[WorldSetting]:
+    form = _form(default, annotation)
+    return [] if form is None else [WorldSetting(name, form, meaning, default)]
+
+
+def _form(default: Any, annotation: str) -> SettingForm | None:
     if isinstance(default, bool):
         return "flag"
     if isinstance(default, (int, float)):
         return "number"
     if isinstance(default, str):
         return "text"
-    return "numbers" if default is None and "Sequence[float]" in str(argument.annotation) else None
+    return "numbers" if default is None and "Sequence[float]" in annotation else None
 
 
 def _is_number(value: Any) -> bool:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+import inspect
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -71,6 +73,22 @@ def numeric(name: str, value: str, where: str, counts: Collection[str] = ()) -> 
     except ValueError:
         raise WorldError(f"{name} is {value!r}; expected a number", where=where) from None
     return int(given) if name in counts and given.is_integer() else given
+
+
+def groups(cls: type) -> dict[str, Any]:
+    """Return the dataclasses among the arguments of a world's constructor, with their defaults."""
+    found = inspect.signature(cls.__init__).parameters.values()
+    return {p.name: p.default for p in found if dc.is_dataclass(p.default)}
+
+
+def arguments(cls: type, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments of a world's constructor for settings by name; those of a dataclass make one."""
+    found = dict(settings)
+    for name, default in groups(cls).items():
+        own = {f.name: found.pop(f.name) for f in dc.fields(default) if f.name in found}
+        if own:
+            found[name] = dc.replace(default, **own)
+    return found
 
 
 def of(trials: Sequence[int], rows: np.ndarray, what: str) -> np.ndarray:

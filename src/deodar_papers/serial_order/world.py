@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 
 from deodar.codec import JsonObject
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.arena_settings import ArenaNoise, ArenaPhysics
 from deodar_papers.serial_order.arenas import BLOCK, OUTSIDE, PLACES, SearchArena
 from deodar_papers.serial_order.colours import rgb
 from deodar_papers.serial_order.teaching import ASIDE, Showing
@@ -17,7 +19,7 @@ from deodar_papers.serial_order.teaching import ASIDE, Showing
 PERIOD, FRAMES = 20.0, 4
 """Period of the vehicle, ms, and periods in a frame of its camera."""
 
-NOISE: dict[str, Any] = {"hue_noise": 6.0, "outliers": 0.04, "slip": 0.05, "infrared_noise": 1.0}
+NOISE = ArenaNoise(hue_noise=6.0, outliers=0.04, slip=0.05)
 """Noise of the camera, the wheels and the infrared sensors (ours, as the paper states none)."""
 
 NEVER, ALWAYS = (0.0, 0.0), 1e8
@@ -46,10 +48,8 @@ def world(
         np.asarray([arena.start for arena in arenas]),
         unit="mm",
         vehicle="khepera",
-        period=PERIOD,
-        camera_every=FRAMES,
-        clutter=clutter,
-        **NOISE,
+        physics=ArenaPhysics(PERIOD, camera_every=FRAMES),
+        noise=dc.replace(NOISE, clutter=clutter),
     )
     for k in range(count):
         blocks = [a.blocks[k] if k < len(a.blocks) else None for a in arenas]

@@ -71,7 +71,7 @@ def numbers(runs: Runs) -> dict[str, str]:
         lambda r: not r["success"],
     )
     out["factor"] = f"{NOISE['high'][2]:g}"
-    out["reflection"] = f"{cases.world(found['large/planner/low']).reflection:g}"
+    out["reflection"] = f"{cases.world(found['large/planner/low']).physics.reflection:g}"
     out["stuck"] = f"{stuck} of {n}" if n else NOT_RUN
     out["main"] = _table(
         runs, [f"{maze}/{method}/{noise}" for maze in MAZE for method, noise in METHODS], SHORT

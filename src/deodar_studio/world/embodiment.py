@@ -27,6 +27,7 @@ from deodar.session import agreement
 from deodar.session.exchange import used
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
+from deodar.worlds._settings import arguments
 from deodar_studio.messages.to_page import WorldPreview
 from deodar_studio.world import scene
 
@@ -101,7 +102,8 @@ class Embodiment:
                 return opened(cls, argument)
             make = cast("Callable[..., World]", cls)
             with errors_of(cls, "open", argument):
-                return make(int(argument) if not cls.opens and argument.isdecimal() else argument, **settings)
+                first = int(argument) if not cls.opens and argument.isdecimal() else argument
+                return make(first, **arguments(cls, settings))
         except WorldError as error:
             raise WorldError(
                 error.problems[0].what, where=masked(name), fix=error.problems[0].fix

@@ -19,9 +19,8 @@ def taught(windows: dict[str, tuple[float, float]], limit: float, *changes: dd.S
         start=(0, 0, 0),
         unit="mm",
         vehicle="khepera",
-        period=20,
-        camera_every=4,
-        hue_noise=6,
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
+        noise=dd.ArenaNoise(hue_noise=6),
     )
     place = {"side": (125.0, 60.0), "middle": (100.0, 0.0)}
     for name, window in windows.items():
@@ -72,9 +71,8 @@ def test_one_of_two_colours_in_view_is_selected_and_learned() -> None:
         start=(0, 0, 0),
         unit="mm",
         vehicle="khepera",
-        period=20,
-        camera_every=4,
-        hue_noise=6,
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
+        noise=dd.ArenaNoise(hue_noise=6),
     )
     for name, y, color in (("red", 60.0, RED), ("blue", -60.0, (0.0, 0.0, 0.9))):
         arena.place(name, (150.0, y), (50, 50), color, windows=(1000.0, 9000.0), height=70)

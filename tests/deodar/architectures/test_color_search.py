@@ -22,9 +22,8 @@ def arena() -> dd.Arena:
         (0, 0, 0),
         unit="mm",
         vehicle="khepera",
-        period=20,
-        camera_every=4,
-        hue_noise=6.0,
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
+        noise=dd.ArenaNoise(hue_noise=6.0),
     )
     for name, center, color, begins, ends in (
         ("shown aside", (125, 60), RED, 800, 1200),
@@ -98,8 +97,7 @@ def test_a_block_that_is_in_view_at_once_does_not_start_the_chain_again() -> Non
         (0, 0, 0),
         unit="mm",
         vehicle="khepera",
-        period=20,
-        camera_every=4,
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
     )
     made.place("red", (100, 0), (50, 50), RED, height=70)
     nodes = [f"item {k}.node.activation" for k in (1, 2)]

@@ -195,8 +195,7 @@ def test_a_new_cue_starts_the_chain_again_only_while_a_sequence_is_taught() -> N
         (0, 0, 0),
         unit="mm",
         vehicle="khepera",
-        period=20,
-        camera_every=4,
+        physics=dd.ArenaPhysics(period=20, camera_every=4),
     )
     changes = [dd.Set(800.0, "cue", 2.0), dd.Set(1600.0, "mode", 1.0), dd.Set(2400.0, "cue", 1.0)]
     watch = ["item 1.node.activation", "cue nodes.activation"]

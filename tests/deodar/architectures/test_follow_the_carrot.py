@@ -11,6 +11,7 @@ from deodar.analysis.robot_paths import clearance, path_until
 from deodar.analysis.shortest import arena_grid, shortest_path
 from deodar.architectures.follow_the_carrot import Carrot, Ending, follow
 from deodar.errors import ParameterError
+from deodar.worlds._settings import arguments
 from deodar.worlds.arena.arena import Arena
 
 BEND = {
@@ -22,7 +23,7 @@ START, GOAL = [(10, 10, 0), (10, 15, 2.0)], [(10, 50), (15, 45)]
 
 
 def arena(**given):
-    return Arena(BEND, START, GOAL, "cm", **given)
+    return Arena(BEND, START, GOAL, "cm", **arguments(Arena, given))
 
 
 def planned():

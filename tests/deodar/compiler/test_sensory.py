@@ -43,7 +43,7 @@ def test_couplings_of_readings_are_sensory_where_readings_last_several_steps() -
 
 @pytest.mark.parametrize("watch", ["u.activation", "near.activation", "scaled.output"])
 def test_they_have_the_values_that_a_session_computes_outside_the_step(watch: str) -> None:
-    m, arena = _model(), dd.Arena("blocks", infrared_noise=1.0, slip=0.1)
+    m, arena = _model(), dd.Arena("blocks", noise=dd.ArenaNoise(infrared_noise=1.0, slip=0.1))
     arena.place("visitor", (0.9, 0.6), (0.1, 0.1), windows=(200.0, 400.0))
     [inside] = run_together(m, 640.0, [3], [watch], world=arena, seed=1, every=4.0)
     outside = run_alone(m, 640.0, arena, seed=1, trial=3, watch=[watch], every=4.0)
@@ -71,7 +71,9 @@ def test_a_sensor_of_a_longer_period_has_couplings_of_that_period() -> None:
         "arena": {"x": [-300, 300], "y": [-300, 300]},
         "blocks": [{"name": "red", "center": [100, 40], "size": [50, 50], "color": [1, 0, 0]}],
     }
-    arena = dd.Arena(layout, (0, 0, 0), unit="mm", vehicle="khepera", period=20, camera_every=4)
+    arena = dd.Arena(
+        layout, (0, 0, 0), unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20, camera_every=4)
+    )
     body = embodied(m.document, arena)
     program = executable(m, body=body).program
     paths = {n: [program.plan.groups[c.group].like.path for c in program.sensory[n]] for n in program.sensory}

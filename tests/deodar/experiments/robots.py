@@ -5,6 +5,7 @@ from __future__ import annotations
 import deodar as dd
 from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
+from deodar.worlds._settings import arguments
 from deodar.worlds.arena.arena import Arena
 
 ROOM = {
@@ -26,7 +27,7 @@ def straight(speed=500.0):
 
 def room(**given):
     """Return an arena of 100 x 40 cm with a wall at its far end."""
-    return Arena(ROOM, **{"start": (10, 20, 0), "goal": (80, 20), "unit": "cm"} | given)
+    return Arena(ROOM, **{"start": (10, 20, 0), "goal": (80, 20), "unit": "cm"} | arguments(Arena, given))
 
 
 def decider(noise=3.0):

@@ -235,7 +235,7 @@ def rooms(**given: Any) -> dd.Arena:
         {**ROOM, "blocks": [{"name": "own", "center": [30 + 5 * k, 20], "size": [4, 4]}], "start": [8, 20]}
         for k in range(5)
     ]
-    return dd.Arena(layouts, unit="cm", goal=(80, 8), slip=0.2, **given)
+    return dd.Arena(layouts, unit="cm", goal=(80, 8), noise=dd.ArenaNoise(slip=0.2), **given)
 
 
 FAR = Crosses("far", "pose.output", 24, ends=False)

@@ -37,7 +37,9 @@ def avoiding() -> dd.Model:
 
 
 def arena() -> dd.Arena:
-    return dd.Arena("blocks", unit="cm", start=(20, 30, 0.4), infrared_noise=0.1, place_noise=0.3)
+    return dd.Arena(
+        "blocks", unit="cm", start=(20, 30, 0.4), noise=dd.ArenaNoise(infrared_noise=0.1, place_noise=0.3)
+    )
 
 
 def turning(amplitude: float = 2.0) -> dd.Model:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses as dc
 import functools
 import hashlib
 import math
@@ -19,7 +20,7 @@ from jax.typing import DTypeLike
 from deodar import codec
 from deodar.codec import JsonObject
 from deodar.element import Arrays
-from deodar.errors import Problem, WorldError, did_you_mean
+from deodar.errors import Problem, WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.noise import normal
 from deodar.parameters import show
@@ -27,8 +28,9 @@ from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody, SceneBox
-from deodar.worlds._settings import number, of, periods
+from deodar.worlds._settings import arguments, of
 from deodar.worlds.arena.arena_layout import UNITS, ArenaObject, LayoutSource, builtin, load_each
+from deodar.worlds.arena.arena_settings import NOISE, PHYSICS, PICTURE_NOISES, ArenaNoise, ArenaPhysics
 from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.color_camera import picture_rays, surfaces
 from deodar.worlds.arena.contact import move
@@ -46,13 +48,13 @@ from deodar.worlds.arena.view import coloured, judge_plane, require_plane, sides
 Numbers = Sequence[float] | Sequence[Sequence[float]] | np.ndarray
 """A value of some numbers, or a row of them for each trial."""
 
-CONTACTS = ("slide", "stick")
 BODY_NOISES = ("infrared", "place", "slip", "encoders")
-PICTURE_NOISES = ("pixel_noise", "hue_noise", "outliers", "clutter")
-SHARES = ("outliers", "clutter")
 GOAL = "goal"
 CUSTOM = "custom"
 """What records state as the vehicle's name if it is none of those that come with deodar."""
+
+LATER = {"camera_every": 1, **dict.fromkeys(PICTURE_NOISES, 0.0)}
+"""Settings of later versions with their defaults, which records leave out."""
 
 WRAP = 2.0**15
 """Encoders count from -WRAP to WRAP and then wrap around, like those of the e-puck (16 bits)."""
@@ -132,7 +134,7 @@ class Arena(PureWorld):
     In a period the axle moves on a circle, whose turn and path follow from the steps of both wheels. The body
     is a disc; it slides along what it touches, or sticks to it, and never passes through it, however long the
     period. d_i is the distance along one infrared ray, T and N are tables of the vehicle. The place sensor
-    has a new reading every `place_every` periods and keeps it in between.
+    has a new reading every `place_every` periods (`physics`) and keeps it in between.
 
     Equation:
         \mathrm{turn} = \frac{\mathrm{right} - \mathrm{left}}{\mathrm{axle}},\quad \mathrm{path} =
@@ -151,24 +153,8 @@ class Arena(PureWorld):
         unit: unit of all lengths in arguments and readings: m, cm or mm.
         vehicle: `e-puck` or `khepera`, or a `Vehicle` of your own (`deodar.worlds.arena.vehicle`), which
             records do not contain.
-        period: ms between two exchanges with the model.
-        contact: `slide` along what is touched, or `stick` to it.
-        reflection: infrared reflectance of objects: an e-puck reads an object as if its distance were divided
-            by it; a Khepera, whose readings are distances, does not depend on it. 0.6 is a fit: with 1 the
-            published planner stops at the gaps of 10 cm of its large maze, which it passed.
-        place_noise: standard deviation of the place sensor, in `unit`.
-        place_every: number of periods for which a reading of the place is kept.
-        infrared_noise: factor on the noise of the infrared sensors; 0 removes it.
-        slip: standard deviation of the distance that a wheel rolls in a period, as a share of that distance.
-        encoder_noise: standard deviation of an encoder's count in a period, as a share of that count.
-        camera_every: number of periods for which a picture of the camera is kept.
-        pixel_noise: standard deviation of each channel of each pixel of the camera; values stay between 0
-            and 1.
-        hue_noise: standard deviation of the hue of each pixel, degrees.
-        outliers: share of the pixels that show a random saturated colour.
-        clutter: share of the rows that strips of random colours cover where the camera sees no object, but
-            the floor, the walls of the border or what is above them. A strip is 1/20 of the width; its colour
-            and its rows are drawn once in each trial.
+        physics: time and surfaces.
+        noise: noise of the sensors and wheels.
 
     Shapes:
         `infrared` has one sample for each sensor, `place` and `goal` two, `pose` three; `obstacles` and
@@ -197,48 +183,19 @@ class Arena(PureWorld):
         goal: Sequence[float] | np.ndarray | None = None,
         unit: str = "m",
         vehicle: str | Vehicle = EPUCK.name,
-        period: float = 64.0,
-        contact: str = "slide",
-        reflection: float = 0.6,
-        place_noise: float = 0.0,
-        place_every: int = 1,
-        infrared_noise: float = 1.0,
-        slip: float = 0.0,
-        encoder_noise: float = 0.0,
-        camera_every: int = 1,
-        pixel_noise: float = 0.0,
-        hue_noise: float = 0.0,
-        outliers: float = 0.0,
-        clutter: float = 0.0,
+        physics: ArenaPhysics = PHYSICS,
+        noise: ArenaNoise = NOISE,
     ) -> None:
         self.layouts = load_each(layout)
         self.layout = self.layouts[0]
         if unit not in UNITS:
             raise WorldError(f"unit is {show(unit)}; expected one of {', '.join(UNITS)}")
-        if contact not in CONTACTS:
-            raise WorldError(f"contact is {show(contact)}", fix=did_you_mean(str(contact), CONTACTS))
-        self.unit, self.scale, self.contact = unit, UNITS[unit], contact
+        self.unit, self.scale = unit, UNITS[unit]
         self.vehicle = vehicle_of(vehicle)
-        self.period = number("period", period, above=0.0)
-        self.reflection = number("reflection", reflection, above=0.0)
-        self.place_every = periods("place_every", place_every)
-        self.camera_every = periods("camera_every", camera_every)
-        given = {
-            "place_noise": place_noise,
-            "infrared_noise": infrared_noise,
-            "slip": slip,
-            "encoder_noise": encoder_noise,
-            "pixel_noise": pixel_noise,
-            "hue_noise": hue_noise,
-            "outliers": outliers,
-            "clutter": clutter,
-        }
-        self.noise = {name: number(name, value) for name, value in given.items()}
-        for name in SHARES:
-            if self.noise[name] > 1:
-                raise WorldError(f"{name} is {show(given[name])}; expected a share, from 0 to 1")
+        self.physics, self.noise = physics, noise
+        self.period = physics.period
         self.source = str(layout) if isinstance(layout, (str, Path)) else ""
-        self.objects = ArenaObjects(self.layouts, self.period)
+        self.objects = ArenaObjects(self.layouts, physics.period)
         self.places = Places(self.layout.border, unit, self.scale, self.source)
         self.goals = self._goals() if goal is None else rows_of("goal", goal, [self.scale] * 2)
         self.starts = self._settled(
@@ -246,7 +203,7 @@ class Arena(PureWorld):
             if start is None
             else list(rows_of("start", start, [self.scale, self.scale, 1.0]))
         )
-        frame = self.camera_every * self.period if self.camera_every > 1 else None
+        frame = physics.camera_every * physics.period if physics.camera_every > 1 else None
         border = [v / self.scale for v in self.layout.border]
         self.carried, self.carries = np.zeros((1, 3)), 0
         self.sensors = signals(self.vehicle, unit, self.goals is not None, frame, border)
@@ -400,9 +357,8 @@ class Arena(PureWorld):
     # ------------------------------------------------------------------------------------------------- arrays
 
     def shared(self) -> dict[str, np.ndarray]:
-        return {
-            name: np.asarray(value) for name, value in {"reflection": self.reflection, **self.noise}.items()
-        }
+        settings = {"reflection": self.physics.reflection, **dc.asdict(self.noise)}
+        return {name: np.asarray(value) for name, value in settings.items()}
 
     def own(self, trials: Sequence[int]) -> dict[str, np.ndarray]:
         goals = np.zeros((1, 2)) if self.goals is None else self.goals
@@ -420,11 +376,8 @@ class Arena(PureWorld):
     def structure(self) -> Hashable:
         return (
             self.vehicle,
-            self.period,
-            self.contact,
-            self.place_every,
-            self.camera_every,
-            tuple(self.noise[name] > 0 for name in PICTURE_NOISES),
+            dc.replace(self.physics, reflection=1.0),
+            self.noise.in_pictures,
             self.scale,
             self.objects.room,
             self.goals is not None,
@@ -441,7 +394,7 @@ class Arena(PureWorld):
             "touching": zero,
             "carries": own["carries"],
         }
-        if self.camera_every > 1:
+        if self.physics.camera_every > 1:
             state["frame"] = own["start"].at[2].set(state["heading"])
         tick = jnp.uint32(0)
         return self._sensed(shared, own, state, tick, self._deviates(own, tick, zero.dtype), own["start"][:2])
@@ -449,8 +402,7 @@ class Arena(PureWorld):
     def advance(self, shared: Arrays, own: ArenaCopy, state: Arrays, motors: Arrays) -> Arrays:
         boxes, tick = own["boxes"], state["tick"] + jnp.uint32(1)
         deviates = self._deviates(own, tick, boxes.dtype)
-        assert self.period is not None
-        ordered = limited(self.vehicle, motors["left"], motors["right"]) * (self.period / 1000)
+        ordered = limited(self.vehicle, motors["left"], motors["right"]) * (self.physics.period / 1000)
         rolled = ordered * (1 + shared["slip"] * deviates["slip"][:2])
         way, turn = drive(self.vehicle, state["heading"], rolled)
         position, touched = move(
@@ -459,7 +411,7 @@ class Arena(PureWorld):
             boxes,
             _there(own, state["tick"]),
             self.vehicle.radius,
-            self.contact == "stick",
+            self.physics.contact == "stick",
         )
         counted = state["encoders"] + rolled * (1 + shared["encoder_noise"] * deviates["encoders"][:2])
         carried, x_y, angle = own["carries"] != state["carries"], own["carried"][:2], own["carried"][2]
@@ -472,7 +424,7 @@ class Arena(PureWorld):
             "touching": jnp.asarray(touched, boxes.dtype),
             "carries": own["carries"],
         }
-        if self.camera_every > 1:
+        if self.physics.camera_every > 1:
             pose = jnp.concatenate([position, new["heading"][None]])
             new["frame"] = jnp.where(self._is_frame(tick), pose, state["frame"])
         return self._sensed(shared, own, new, tick, deviates, state["place"])
@@ -499,7 +451,7 @@ class Arena(PureWorld):
             shared["reflection"],
         )
         place = body["position"] + self.scale * shared["place_noise"] * deviates["place"][:2]
-        fresh = tick % jnp.uint32(self.place_every) == 0
+        fresh = tick % jnp.uint32(self.physics.place_every) == 0
         factor = shared["infrared_noise"] * deviates["infrared"][: self.vehicle.infrared.count]
         infrared = readings(self.vehicle.infrared, seen, factor)
         return {**body, "tick": tick, "infrared": infrared, "place": jnp.where(fresh, place, held)}
@@ -524,7 +476,7 @@ class Arena(PureWorld):
         return self._is_frame(state["tick"])
 
     def _is_frame(self, tick: Array) -> Array:
-        return tick % jnp.uint32(self.camera_every) == 0
+        return tick % jnp.uint32(self.physics.camera_every) == 0
 
     def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
         try:
@@ -554,9 +506,9 @@ class Arena(PureWorld):
         """Return the last picture: with a period of its own the camera is where the vehicle was then."""
         camera, pose, tick = self.vehicle.camera, (state["position"], state["heading"]), state["tick"]
         assert camera is not None
-        if self.camera_every > 1:
+        if self.physics.camera_every > 1:
             pose = state["frame"][:2], state["frame"][2]
-            tick = tick - tick % jnp.uint32(self.camera_every)
+            tick = tick - tick % jnp.uint32(self.physics.camera_every)
         shown = surfaces(
             camera,
             pose,
@@ -565,7 +517,7 @@ class Arena(PureWorld):
             _there(own, tick),
             picture_rays(camera, sensor, axes),
         )
-        levels = {name: shared[name] for name in PICTURE_NOISES if self.noise[name] > 0}
+        levels = {name: shared[name] for name in self.noise.in_pictures}
         noise = PictureNoise(levels, own["keys"], tick, sensor)
         seen = picture(shown, own["colours"], self.objects.room, noise)
         return seen if sensor == "camera" else seen[:, 0]
@@ -627,16 +579,12 @@ class Arena(PureWorld):
         settings: JsonObject = {
             "unit": self.unit,
             "vehicle": self.vehicle.name if VEHICLES.get(self.vehicle.name) == self.vehicle else CUSTOM,
-            "period": self.period,
-            "contact": self.contact,
+            **dc.asdict(self.physics),
+            **dc.asdict(self.noise),
         }
         # without settings of later versions that have their default, so that rows of older versions fit
-        noise = {k: v for k, v in self.noise.items() if k not in PICTURE_NOISES or v > 0}
-        later: JsonObject = {"camera_every": self.camera_every} if self.camera_every > 1 else {}
         said: JsonObject = {
-            "settings": (
-                settings | {"reflection": self.reflection, "place_every": self.place_every, **noise, **later}
-            ),
+            "settings": {name: value for name, value in settings.items() if LATER.get(name) != value},
             "start": (self.starts / [self.scale, self.scale, 1]).tolist(),
             "goal": None if self.goals is None else (self.goals / self.scale).tolist(),
             "layout": (
@@ -656,14 +604,14 @@ class Arena(PureWorld):
     @classmethod
     def open(cls, argument: str) -> Arena:
         layout, settings = parse_argument(argument)
-        return cls(layout, **settings)
+        return cls(layout, **arguments(cls, settings))
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Arena:
         settings = dict(described["settings"])
         if settings["vehicle"] not in VEHICLES:
             raise WorldError("was run with a custom vehicle, which a record does not contain", where="arena")
-        found = cls(described["layout"], described["start"], described["goal"], **settings)
+        found = cls(described["layout"], described["start"], described["goal"], **arguments(cls, settings))
         found.objects.restore(described["things"])
         found.objects.fixed = frozenset(t.name for layout in found.layouts for t in layout.objects)
         found.source = str(described.get("file", ""))
@@ -674,13 +622,8 @@ class Arena(PureWorld):
         """Return an arena with an e-puck among coloured blocks."""
         return cls(
             "blocks",
-            place_noise=0.005,
-            place_every=2,
-            slip=0.01,
-            encoder_noise=0.02,
-            camera_every=2,
-            hue_noise=4.0,
-            outliers=0.02,
+            physics=ArenaPhysics(place_every=2, camera_every=2),
+            noise=ArenaNoise(place_noise=0.005, slip=0.01, encoder_noise=0.02, hue_noise=4.0, outliers=0.02),
         )
 
     @classmethod
@@ -689,16 +632,19 @@ class Arena(PureWorld):
         Khepera among coloured blocks that it sees only after it has turned, for models that read distances.
         """
         yield cls.example()
-        yield cls("z", start=(-0.45, 0.55, 0.0), goal=(-0.65, 0.65), place_noise=0.005, place_every=2)
+        yield cls(
+            "z",
+            start=(-0.45, 0.55, 0.0),
+            goal=(-0.65, 0.65),
+            physics=ArenaPhysics(place_every=2),
+            noise=ArenaNoise(place_noise=0.005),
+        )
         yield cls(
             "search",
             unit="mm",
             vehicle="khepera",
-            period=20.0,
-            camera_every=4,
-            hue_noise=6.0,
-            outliers=0.04,
-            slip=0.05,
+            physics=ArenaPhysics(period=20.0, camera_every=4),
+            noise=ArenaNoise(hue_noise=6.0, outliers=0.04, slip=0.05),
         )
 
     @staticmethod

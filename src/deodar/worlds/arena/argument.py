@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 from collections.abc import Mapping
 from typing import Any
 
 from deodar.errors import WorldError
 from deodar.worlds._settings import named, numeric
+from deodar.worlds.arena.arena_settings import ArenaNoise, ArenaPhysics
 
 WORDS = ("unit", "contact", "vehicle")
 PLACES = {"start": (2, 3), "goal": (2, 2)}
 """Smallest and largest count of numbers of a place; a start without a heading points along x."""
 
 COUNTS = ("place_every", "camera_every")
-NUMBERS = (
-    *COUNTS,
-    *("period", "reflection", "place_noise", "infrared_noise", "slip", "encoder_noise"),
-    *("pixel_noise", "hue_noise", "outliers", "clutter"),
-)
+NUMBERS = tuple(f.name for part in (ArenaPhysics, ArenaNoise) for f in dc.fields(part) if f.name not in WORDS)
 
 
 def parse_argument(argument: str) -> tuple[str, Mapping[str, Any]]:

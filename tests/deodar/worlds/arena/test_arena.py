@@ -15,6 +15,7 @@ from deodar.elements.boost import Boost
 from deodar.elements.motor import Motor
 from deodar.elements.sensor import Sensor
 from deodar.errors import UnknownName, WorldError
+from deodar.worlds._settings import arguments
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.arena_layout import load
 from deodar.worlds.arena.room import FINE, Room
@@ -35,9 +36,9 @@ def drive(world: Arena, periods: int, left: float = 400.0, right: float = 400.0)
 
 
 def begun(*args: Any, trials: Any = (0,), seed: int = 0, precision: str = "float32", **options: Any) -> Arena:
-    world = Arena(*args, **options)
+    world = Arena(*args, **arguments(Arena, options))
     # worlds of one kind share their functions, which are compiled once for this module to save time
-    world._compiled = COMPILED.setdefault((world.contact, world.period, world.place_every, world.unit), {})
+    world._compiled = COMPILED.setdefault((world.physics, world.unit), {})
     world.reset(seed, trials, precision)
     return world
 
@@ -462,7 +463,7 @@ def test_an_arena_far_from_the_origin_has_the_same_free_places(shift: tuple[int,
 )
 def test_invalid_arenas_are_refused(options: dict[str, Any], says: str) -> None:
     with pytest.raises(WorldError, match=says):
-        Arena(**{"layout": "blocks", **options})
+        Arena(**{"layout": "blocks", **arguments(Arena, options)})
 
 
 def test_walls_may_overlap_and_lie_outside_and_goals_behind_them_are_reachable() -> None:
@@ -483,7 +484,13 @@ def test_a_trial_without_a_start_is_named() -> None:
 
 
 def test_an_arena_is_created_again_from_its_description() -> None:
-    world = Arena("z", start=(-45, 55, 0.3), unit="cm", reflection=0.8, contact="stick", place_noise=0.5)
+    world = Arena(
+        "z",
+        start=(-45, 55, 0.3),
+        unit="cm",
+        physics=dd.ArenaPhysics(reflection=0.8, contact="stick"),
+        noise=dd.ArenaNoise(place_noise=0.5),
+    )
     world.place("obstacle", (-65, 90), (10, 20), windows=(100, 300))
     world.remove("Maze_Wall3")
     again = Arena.again(world.describe())

@@ -9,6 +9,7 @@ import pytest
 
 from deodar.errors import WorldError
 from deodar.worlds.arena.arena import Arena
+from deodar.worlds.arena.arena_settings import ArenaNoise, ArenaPhysics
 from deodar.worlds.arena.argument import parse_argument
 from deodar.worlds.arena.khepera import KHEPERA
 
@@ -21,7 +22,14 @@ def test_settings_of_the_argument_are_passed_to_the_arena():
     arena = Arena.open(
         "z, unit=cm, start=-45 55 1.5, goal=-65 65, place_noise=0.5, place_every=2, contact=stick"
     )
-    again = Arena("z", (-45, 55, 1.5), (-65, 65), "cm", place_noise=0.5, place_every=2, contact="stick")
+    again = Arena(
+        "z",
+        (-45, 55, 1.5),
+        (-65, 65),
+        "cm",
+        physics=ArenaPhysics(place_every=2, contact="stick"),
+        noise=ArenaNoise(place_noise=0.5),
+    )
     assert arena.describe()["settings"] == again.describe()["settings"]
     np.testing.assert_array_equal(arena.starts, again.starts)
     np.testing.assert_array_equal(arena.goals, again.goals)

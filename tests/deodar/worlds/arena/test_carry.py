@@ -26,7 +26,9 @@ def arena(**more: object) -> dd.Arena:
         "arena": {"x": [-500, 500], "y": [-500, 500]},
         "blocks": [{"name": "block", "center": [300, 300], "size": [50, 50]}],
     }
-    return dd.Arena(layout, (0, 0, 0), unit="mm", vehicle="khepera", period=20, **more)  # type: ignore[arg-type]
+    return dd.Arena(
+        layout, (0, 0, 0), unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20), **more
+    )  # type: ignore[arg-type]
 
 
 CARRIED = [dd.Move(200.0, "khepera", (-100.0, 50.0, math.pi / 2)), dd.Move(400.0, "khepera", (0.0, 0.0))]

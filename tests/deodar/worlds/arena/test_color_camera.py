@@ -13,6 +13,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
+from deodar.worlds._settings import arguments
 from deodar.worlds.arena import arena as arena_file
 from deodar.worlds.arena.arena import Arena
 from deodar.worlds.arena.color_camera import AT_ONCE
@@ -32,7 +33,7 @@ RED, GREEN, BLUE = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 def room(*objects: dict[str, Any], wall: float = 0.5, **options: Any) -> Arena:
     """Return an arena of 4 m x 4 m that has begun, with the vehicle in its middle facing along x."""
     layout: dict[str, Any] = {"arena": {"x": [-2, 2], "y": [-2, 2], "height": wall}, "blocks": list(objects)}
-    world = Arena(layout, **{"start": (0.0, 0.0, 0.0)} | options)
+    world = Arena(layout, **{"start": (0.0, 0.0, 0.0)} | arguments(Arena, options))
     world.reset(0)
     return world
 
@@ -311,7 +312,11 @@ def turning(sensors: tuple[str, ...] = ("camera", "line")) -> dd.Model:
     return model
 
 
-SLOW: dict[str, Any] = dict(camera_every=3, slip=0.2, start=(0.3, 0.3, 0.2), hue_noise=5.0, clutter=0.2)
+SLOW: dict[str, Any] = dict(
+    start=(0.3, 0.3, 0.2),
+    physics=dd.ArenaPhysics(camera_every=3),
+    noise=dd.ArenaNoise(slip=0.2, hue_noise=5.0, clutter=0.2),
+)
 PORTS = ["camera.output", "line.output", "heading.output"]
 
 
@@ -363,7 +368,7 @@ def test_no_picture_is_computed_between_two_frames(monkeypatch: pytest.MonkeyPat
         return picture(numbers, *others)
 
     monkeypatch.setattr(arena_file, "picture", counting)
-    model, world = turning(("camera",)), Arena("blocks", period=48.0, camera_every=5)
+    model, world = turning(("camera",)), Arena("blocks", physics=dd.ArenaPhysics(period=48.0, camera_every=5))
     for trials in ([0], [0, 1]):
         taken = []
         for periods in (10, 10, 25):  # the first run compiles
@@ -377,17 +382,20 @@ def test_no_picture_is_computed_between_two_frames(monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("every", [0, 1.5, True])
 def test_invalid_periods_of_the_camera_are_refused(every: Any) -> None:
     with pytest.raises(WorldError, match=r"camera_every is .*expected a whole number of periods"):
-        Arena("blocks", camera_every=every)
-    assert Arena.open("blocks, camera_every=4").camera_every == 4
+        Arena("blocks", physics=dd.ArenaPhysics(camera_every=every))
+    assert Arena.open("blocks, camera_every=4").physics.camera_every == 4
     assert Arena.open("blocks, camera_every=4").sensors["camera"].period == 256.0
     assert str(Arena.open("blocks, camera_every=4").sensors["line"]).endswith("; a new value every 256 ms")
-    assert Arena.again(Arena("blocks", camera_every=4).describe()).camera_every == 4
+    assert (
+        Arena.again(Arena("blocks", physics=dd.ArenaPhysics(camera_every=4)).describe()).physics.camera_every
+        == 4
+    )
 
 
 # ------------------------------------------------------------------------------------------------------ noise
 
 
-def wall(trials: Any = (0,), **noise: float) -> Arena:
+def wall(trials: Any = (0,), **settings: float) -> Arena:
     """Return an arena whose camera sees, in the upper half of its picture, a block with a hue of 120
     degrees.
     """
@@ -395,7 +403,7 @@ def wall(trials: Any = (0,), **noise: float) -> Arena:
         "arena": {"x": [-2, 2], "y": [-2, 2]},
         "blocks": [block("wall", 0.5, 0, [0.5, 3], 2.0, (0.2, 0.7, 0.2))],
     }
-    world = Arena(layout, start=(0.0, 0.0, 0.0), **noise)
+    world = Arena(layout, start=(0.0, 0.0, 0.0), **arguments(Arena, settings))
     world.reset(5, trials)
     return world
 
@@ -505,4 +513,4 @@ def test_noises_of_the_camera_are_settings() -> None:
     assert Arena.again(arena.describe()).noise == arena.noise
     assert "outliers" not in Arena("blocks").describe()["settings"]
     with pytest.raises(WorldError, match=r"outliers is 1\.5; expected a share"):
-        Arena("blocks", outliers=1.5)
+        Arena("blocks", noise=dd.ArenaNoise(outliers=1.5))
