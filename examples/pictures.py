@@ -9,6 +9,7 @@ to the right.
 
 from __future__ import annotations
 
+import dataclasses as dc
 import io
 import re
 import sys
@@ -325,7 +326,7 @@ def pointing() -> Figure:
     while float(session.read("satisfaction.activation").max()) < 1:
         session.run(20)
     pixels = [dd.Axis("column", 0, 2, 3 * SIZE[0]), dd.Axis("row", 0, 2, 3 * SIZE[1]), dd.Axis("c", 0, 2, 3)]
-    world.pixel_noise = 0.0
+    world.cameras = dc.replace(world.cameras, pixel_noise=0.0)
     seen = world.sense("camera", pixels, session.time)[0]
     part(figure).imshow(seen.transpose(1, 0, 2), aspect="auto")
     return figure
@@ -334,7 +335,7 @@ def pointing() -> Figure:
 def looking() -> Figure:
     """All events while the gaze turns to the disc, and the way of the disc on the retina."""
     figure = blank()
-    eye = dd.Eye(endless=False, first=(93, 86))
+    eye = dd.Eye(screen=dd.EyeScreen(endless=False), first=(93, 86))
     session = dd.Session(dd.load(HERE / "looking.json"), world=eye, seed=6)
     pixels = [dd.Axis("column", 0, 127, 128), dd.Axis("row", 0, 127, 128)]
     pair = [dd.Axis("component", 0, 1, 2)]

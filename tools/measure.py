@@ -36,7 +36,7 @@ SRC = SOURCE / architecture.ENGINE
 
 WIDTH = 110
 PARAMETERS = 8
-CROWDED = 8
+CROWDED = 6
 """Most functions with that many parameters: 5 when `simulate` takes objects."""
 BRANCHED = 25
 NOT_SPLIT = frozenset(

@@ -225,7 +225,10 @@ from deodar_papers import papers as papers
 from deodar_robots.environments.as_env import as_env as as_env
 from deodar_robots.event_file.event_file import EventFile as EventFile
 from deodar_robots.eye.eye import Eye as Eye
+from deodar_robots.eye.pan_tilt import PanTilt as PanTilt
+from deodar_robots.eye.screen import EyeScreen as EyeScreen
 from deodar_robots.gymnasium.gymnasium import Gymnasium as Gymnasium
+from deodar_robots.mujoco.cameras import MuJoCoCameras as MuJoCoCameras
 from deodar_robots.mujoco.mujoco import MuJoCo as MuJoCo
 from deodar_robots.robot.robot import Robot as Robot
 from deodar_robots.ros2.ros2 import ROS2 as ROS2

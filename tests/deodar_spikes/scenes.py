@@ -125,7 +125,8 @@ def targets(trials: int, share: float, seed: int = 7) -> Targets:
             found.append(pair)
     places, others = np.moveaxis(np.array(found), 1, 0)
     rival = np.column_stack([others, np.full(trials, share)])
-    return Targets(places, others, dd.Eye(endless=False, first=places, rival=rival, radius=RADIUS))
+    screen = dd.EyeScreen(radius=RADIUS, endless=False)
+    return Targets(places, others, dd.Eye(screen=screen, first=places, rival=rival))
 
 
 def chosen(outputs: NDArray[np.float32], given: Targets) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:

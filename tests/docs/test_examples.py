@@ -301,7 +301,7 @@ def test_pointing_points_at_the_object_that_the_switches_name() -> None:
 
 def test_looking_turns_somewhere_and_learns_nothing_from_a_miss() -> None:
     """Its first gaze is random: a motor peak, a movement, and the end of both intentions."""
-    eye = dd.Eye(endless=False, first=(30, 85))
+    eye = dd.Eye(screen=dd.EyeScreen(endless=False), first=(30, 85))
     model = dd.load(EXAMPLES / "looking.json")
     fields = ["visual intention", "motor intention"]
     record = [*(f"{name}.output" for name in fields), "pose", "satisfied.activation", "map.weights"]

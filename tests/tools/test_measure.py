@@ -109,8 +109,6 @@ def test_only_public_calls_of_scripts_have_eight_and_more_parameters() -> None:
         "deodar/batch/simulate.py simulate",
         "deodar_interop/compat/cosivina/window_controls.py __init__",
         "deodar/session/session.py __init__",
-        "deodar_robots/eye/eye.py __init__",
-        "deodar_robots/mujoco/mujoco.py __init__",
     }
 
 

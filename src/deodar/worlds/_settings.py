@@ -81,6 +81,13 @@ def groups(cls: type) -> dict[str, Any]:
     return {p.name: p.default for p in found if dc.is_dataclass(p.default)}
 
 
+def setting_names(cls: type) -> list[str]:
+    """Return the names of the settings of a world: its arguments, of a dataclass among them the fields."""
+    found, known = inspect.signature(cls.__init__).parameters, groups(cls)
+    names = [[f.name for f in dc.fields(known[name])] if name in known else [name] for name in found]
+    return [name for each in names for name in each if name not in ("self", "args", "kwargs")]
+
+
 def arguments(cls: type, settings: Mapping[str, Any]) -> dict[str, Any]:
     """Return the arguments of a world's constructor for settings by name; those of a dataclass make one."""
     found = dict(settings)

@@ -23,6 +23,8 @@ from deodar.session.exchange import embodied
 from deodar.session.run import Run
 from deodar_robots.eye.eye import Eye
 from deodar_robots.eye.optics import CENTRE, PIXELS
+from deodar_robots.eye.pan_tilt import PanTilt
+from deodar_robots.eye.screen import EyeScreen
 
 STEP = 10.0
 """Euler step and period of the world, ms."""
@@ -122,7 +124,7 @@ def test(
     weights: np.ndarray,
     seed: int,
     count: int,
-    world: Mapping[str, Any],
+    pan_tilt: PanTilt,
     samples: Sequence[int],
 ) -> np.ndarray:
     """Return the distance of the target from the centre after a single gaze, pixels, for each test.
@@ -135,16 +137,15 @@ def test(
         weights: the map.
         seed: seed of places, poses and noise.
         count: number of tests.
-        world: settings of the world, such as a changed gain.
+        pan_tilt: the pan-tilt unit, such as one with a changed gain.
         samples: samples of the visual and of the motor fields.
     """
     rng = np.random.default_rng([seed, 1])
     eye = Eye(
-        endless=False,
+        pan_tilt=pan_tilt,
+        screen=EyeScreen(wait=WAIT, endless=False),
         first=rng.uniform(MARGIN, PIXELS - 1 - MARGIN, (count, 2)),
         pose=rng.uniform(*POSES, (count, 2)),
-        wait=WAIT,
-        **world,
     )
     model = observed(mechanism, samples=samples, weights=weights, learns=False)
     record = ["satisfied.activation", "target"]

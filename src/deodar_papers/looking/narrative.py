@@ -14,7 +14,7 @@ from deodar.architectures.looking import SAMPLES, looking
 from deodar.model.model import Model
 from deodar_papers.looking.gazes import NEAR, Learned, learn, observed, summary, test
 from deodar_papers.looking.targets import SOURCE
-from deodar_robots.eye.eye import Eye
+from deodar_robots.eye.eye import PAN_TILT, Eye
 
 TESTS = 100
 """Single gazes that test a map."""
@@ -84,7 +84,7 @@ def run(
     errors: list[np.ndarray] = []
     for k, mark in enumerate(maps):
         show(f"testing the map after {mark} gazes", 0.85 + 0.15 * k / len(maps))
-        errors.append(test(mechanism, maps[mark], seed, TESTS, {}, SAMPLES))
+        errors.append(test(mechanism, maps[mark], seed, TESTS, PAN_TILT, SAMPLES))
     return Looked(mechanism, seed, tuple(maps), errors, learned)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,8 @@ from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
 from deodar_papers.looking.conditions import AFTER, CHANGED, TESTS, LearningRun, after, conditions
 from deodar_papers.looking.gazes import STEP, Learned, learn, observed, summary, test
-from deodar_robots.eye.eye import Eye
+from deodar_robots.eye.eye import PAN_TILT, Eye
+from deodar_robots.eye.pan_tilt import PanTilt
 
 COST = 0.05
 """Approximate duration of a gaze, s."""
@@ -55,22 +56,19 @@ def run(condition: str, seed: int, quick: bool) -> Sequence[Row]:
 
 def _changed(condition: str, seed: int, gain: float, weights: np.ndarray, what: LearningRun) -> list[Row]:
     """Change the gain of the camera, test the map at once, and learn further."""
-    changed = gain * Eye().optics.gain
+    changed = PanTilt(gain=gain * PAN_TILT.gain)
     model = observed(what.mechanism, seed=seed, weights=weights)
-    learned = learn(model, Eye(gain=changed), seed + 1000, AFTER)
+    learned = learn(model, Eye(pan_tilt=changed), seed + 1000, AFTER)
     maps = {0: weights, **learned.maps}
-    settings = {"gain": changed}
     return [
-        _row(after(condition, mark, gain), seed, mark, _errors(what, maps[mark], seed, settings))
+        _row(after(condition, mark, gain), seed, mark, _errors(what, maps[mark], seed, changed))
         for mark in (0, *AFTER)
     ]
 
 
-def _errors(
-    what: LearningRun, weights: np.ndarray, seed: int, world: Mapping[str, Any] | None = None
-) -> np.ndarray:
-    """Test a map, in a world with some settings."""
-    return test(what.mechanism, weights, seed, TESTS, world or {}, SAMPLES)
+def _errors(what: LearningRun, weights: np.ndarray, seed: int, pan_tilt: PanTilt = PAN_TILT) -> np.ndarray:
+    """Test a map."""
+    return test(what.mechanism, weights, seed, TESTS, pan_tilt, SAMPLES)
 
 
 def _row(condition: str, seed: int, mark: int, errors: np.ndarray) -> dict[str, Any]:

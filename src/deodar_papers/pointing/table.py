@@ -17,6 +17,7 @@ from deodar.numerics.axes import cell
 from deodar.session.port_reader import port_reader
 from deodar.session.session import Session
 from deodar.worlds._base import World
+from deodar.worlds._settings import arguments
 from deodar.worlds.combined import Combined
 from deodar_papers.pointing.scenes import Disc
 from deodar_robots.mujoco.mujoco import MuJoCo
@@ -95,7 +96,7 @@ class Table:
         camera: World | None = None,
     ) -> None:
         given: dict[str, Any] = {"pixel_noise": PIXEL_NOISE, "tool_noise": TOOL_NOISE, **(settings or {})}
-        self.world = MuJoCo("table", robot, **given)
+        self.world = MuJoCo("table", robot, **arguments(MuJoCo, given))
         self.discs: dict[str, Disc] = {}
         for disc in discs:
             self.put(disc)

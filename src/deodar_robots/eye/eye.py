@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
+import dataclasses as dc
 import math
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any
@@ -17,16 +17,17 @@ from deodar.errors import Problem, WorldError
 from deodar.numerics.axes import Axes, Axis
 from deodar.numerics.copies import any_copy
 from deodar.numerics.pytree import PyTree
-from deodar.parameters import real, show
+from deodar.parameters import show
 from deodar.registry import register
 from deodar.worlds._base import Signal
 from deodar.worlds._pure import PureWorld
 from deodar.worlds._scene import Mark, Scene, SceneBody
-from deodar.worlds._settings import finite_rows, named, number, numeric, of
-from deodar_robots.eye import screen
+from deodar.worlds._settings import arguments, finite_rows, named, number, numeric, of
 from deodar_robots.eye.event_camera import EventCamera, rate
 from deodar_robots.eye.event_picture import EventPicture
-from deodar_robots.eye.optics import CENTRE, PIXELS, Optics
+from deodar_robots.eye.optics import CENTRE, PIXELS
+from deodar_robots.eye.pan_tilt import PanTilt
+from deodar_robots.eye.screen import EyeScreen, drawn, headings, luminance
 
 LOWEST, HIGHEST = 0.0, 2000.0
 """Positions of the servo motors at their limits, as in the paper."""
@@ -45,10 +46,9 @@ after 4 s, or once the camera has moved and then rested for 400 ms. These are gu
 moves the target.
 """
 
-SETTINGS = (
-    *("gain", "curvature", "roll", "lag", "radius", "contrast", "blink"),
-    *("distractors", "speed", "drift", "reach", "wait", "period"),
-)
+PAN_TILT, SCREEN = PanTilt(), EyeScreen()
+
+SETTINGS = tuple(name for name in (*dc.asdict(PAN_TILT), *dc.asdict(SCREEN), "period") if name != "endless")
 """Numbers that an argument of the command line may state: `--world "eye:distractors=2, speed=50"`."""
 
 TARGET, RIVAL = "target", "rival"
@@ -73,23 +73,11 @@ class Eye(PureWorld):
 
     Parameters:
         camera: the pixels, an `EventCamera` (`deodar_robots.eye.event_camera`).
-        gain: pixels per servo unit.
-        curvature: relative growth of the gain 400 servo units from the axis.
-        roll: rotation of the camera about its axis, rad.
-        lag: time constant of the servo motors, ms; 0: they follow at once.
-        radius: radius of the discs, pixels.
-        contrast: log luminance of a lit disc, above the ground.
-        blink: time for which the target is lit, and then dark, ms.
-        distractors: number of discs besides the target; they do not blink.
-        speed: speed of the target in a random direction, servo units per second.
-        drift: speed of the distractors, likewise.
-        reach: half the side of the screen, servo units; its middle is at 1000. Small enough that no gaze at
-            the screen ends at a limit of the servo motors.
-        endless: whether the screen shows another target after a gaze, when the target is lost, and after 4 s.
+        pan_tilt: the pan-tilt unit.
+        screen: the screen.
         first: column and row of the first target on the retina, or a row for each trial; None: random.
         rival: column and row of the rival on the retina at the start, and its contrast; or a row for each
             trial; None: there is none. Its direction does not change.
-        wait: time before the first target, ms.
         pose: pan and tilt at the start, or a row for each trial.
         period: ms between two exchanges with the model.
 
@@ -121,36 +109,16 @@ class Eye(PureWorld):
     def __init__(
         self,
         camera: EventCamera | None = None,
-        gain: float = 0.18,
-        curvature: float = 0.12,
-        roll: float = 0.06,
-        lag: float = 25.0,
-        radius: float = 4.0,
-        contrast: float = 1.0,
-        blink: float = 40.0,
-        distractors: int = 0,
-        speed: float = 0.0,
-        drift: float = 0.0,
-        reach: float = 600.0,
-        endless: bool = True,
+        pan_tilt: PanTilt = PAN_TILT,
+        screen: EyeScreen = SCREEN,
         first: Sequence[float] | Sequence[Sequence[float]] | np.ndarray | None = None,
         rival: Sequence[float] | Sequence[Sequence[float]] | np.ndarray | None = None,
-        wait: float = 0.0,
         pose: Sequence[float] | Sequence[Sequence[float]] | np.ndarray = (MIDDLE, MIDDLE),
         period: float = 10.0,
     ) -> None:
         self.camera = EventCamera() if camera is None else camera
-        if isinstance(distractors, bool) or not isinstance(distractors, int) or distractors < 0:
-            raise WorldError(f"distractors is {show(distractors)}; expected a whole number, 0 or above")
-        self.optics = Optics(
-            number("gain", gain, above=0.0), number("curvature", curvature), _finite("roll", roll)
-        )
+        self.pan_tilt, self.screen = pan_tilt, screen
         self.period = self.step = number("period", period, above=0.0)
-        self.lag, self.radius = number("lag", lag), number("radius", radius, above=0.0)
-        self.contrast, self.blink = _finite("contrast", contrast), number("blink", blink, above=0.0)
-        self.distractors, self.speed, self.drift = distractors, number("speed", speed), number("drift", drift)
-        self.reach, self.endless = number("reach", reach, above=0.0), bool(endless)
-        self.wait = number("wait", wait)
         self.first = None if first is None else _rows("first", first, 0.0, PIXELS - 1.0)
         self.rival = None if rival is None else finite_rows(RIVAL, rival, 3)
         if self.rival is not None:
@@ -170,11 +138,7 @@ class Eye(PureWorld):
         return found if self.rival is None else {**found, RIVAL: of(trials, self.rival, RIVAL)}
 
     def structure(self) -> Hashable:
-        settings = (self.lag, self.radius, self.contrast, self.blink, self.speed, self.drift, self.reach)
-        return (
-            *(self.camera, self.optics, settings, self.distractors, self.rival is None),
-            *(self.endless, self.wait, self.period),
-        )
+        return self.camera, self.pan_tilt, self.screen, self.rival is None, self.period
 
     # ----------------------------------------------------------------------------------------------- one copy
 
@@ -184,8 +148,8 @@ class Eye(PureWorld):
         state = {
             "tick": tick,
             "pose": pose,
-            "objects": jnp.broadcast_to(pose, (1 + self.distractors, 2)),
-            "velocities": jnp.zeros((1 + self.distractors, 2), pose.dtype),
+            "objects": jnp.broadcast_to(pose, (1 + self.screen.distractors, 2)),
+            "velocities": jnp.zeros((1 + self.screen.distractors, 2), pose.dtype),
             "shown": zero,
             "centred": zero,
             "lost": zero,
@@ -194,7 +158,7 @@ class Eye(PureWorld):
             "moved": zero,
             "carries": shared["carries"],
         }
-        if self.wait == 0:
+        if self.screen.wait == 0:
             state = self._show(own, state, tick)
         dark = self._luminance(own, state, jnp.zeros((), bool))
         return {**state, **self.camera.start(dark, own["keys"]["pixels"])}
@@ -203,13 +167,13 @@ class Eye(PureWorld):
         tick = state["tick"] + jnp.uint32(1)
         given = jnp.stack([motors["pan"], motors["tilt"]])
         command = jnp.where(given == 0, state["pose"], jnp.clip(given, LOWEST, HIGHEST))
-        share = 1.0 if self.lag == 0 else 1 - math.exp(-self.step / self.lag)
+        share = 1.0 if self.pan_tilt.lag == 0 else 1 - math.exp(-self.step / self.pan_tilt.lag)
         pose = state["pose"] + share * (command - state["pose"])
-        moved = jnp.sum(jnp.abs(pose - state["pose"])) * self.optics.gain
+        moved = jnp.sum(jnp.abs(pose - state["pose"])) * self.pan_tilt.gain
         objects = state["objects"] + self.step * state["velocities"]
         # objects turn back at the border of the screen
         outward = (objects - MIDDLE) * state["velocities"] > 0
-        turned = outward & (jnp.abs(objects - MIDDLE) > self.reach)
+        turned = outward & (jnp.abs(objects - MIDDLE) > self.screen.reach)
         new = {
             **state,
             "tick": tick,
@@ -231,7 +195,7 @@ class Eye(PureWorld):
         if sensor in EVENTS:
             return rate(jnp.sum(jnp.stack([state[name] for name in EVENTS[sensor]]), axis=0), axes, self.step)
         if sensor == "target":
-            return self.optics.to_retina(state["objects"][0] - state["pose"])
+            return self.pan_tilt.to_retina(state["objects"][0] - state["pose"])
         return state["pose"] if sensor == "pose" else state["shown"]
 
     def _luminance(self, own: PyTree, state: PyTree, lit: Array) -> Array:
@@ -239,25 +203,25 @@ class Eye(PureWorld):
         always lit.
         """
         directions, dtype = state["objects"], state["pose"].dtype
-        on = jnp.ones(1 + self.distractors, dtype).at[0].set(lit.astype(dtype)) * (state["shown"] > 0)
-        bright = on * (jnp.exp(jnp.asarray(self.contrast, dtype)) - 1)
+        on = jnp.ones(1 + self.screen.distractors, dtype).at[0].set(lit.astype(dtype)) * (state["shown"] > 0)
+        bright = on * (jnp.exp(jnp.asarray(self.screen.contrast, dtype)) - 1)
         if self.rival is not None:
             directions = jnp.concatenate([directions, self._rival(own)[None]])
             bright = jnp.append(bright, on[0] * (jnp.exp(own[RIVAL][2]) - 1))
-        places = self.optics.to_retina(directions - state["pose"])
-        return screen.luminance(places, bright, self.radius, dtype)
+        places = self.pan_tilt.to_retina(directions - state["pose"])
+        return luminance(places, bright, self.screen.radius, dtype)
 
     def _rival(self, own: PyTree) -> Array:
         """Return the direction of the rival, pan and tilt."""
-        return own["pose"] + self.optics.to_direction(own[RIVAL][:2])
+        return own["pose"] + self.pan_tilt.to_direction(own[RIVAL][:2])
 
     def _lit(self, tick: Array) -> Array:
-        half = max(1, round(self.blink / self.step))
+        half = max(1, round(self.screen.blink / self.step))
         return (tick // jnp.uint32(half)) % jnp.uint32(2) == 1
 
     def _timed(self, state: PyTree, moved: Array) -> PyTree:
         """Count how long the target has been centred, lost and shown, and how long the camera has rested."""
-        place = self.optics.to_retina(state["objects"][0] - state["pose"])
+        place = self.pan_tilt.to_retina(state["objects"][0] - state["pose"])
         still = moved < STILL
         centred = (jnp.linalg.norm(place - CENTRE) <= CENTRED) & still
         lost = jnp.any((place < 0) | (place > PIXELS - 1))
@@ -276,8 +240,8 @@ class Eye(PureWorld):
 
     def _due(self, state: PyTree, tick: Array) -> Array:
         """Return whether the screen shows a new target now."""
-        begins = (state["shown"] == 0) & (tick >= round(self.wait / self.step))
-        if not self.endless:
+        begins = (state["shown"] == 0) & (tick >= round(self.screen.wait / self.step))
+        if not self.screen.endless:
             return begins
         over = (state["centred"] >= CENTRED_FOR) | (state["lost"] >= LOST_FOR) | (state["age"] >= LONGEST)
         return begins | (state["shown"] > 0) & (over | (state["moved"] > 0) & (state["rest"] >= RESTED))
@@ -285,18 +249,22 @@ class Eye(PureWorld):
     def _show(self, own: PyTree, state: PyTree, tick: Array) -> PyTree:
         """Show the target, and the distractors, at new places."""
         key, pose, dtype = own["keys"]["screen"], state["pose"], state["pose"].dtype
-        blocks = tick * jnp.uint32(1 + self.distractors) + jnp.arange(1 + self.distractors, dtype=jnp.uint32)
+        blocks = tick * jnp.uint32(1 + self.screen.distractors) + jnp.arange(
+            1 + self.screen.distractors, dtype=jnp.uint32
+        )
         places = jnp.stack(
-            [screen.drawn(self.optics, pose, MIDDLE, self.reach, 6.0, key, block) for block in blocks]
+            [drawn(self.pan_tilt, pose, MIDDLE, self.screen.reach, 6.0, key, block) for block in blocks]
         )
         given = (state["shown"] == 0) & ~jnp.isnan(own["first"][0])
-        first = pose + self.optics.to_direction(jnp.nan_to_num(own["first"]))
-        speeds = jnp.asarray([self.speed] + [self.drift] * self.distractors, dtype)[:, None]
+        first = pose + self.pan_tilt.to_direction(jnp.nan_to_num(own["first"]))
+        speeds = jnp.asarray([self.screen.speed] + [self.screen.drift] * self.screen.distractors, dtype)[
+            :, None
+        ]
         zero = jnp.zeros((), dtype)
         return {
             **state,
             "objects": places.at[0].set(jnp.where(given, first, places[0])),
-            "velocities": speeds * screen.headings(1 + self.distractors, 1.0, key, tick, dtype),
+            "velocities": speeds * headings(1 + self.screen.distractors, 1.0, key, tick, dtype),
             "shown": state["shown"] + 1,
             "centred": zero,
             "lost": zero,
@@ -344,7 +312,7 @@ class Eye(PureWorld):
             marks.append(Mark(RIVAL, (float(x), float(y)), True))
         marks += [Mark(f"distractor {k}", (float(x), float(y)), True) for k, (x, y) in enumerate(objects[1:])]
         shown = tuple(marks) if float(np.asarray(state["shown"])[0]) > 0 else ()
-        gaze = SceneBody("gaze", (float(pose[0]), float(pose[1])), 0.0, CENTRED / self.optics.gain)
+        gaze = SceneBody("gaze", (float(pose[0]), float(pose[1])), 0.0, CENTRED / self.pan_tilt.gain)
         return Scene("servo", border, (), shown, (gaze,), picture=self._picture.scene())
 
     def validate_axes(self, sensor: str, axes: Axes) -> Iterator[Problem]:
@@ -363,13 +331,13 @@ class Eye(PureWorld):
         camera = self.camera
         return {
             "world": "Eye",
-            **{name: getattr(self.optics, name) for name in ("gain", "curvature", "roll")},
-            **{name: getattr(self, name) for name in SETTINGS[3:]},
-            "endless": self.endless,
+            **dc.asdict(self.pan_tilt),
+            **dc.asdict(self.screen),
+            "period": self.period,
             "first": None if self.first is None else self.first.tolist(),
             RIVAL: None if self.rival is None else self.rival.tolist(),
             "pose": self.poses.tolist(),
-            "camera": {f.name: getattr(camera, f.name) for f in dataclasses.fields(camera)},
+            "camera": {f.name: getattr(camera, f.name) for f in dc.fields(camera)},
         }
 
     @classmethod
@@ -380,13 +348,14 @@ class Eye(PureWorld):
             name: numeric(name, value, where, ("distractors",))
             for name, value in named(pieces, SETTINGS, where).items()
         }
-        return cls(**found)
+        return cls(**arguments(cls, found))
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> Eye:
         settings = {name: described[name] for name in (*SETTINGS, "endless", "first", "pose")}
         # records of before have no rival
-        return cls(EventCamera(**described["camera"]), rival=described.get(RIVAL), **settings)
+        camera, rival = EventCamera(**described["camera"]), described.get(RIVAL)
+        return cls(camera, rival=rival, **arguments(cls, settings))
 
     @classmethod
     def example(cls) -> Eye:
@@ -397,13 +366,6 @@ class Eye(PureWorld):
         if sensor in EVENTS:
             return Axis("column", 1.5, 125.5, 32), Axis("row", 1.5, 125.5, 32)
         return () if sensor == "shown" else (Axis("component", 0, 1, 2),)
-
-
-def _finite(name: str, given: Any) -> float:
-    value = real(given)
-    if value is None or not math.isfinite(value):
-        raise WorldError(f"{name} is {show(given)}; expected a finite number")
-    return float(value)
 
 
 def _rows(name: str, given: Any, low: float, high: float) -> np.ndarray:

@@ -2,15 +2,60 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
+
 import jax.numpy as jnp
 from jax import Array
 from jax.typing import DTypeLike
 
+from deodar.errors import WorldError
 from deodar.numerics.noise import uniform, words
+from deodar.parameters import show
+from deodar.worlds._settings import number
 from deodar_robots.eye.optics import PIXELS, Optics
+from deodar_robots.eye.pan_tilt import finite
 
 CANDIDATES = 32
 """Random places from which the place of a new object is taken: the first one within the screen."""
+
+
+@dc.dataclass(frozen=True)
+class EyeScreen:
+    """What a screen shows, and how it moves.
+
+    Attributes:
+        radius: radius of the discs, pixels.
+        contrast: log luminance of a lit disc, above the ground.
+        blink: time for which the target is lit, and then dark, ms.
+        distractors: number of discs besides the target; they do not blink.
+        speed: speed of the target in a random direction, servo units per second.
+        drift: speed of the distractors, likewise.
+        reach: half the side of the screen, servo units; its middle is at 1000. Small enough that no gaze at
+            the screen ends at a limit of the servo motors.
+        wait: time before the first target, ms.
+        endless: whether the screen shows another target after a gaze, when the target is lost, and after 4 s.
+    """
+
+    radius: float = 4.0
+    contrast: float = 1.0
+    blink: float = 40.0
+    distractors: int = 0
+    speed: float = 0.0
+    drift: float = 0.0
+    reach: float = 600.0
+    wait: float = 0.0
+    endless: bool = True
+
+    def __post_init__(self) -> None:
+        count = self.distractors
+        if isinstance(count, bool) or not isinstance(count, int) or count < 0:
+            raise WorldError(f"distractors is {show(count)}; expected a whole number, 0 or above")
+        object.__setattr__(self, "contrast", finite("contrast", self.contrast))
+        for name in ("radius", "blink", "reach"):
+            object.__setattr__(self, name, number(name, getattr(self, name), above=0.0))
+        for name in ("speed", "drift", "wait"):
+            object.__setattr__(self, name, number(name, getattr(self, name)))
+        object.__setattr__(self, "endless", bool(self.endless))
 
 
 def luminance(places: Array, bright: Array, radius: float, dtype: DTypeLike) -> Array:

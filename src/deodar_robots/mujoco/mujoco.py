@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +19,10 @@ from deodar.parameters import real, show
 from deodar.registry import register
 from deodar.worlds._base import Signal, World
 from deodar.worlds._scene import Scene, SceneBody, SceneBox, pair
-from deodar.worlds._settings import named, number, numeric, periods
+from deodar.worlds._settings import arguments, named, number, numeric
 from deodar_robots.mujoco import camera as pictures
 from deodar_robots.mujoco import solids
+from deodar_robots.mujoco.cameras import CAMERAS, MuJoCoCameras
 from deodar_robots.mujoco.objects import PlacedObject
 from deodar_robots.mujoco.reach import Arm
 from deodar_robots.mujoco.rendering import Renderer
@@ -29,7 +30,6 @@ from deodar_robots.mujoco.scene_file import ROBOTS, SCENES, SceneFile, compiled,
 from deodar_robots.mujoco.visibility import visible
 
 SETTINGS = ("robot", "period", "camera_every", "pixel_noise", "tool_noise", "light", "render")
-RENDERS = ("rays", "egl")
 CONTROL = 0.01
 """Interval between two commands to the joints, s, if the time step of the scene is shorter."""
 
@@ -66,12 +66,8 @@ class MuJoCo(World):
         robot: an MJCF file of a robot that is attached at the site `robot` of the scene, or the name of one
             that comes with deodar (lwr4, four, six); None: lwr4 on the table of deodar, else none.
         period: ms between two exchanges with the model; a multiple of the time step of the scene.
-        camera_every: number of periods for which a picture of a camera is kept.
-        pixel_noise: standard deviation of each channel of each pixel; values stay between 0 and 1.
         tool_noise: standard deviation of the sensors `tool` and `tool_plane`, m.
-        light: factor on the light that cameras see; it changes the value of colours, not hue or saturation.
-        render: how cameras are computed: rays (everywhere the same, without textures and shadows), or egl
-            (OpenGL by the driver of this machine, where it has EGL).
+        cameras: what cameras see, and how often.
 
     Shapes:
         A sensor of the file has one axis with as many samples as MuJoCo states, none if it is one number.
@@ -100,24 +96,14 @@ class MuJoCo(World):
         scene: str | Path = "table",
         robot: str | Path | None = None,
         period: float = 10.0,
-        camera_every: int = 4,
-        pixel_noise: float = 0.0,
         tool_noise: float = 0.0,
-        light: float = 1.0,
-        render: str = "rays",
+        cameras: MuJoCoCameras = CAMERAS,
     ) -> None:
         self.files = SceneFile.find(scene, robot)
         self.source = str(scene), None if robot is None else str(robot)
         self.period = number("period", period, above=0.0)
-        self.camera_every = periods("camera_every", camera_every)
-        self.pixel_noise = number("pixel_noise", pixel_noise)
+        self.cameras = cameras
         self.tool_noise = number("tool_noise", tool_noise)
-        self.light = number("light", light)
-        if render not in RENDERS:
-            raise WorldError(
-                f"render is {show(render)}; expected rays or egl", fix=did_you_mean(str(render), RENDERS)
-            )
-        self.render = render
         self.objects: dict[str, PlacedObject] = {}
         self._seed, self._trials, self._tick = 0, (0,), 0
         self._build()
@@ -195,9 +181,10 @@ class MuJoCo(World):
         if joints:
             sensors["joint_angles"] = Signal("position of each hinge and slide", (joints,), "", each=True)
             sensors["joint_velocities"] = Signal("velocity of each hinge and slide", (joints,), each=True)
-        frame = self.camera_every * float(self.period or 0) if self.camera_every > 1 else None
+        every = self.cameras.camera_every
+        frame = every * float(self.period or 0) if every > 1 else None
         for k in range(model.ncam):
-            sensors[model.camera(k).name] = replace(PICTURE, period=frame)
+            sensors[model.camera(k).name] = dataclasses.replace(PICTURE, period=frame)
         motors = {
             model.actuator(k).name: Signal(
                 "actuator of the scene",
@@ -230,7 +217,7 @@ class MuJoCo(World):
             self._require_finite(data, time)
             simulator().mj_forward(self.model, data)
         self._tick += 1
-        if self._tick % self.camera_every == 0:
+        if self._tick % self.cameras.camera_every == 0:
             self._take_frames()
 
     def _command(self, data: Any, commands: Mapping[str, np.ndarray]) -> None:
@@ -297,20 +284,20 @@ class MuJoCo(World):
             self._shown.qpos[:] = self._frames[k]
             simulator().mj_fwdPosition(self.model, self._shown)
             seen = self._seen(sensor, size)
-            if self.pixel_noise:
-                random = self._random(k, sensor, self._tick // self.camera_every)
+            if self.cameras.pixel_noise:
+                random = self._random(k, sensor, self._tick // self.cameras.camera_every)
                 noise = random.standard_normal(seen.shape, np.float32)
-                seen = np.clip(seen + np.float32(self.pixel_noise) * noise, 0.0, 1.0)
+                seen = np.clip(seen + np.float32(self.cameras.pixel_noise) * noise, 0.0, 1.0)
             self._pictures[key] = seen
         return self._pictures[key]
 
     def _seen(self, camera: str, size: tuple[int, int]) -> np.ndarray:
         """Return the picture of a camera without noise, as `render` states."""
-        if self.render == "rays":
-            return pictures.picture(self.model, self._shown, camera, size, self._colors, self.light)
+        if self.cameras.render == "rays":
+            return pictures.picture(self.model, self._shown, camera, size, self._colors, self.cameras.light)
         if size not in self._renderers:
             self._renderers[size] = Renderer(self.model, size)
-        return self._renderers[size].picture(self._shown, camera, self.light)
+        return self._renderers[size].picture(self._shown, camera, self.cameras.light)
 
     def _random(self, k: int, sensor: str, count: int) -> np.random.Generator:
         """Return the noise of a sensor in one period; it depends on seed, trial, sensor and period alone."""
@@ -363,7 +350,7 @@ class MuJoCo(World):
         """Move an object; `center` is the new x and y of its middle, m. It stands upright and still there."""
         self._require_object(name)
         x, y = pair(f"{name}.center", center)
-        thing = self.objects[name] = replace(self.objects[name], center=(x, y))
+        thing = self.objects[name] = dataclasses.replace(self.objects[name], center=(x, y))
         joint = self.model.joint(name)
         for data in self._copies:
             data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7] = [x, y, thing.height / 2 + GAP, 1, 0, 0, 0]
@@ -497,11 +484,8 @@ class MuJoCo(World):
             "robot": robot,
             "settings": {
                 "period": self.period,
-                "camera_every": self.camera_every,
-                "pixel_noise": self.pixel_noise,
                 "tool_noise": self.tool_noise,
-                "light": self.light,
-                "render": self.render,
+                **dataclasses.asdict(self.cameras),
             },
             "objects": self.arrangement(),
             "files": self.files.digest(),
@@ -517,7 +501,7 @@ class MuJoCo(World):
             name: value if name in ("robot", "render") else numeric(name, value, where, ("camera_every",))
             for name, value in named(pieces, SETTINGS, where).items()
         }
-        return cls(scene or "table", **found)
+        return cls(scene or "table", **arguments(cls, found))
 
     @classmethod
     def names(cls) -> list[str]:
@@ -530,7 +514,7 @@ class MuJoCo(World):
 
     @classmethod
     def again(cls, described: Mapping[str, Any]) -> MuJoCo:
-        found = cls(described["scene"], described["robot"], **described["settings"])
+        found = cls(described["scene"], described["robot"], **arguments(cls, described["settings"]))
         if found.files.digest() != described["files"]:
             raise WorldError("the scene or the robot has changed since", where=str(described["scene"]))
         found.arrange(described["objects"])
@@ -539,7 +523,7 @@ class MuJoCo(World):
     @classmethod
     def example(cls) -> MuJoCo:
         """Return the table with four coloured objects, with noise of the camera and of the tool's place."""
-        world = cls("table", pixel_noise=0.03, tool_noise=0.002)
+        world = cls("table", tool_noise=0.002, cameras=MuJoCoCameras(pixel_noise=0.03))
         red, green = (0.8, 0.12, 0.12), (0.12, 0.8, 0.12)
         for name, place, color in (
             ("red left", (-0.14, 0.18), red),

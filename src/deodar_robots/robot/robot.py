@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -25,6 +24,7 @@ from deodar.worlds._base import Signal, World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._motor_rule import MotorRule
 from deodar.worlds._outer import OuterWorld
+from deodar.worlds._settings import arguments, setting_names
 from deodar.worlds.arena.arena import Arena
 from deodar_robots.motor_limiter import MotorLimiter
 from deodar_robots.robot import robot_file
@@ -224,7 +224,7 @@ def _world(file: RobotFile, path: Path) -> World:
     if kind is None:
         fix = did_you_mean(file.kind.casefold(), kinds)
         raise WorldError(f"there is no kind {file.kind!r} of robots", where=str(path), fix=fix)
-    known = [p for p in inspect.signature(kind).parameters if p not in ("args", "kwargs")]
+    known = setting_names(kind)
     strange = next((name for name in file.settings if name not in known), None)
     if strange is not None:
         fix = did_you_mean(strange, known)
@@ -234,7 +234,7 @@ def _world(file: RobotFile, path: Path) -> World:
         settings.setdefault("period", file.period)
     try:
         with errors_of(kind, "open"):
-            return kind(**settings)
+            return kind(**arguments(kind, settings))
     except TypeError as error:  # a value of another type than the setting
         raise WorldError(f"its settings do not fit the kind {file.kind}: {error}", str(path)) from None
 

@@ -67,7 +67,7 @@ def test_a_single_event_repeats_in_a_period_of_a_day(tmp_path: Path) -> None:
 
 
 def test_events_of_an_eye_are_the_same_from_a_file(tmp_path: Path) -> None:
-    eye = dd.Eye(endless=False, first=(41.5, 81.5))
+    eye = dd.Eye(screen=dd.EyeScreen(endless=False), first=(41.5, 81.5))
     eye.reset(3)
     readings: list[dict[str, np.ndarray]] = []
     parts: list[np.ndarray] = []
@@ -145,7 +145,7 @@ def test_a_record_of_a_video_names_the_pixels(tmp_path: Path) -> None:
 
 def test_a_recording_takes_the_place_of_the_events_of_an_eye() -> None:
     file = dd.EventFile.example()
-    world = dd.Combined(dd.Eye(endless=False), {"events": file})
+    world = dd.Combined(dd.Eye(screen=dd.EyeScreen(endless=False)), {"events": file})
     model = dd.Model("watching", dt=10)
     model.add(dd.Sensor("seen", COARSE, sensor="events"))
     model.add(dd.Sensor("pose", dd.Eye.example_axes("pose"), sensor="pose"))

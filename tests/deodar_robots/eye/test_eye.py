@@ -7,6 +7,7 @@ import pytest
 
 import deodar as dd
 from deodar.errors import WorldError
+from deodar.worlds._settings import arguments
 from deodar_robots.eye.event_camera import EventCamera
 from deodar_robots.eye.optics import CENTRE, Optics
 
@@ -26,7 +27,7 @@ def turned(world: dd.Eye, pan: float, tilt: float, periods: int) -> None:
 
 
 def begun(**settings) -> dd.Eye:
-    world = dd.Eye(**{"endless": False, "first": (63.5, 63.5), **settings})
+    world = dd.Eye(**arguments(dd.Eye, {"endless": False, "first": (63.5, 63.5), **settings}))
     world.reset(1)
     return world
 
@@ -123,7 +124,7 @@ def test_a_rival_blinks_with_the_target_and_has_a_contrast_of_its_own() -> None:
 
 def test_each_trial_has_its_own_rival() -> None:
     rivals = [(101.5, 25.5, 0.5), (21.5, 61.5, 0.0)]
-    world = dd.Eye(endless=False, camera=QUIET, first=(41.5, 81.5), rival=rivals)
+    world = dd.Eye(QUIET, screen=dd.EyeScreen(endless=False), first=(41.5, 81.5), rival=rivals)
     world.reset(0, [1, 0])
     for _ in range(4):
         world.act({}, 0.0)
@@ -169,12 +170,12 @@ def test_a_target_out_of_sight_is_shown_again_and_one_in_the_centre_is_done() ->
 
 
 def test_targets_are_uniform_over_the_retina_and_on_the_screen() -> None:
-    world = dd.Eye(endless=False)
+    world = dd.Eye(screen=dd.EyeScreen(endless=False))
     world.reset(1, range(400))
     places = world.sense("target", PAIR, 0.0)
     assert 6 <= places.min() < 9 and 118 < places.max() <= 121.1
     assert np.abs(places.mean(axis=0) - CENTRE).max() < 6
-    near = dd.Eye(endless=False, pose=(1550, 1000))
+    near = dd.Eye(screen=dd.EyeScreen(endless=False), pose=(1550, 1000))
     near.reset(1, range(100))
     directions = np.asarray(near.parts()[2]["objects"])[:, 0]
     assert directions.max() <= 1600.01
@@ -189,7 +190,9 @@ def test_the_first_target_waits() -> None:
 
 
 def test_each_trial_has_its_own_target_and_pose() -> None:
-    world = dd.Eye(endless=False, first=[(20, 30), (90, 40)], pose=[(900, 950), (1000, 1100)])
+    world = dd.Eye(
+        screen=dd.EyeScreen(endless=False), first=[(20, 30), (90, 40)], pose=[(900, 950), (1000, 1100)]
+    )
     world.reset(0, [1, 0])
     assert world.sense("target", PAIR, 0.0) == pytest.approx(np.array([[90, 40], [20, 30]]), abs=0.02)
     assert world.sense("pose", PAIR, 0.0).tolist() == [[1000, 1100], [900, 950]]
@@ -228,7 +231,7 @@ def test_the_target_can_be_moved_by_hand() -> None:
 )
 def test_wrong_settings_are_refused(wrong) -> None:
     with pytest.raises(WorldError, match=next(iter(wrong)) if "pose" not in wrong else "2000"):
-        dd.Eye(**wrong)
+        dd.Eye(**arguments(dd.Eye, wrong))
 
 
 def test_a_reading_needs_two_axes_on_the_retina() -> None:
@@ -240,8 +243,8 @@ def test_a_reading_needs_two_axes_on_the_retina() -> None:
 
 def test_it_opens_with_settings_and_opens_again_as_it_was_described() -> None:
     world = dd.Eye.open("distractors=2, gain=0.2, speed=50")
-    assert (world.distractors, world.optics.gain, world.speed) == (2, 0.2, 50)
-    assert dd.Eye.open("").distractors == 0
+    assert (world.screen.distractors, world.pan_tilt.gain, world.screen.speed) == (2, 0.2, 50)
+    assert dd.Eye.open("").screen.distractors == 0
     for made in (world, dd.Eye(rival=(20, 30, 0.8))):
         again = dd.Eye.again(made.describe())
         assert again.describe() == made.describe() and again.structure() == made.structure()

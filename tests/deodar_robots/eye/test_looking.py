@@ -17,14 +17,14 @@ def true_map() -> np.ndarray:
     """Return the map that sends each place of the retina to the shift that centres it."""
     (column, row), (pan, tilt) = retina(), shifts()
     places = np.stack(np.meshgrid(column.points, row.points, indexing="ij"), axis=-1)
-    goals = np.asarray(EYE.optics.to_direction(places))
+    goals = np.asarray(EYE.pan_tilt.to_direction(places))
     away = [(axis.points[:, None, None] - goals[None, ..., k]) for k, axis in enumerate((pan, tilt))]
     return (np.hypot(away[0][:, None], away[1][None]) < 70).astype(np.float32)
 
 
 def gaze(model: dd.Model, first: tuple[float, float], record: list[str], duration: float = 2000.0):
     model.add(dd.Sensor("target", [dd.Axis("component", 0, 1, 2)], sensor="target"))
-    world = dd.Eye(endless=False, first=first)
+    world = dd.Eye(screen=dd.EyeScreen(endless=False), first=first)
     return dd.simulate(model, duration, record=[*record, "target"], every=10, world=world, seed=2)
 
 
@@ -119,7 +119,7 @@ def test_at_rest_nothing_is_done() -> None:
         1500,
         record=["visual intention.output", "motor intention.output"],
         every=10,
-        world=dd.Eye(wait=1e9, endless=False),
+        world=dd.Eye(screen=dd.EyeScreen(wait=1e9, endless=False)),
     )
     assert data["visual intention.output"].values.max() < 0.5
     assert data["motor intention.output"].values.max() < 0.5

@@ -84,7 +84,7 @@ def test_a_camera_shows_colours_at_the_places_where_objects_are():
     assert moved[0].mean() > 80 and moved[1].mean() > rows.mean()
     world.remove("red")
     np.testing.assert_array_equal(seen(world), plain)
-    dark = MuJoCo("table", light=0.5)
+    dark = MuJoCo("table", cameras=dd.MuJoCoCameras(light=0.5))
     np.testing.assert_allclose(seen(dark), plain / 2, atol=1e-6)
 
 
@@ -106,7 +106,7 @@ def test_a_table_point_is_where_the_homography_of_the_camera_has_it():
 
 
 def test_pixel_noise_and_tool_noise_depend_on_seed_and_trial_alone():
-    world = MuJoCo("table", pixel_noise=0.05, tool_noise=0.01)
+    world = MuJoCo("table", tool_noise=0.01, cameras=dd.MuJoCoCameras(pixel_noise=0.05))
 
     def read(seed: int, trials: list[int]) -> list[np.ndarray]:
         world.reset(seed, trials)
@@ -122,7 +122,7 @@ def test_pixel_noise_and_tool_noise_depend_on_seed_and_trial_alone():
 
 
 def test_a_picture_is_kept_for_its_period():
-    world = MuJoCo("table", pixel_noise=0.05, camera_every=3)
+    world = MuJoCo("table", cameras=dd.MuJoCoCameras(3, pixel_noise=0.05))
     world.reset(0)
     first = seen(world)
     for k in range(1, 7):
@@ -183,7 +183,7 @@ def test_a_record_opens_the_same_scene_again(cart: Path):
 def test_the_command_line_states_scene_robot_and_settings(cart: Path):
     world = MuJoCo.open("table, robot=four, camera_every=2, light=0.5")
     assert len(world.sense("joint_angles", (), 0.0)[0]) == 4
-    assert (world.camera_every, world.light) == (2, 0.5)
+    assert (world.cameras.camera_every, world.cameras.light) == (2, 0.5)
     assert MuJoCo.open(str(cart)).arm is None and MuJoCo.names() == ["head", "table"]
     for argument, says in (
         ("table, robt=four", "there is no setting 'robt'.*robot"),
@@ -208,7 +208,7 @@ def test_files_and_settings_with_errors_are_refused_by_name(tmp_path: Path, cart
     with pytest.raises(WorldError, match=r"period 3 ms is not a multiple of the time step.*period=4"):
         MuJoCo(cart, period=3.0)
     with pytest.raises(WorldError, match="pixel_noise is -1"):
-        MuJoCo(cart, pixel_noise=-1.0)
+        MuJoCo(cart, cameras=dd.MuJoCoCameras(pixel_noise=-1.0))
     model = dd.Model("m")
     model.add(dd.Motor("go", [], "pusch"))
     with pytest.raises(WorldError, match=r"has no motor 'pusch'.*push"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses as dc
 import threading
 
 import numpy as np
@@ -11,13 +12,14 @@ import pytest
 from deodar.errors import WorldError
 from deodar.numerics.axes import Axis
 from deodar_robots.mujoco import rendering
+from deodar_robots.mujoco.cameras import MuJoCoCameras
 from deodar_robots.mujoco.mujoco import MuJoCo
 
 AXES = (Axis("column", 0, 127, 128), Axis("row", 0, 95, 96), Axis("channel", 0, 2, 3))
 
 
 def example(**settings: object) -> MuJoCo:
-    world = MuJoCo("table", render="egl", **settings)
+    world = MuJoCo("table", cameras=MuJoCoCameras(render="egl", **settings))
     world.place("green", (-0.2, 0.4), (0.08, 0.08), (0.1, 0.8, 0.1))
     world.place("red", (0.2, 0.25), (0.08, 0.08), (0.8, 0.1, 0.1))
     return world
@@ -56,7 +58,7 @@ def test_objects_are_where_rays_show_them_or_the_error_says_that_egl_is_absent()
     thread = threading.Thread(target=draw)
     thread.start()
     thread.join()
-    world.light = 0.5
+    world.cameras = dc.replace(world.cameras, light=0.5)
     world.reset(0)
     draw()
     for place, now in (((0.2, 0.25), seen[0]), ((-0.1, 0.2), seen[1])):
@@ -82,6 +84,6 @@ def test_without_the_library_the_error_names_it(monkeypatch: pytest.MonkeyPatch)
 
 def test_the_setting_is_part_of_the_description_and_of_the_command_line():
     world = MuJoCo.open("table, render=egl")
-    assert world.render == "egl" and MuJoCo.again(world.describe()).render == "egl"
+    assert world.cameras.render == "egl" and MuJoCo.again(world.describe()).cameras.render == "egl"
     with pytest.raises(WorldError, match="expected rays or egl"):
-        MuJoCo("table", render="opengl")
+        MuJoCo("table", cameras=MuJoCoCameras(render="opengl"))
