@@ -134,26 +134,27 @@ def run(args: argparse.Namespace) -> int:
     except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise
-        options = {
-            "--trials": args.trials if part is None else f"{part[0]}:{part[1]}",
-            "--seed": args.seed,
-            "--world": args.world,
-            "--workers": args.workers,
-            "--records": None if args.records is None else shlex.quote(masked(args.records)),
-        }
-        again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
-        again += [f"{name} {value}" for name, value in options.items() if value is not None]
-        again += _machines.cluster_again(args)
-        again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
-        why = "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}"
-        print(
-            f"deodar experiment: {_options.paragraph([why, 'What is done is kept'])} Resume with:"
-            f" {' '.join(again)}",
-            file=sys.stderr,
-        )
+        _tell_stop(args, out, part, "stopped" if isinstance(stop, KeyboardInterrupt) else f"{stop}")
         return 1
     _tell(args, out, data)
     return 1 if 0 < _diverged(data) == data.sizes["trial"] else 0
+
+
+def _tell_stop(args: argparse.Namespace, out: Path, part: tuple[int, int] | None, why: str) -> None:
+    """Print why a run stopped, and the command that resumes it."""
+    options = {
+        "--trials": args.trials if part is None else f"{part[0]}:{part[1]}",
+        "--seed": args.seed,
+        "--world": args.world,
+        "--workers": args.workers,
+        "--records": None if args.records is None else shlex.quote(masked(args.records)),
+    }
+    again = ["deodar experiment", _options.shown(args.file), "--out", _options.shown(out)]
+    again += [f"{name} {value}" for name, value in options.items() if value is not None]
+    again += _machines.cluster_again(args)
+    again += [f"--{name}" for name in ("trust", "yes") if getattr(args, name)]
+    kept = _options.paragraph([why, "What is done is kept"])
+    print(f"deodar experiment: {kept} Resume with: {' '.join(again)}", file=sys.stderr)
 
 
 def trials(text: str) -> int | tuple[int, int]:

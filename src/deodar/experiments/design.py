@@ -152,24 +152,9 @@ class Design(Part):
         problems: list[Problem] = []
         needed = plugins.stated(given.pop("packages", {}), problems)
         for key, kinds in KINDS.items():
-            rows = given.pop(key, None)
-            if rows is None:
+            if (rows := given.pop(key, None)) is None:
                 continue
-            if not isinstance(rows, list if key == "actions" else dict):
-                problems.append(
-                    Problem(
-                        key,
-                        f"needs {'a list' if key == 'actions' else 'an object of named parts'}, not"
-                        f" {show(rows)}",
-                    )
-                )
-                continue
-            pairs = list(enumerate(rows)) if isinstance(rows, list) else list(rows.items())
-            kind = USUAL.get(key, "")
-            given[key] = [
-                from_data(v, f"{key}.{k}", kinds, {} if key == "actions" else {"name": k}, problems, kind)
-                for k, v in pairs
-            ]
+            given[key] = _parts(key, rows, kinds, problems)
         if problems:
             known = [p.name for p in MEASURES.packaged()]
             unfit = plugins.unfit(needed, lambda kind: MEASURES.package(MEASURES[kind]), known)
@@ -298,3 +283,17 @@ def _beside(text: Any, folder: Path | None, world: bool) -> Any:
         # a name of something that deodar installs, or a file in the working folder
         return text
     return f"{kind}{sign}{folder / place.strip()}{comma}{settings}"
+
+
+def _parts(key: str, rows: Any, kinds: Mapping[str, type[Part]], problems: list[Problem]) -> list[Any]:
+    """Return the parts of one key of an experiment, with their problems added."""
+    usual = USUAL.get(key, "")
+    if key == "actions" and isinstance(rows, list):
+        listed = enumerate(cast("list[Any]", rows))
+        return [from_data(row, f"{key}.{k}", kinds, {}, problems, usual) for k, row in listed]
+    if key != "actions" and isinstance(rows, dict):
+        named = cast("dict[str, Any]", rows).items()
+        return [from_data(row, f"{key}.{k}", kinds, {"name": k}, problems, usual) for k, row in named]
+    wanted = "a list" if key == "actions" else "an object of named parts"
+    problems.append(Problem(key, f"needs {wanted}, not {show(rows)}"))
+    return []

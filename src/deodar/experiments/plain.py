@@ -57,14 +57,8 @@ def from_data(
         return None
     values = cast("dict[str, Any]", data)
     name = values.get("kind", kind)
-    if not isinstance(name, str) or name not in kinds:
-        what = f"there is no {show(name)} here" if name else "has no kind"
-        problems.append(Problem(f"{where}.kind", what, did_you_mean(str(name), kinds)))
-        return None
-    try:
-        cls = kinds[name]
-    except UnknownName as error:  # from a package that cannot be used
-        problems += [Problem(f"{where}.kind", p.what, p.fix) for p in error.problems]
+    cls = _kind_of(name, where, kinds, problems)
+    if cls is None:
         return None
     known = [p.name for p in parameters(cls) if p.name not in given]
     strange = [key for key in values if key != "kind" and key not in known]
@@ -84,6 +78,21 @@ def from_data(
         return cls(**given, **{key: value for key, value in values.items() if key != "kind"})
     except (ParameterError, UnknownName) as error:
         problems += [Problem(f"{where}{p.where.removeprefix(name)}", p.what, p.fix) for p in error.problems]
+        return None
+
+
+def _kind_of(
+    name: Any, where: str, kinds: Mapping[str, type[Part]], problems: list[Problem]
+) -> type[Part] | None:
+    """Return the kind of a name, or None with its problems added."""
+    if not isinstance(name, str) or name not in kinds:
+        what = f"there is no {show(name)} here" if name else "has no kind"
+        problems.append(Problem(f"{where}.kind", what, did_you_mean(str(name), kinds)))
+        return None
+    try:
+        return kinds[name]
+    except UnknownName as error:  # from a package that cannot be used
+        problems += [Problem(f"{where}.kind", p.what, p.fix) for p in error.problems]
         return None
 
 

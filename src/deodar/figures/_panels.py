@@ -106,30 +106,31 @@ class Tracks:
 
 def natural(cells: Sequence[Cell], width: float | None = None) -> Tracks:
     """Return the grid in which each kind has its own size; `width`: of the whole figure, in inches."""
-    rows, columns = max(c.rows[1] for c in cells), max(c.columns[1] for c in cells)
     sizes = [c.kind.size(c.view) for c in cells]
-    widths = [
-        max(
-            (w / c.width for c, (w, _) in zip(cells, sizes, strict=True) if _covers(c.columns, k)),
-            default=0.0,
-        )
-        for k in range(columns)
-    ]
-    if width is not None:
-        whole = sum(widths)
-        widths = [w * width / whole for w in widths]
-    heights = [0.0] * rows
+    widths = _widths(cells, [w for w, _ in sizes], width)
+    heights = [0.0] * max(c.rows[1] for c in cells)
     for c, (w, h) in zip(cells, sizes, strict=True):
         given = sum(widths[slice(*c.columns)])
         high = h if c.kind.ACROSS else h * min(1.0, given / w)
         for k in range(*c.rows):
             heights[k] = max(heights[k], high / (c.rows[1] - c.rows[0]))
-    under = [_above(c, cells) for c in cells]
-    for c, top in zip(cells, under, strict=True):
-        if top is not None:  # without the times below the upper panel
-            heights[c.rows[0]] = min(heights[c.rows[0]], 0.9 * c.kind.size(c.view)[1])
+    for c, (_, h) in zip(cells, sizes, strict=True):
+        if _above(c, cells) is not None:  # without the times below the upper panel
+            heights[c.rows[0]] = min(heights[c.rows[0]], 0.9 * h)
     empty = min((h for h in heights if h), default=_style.PANEL)
     return Tracks([w or min(w for w in widths if w) for w in widths], [h or empty for h in heights])
+
+
+def _widths(cells: Sequence[Cell], natural: Sequence[float], width: float | None) -> list[float]:
+    """Return the width of each column for the natural widths of panels; `width`: their sum."""
+    widths = [0.0] * max(c.columns[1] for c in cells)
+    for c, w in zip(cells, natural, strict=True):
+        for k in range(*c.columns):
+            widths[k] = max(widths[k], w / c.width)
+    if width is None:
+        return widths
+    whole = sum(widths)
+    return [w * width / whole for w in widths]
 
 
 def draw(
@@ -280,10 +281,6 @@ def _axis(cell: Cell) -> tuple[Any, ...]:
 def _limits(ax: Axes) -> tuple[float, float]:
     low, high = ax.get_xlim()
     return float(low), float(high)
-
-
-def _covers(span: tuple[int, int], k: int) -> bool:
-    return span[0] <= k < span[1]
 
 
 def _finish(place: FigureBase | Axes, cell: Cell) -> None:

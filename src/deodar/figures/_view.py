@@ -72,25 +72,7 @@ class View:
             raise RecordError(f"holds {v.dtype}, which cannot be drawn", where=self.name)
         if not v.size:
             raise RecordError("holds nothing: the run was stopped before its first record", where=self.name)
-        for path in self.where or {}:
-            if path not in self.sweeps:
-                raise RecordError(
-                    f"was not swept over {path!r}", where=self.name, fix=did_you_mean(path, self.sweeps)
-                )
-        if self.trial is not None:
-            numbers = v[TRIAL].values.tolist() if TRIAL in v.dims else [0]
-            if self.trial not in numbers:
-                shown = f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"{numbers[0]} only"
-                raise RecordError(f"has no trial {self.trial}", where=self.name, fix=f"Valid trials: {shown}")
-        for axis in self.axes or ():
-            if axis not in self.space:
-                raise RecordError(
-                    f"has no axis {axis!r}", where=self.name, fix=did_you_mean(axis, self.space)
-                )
-        if self.reduce not in REDUCTIONS:
-            raise RecordError(
-                f"there is no reduction {self.reduce!r}", fix=did_you_mean(self.reduce, REDUCTIONS)
-            )
+        self._require_names()
         for what, limits in (("time_range", self.time_range), ("value_range", self.value_range)):
             if limits is not None and not (len(limits) == 2 and limits[0] < limits[1]):
                 raise RecordError(
@@ -105,6 +87,29 @@ class View:
                     where=self.name,
                     fix=f"Recorded are times from {self.times[0]:g} to {self.times[-1]:g}",
                 )
+
+    def _require_names(self) -> None:
+        """Raise RecordError if a sweep, trial, axis or reduction is none of the variable."""
+        for path in self.where or {}:
+            if path not in self.sweeps:
+                raise RecordError(
+                    f"was not swept over {path!r}", where=self.name, fix=did_you_mean(path, self.sweeps)
+                )
+        if self.trial is not None:
+            v = self.variable
+            numbers = v[TRIAL].values.tolist() if TRIAL in v.dims else [0]
+            if self.trial not in numbers:
+                shown = f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"{numbers[0]} only"
+                raise RecordError(f"has no trial {self.trial}", where=self.name, fix=f"Valid trials: {shown}")
+        for axis in self.axes or ():
+            if axis not in self.space:
+                raise RecordError(
+                    f"has no axis {axis!r}", where=self.name, fix=did_you_mean(axis, self.space)
+                )
+        if self.reduce not in REDUCTIONS:
+            raise RecordError(
+                f"there is no reduction {self.reduce!r}", fix=did_you_mean(self.reduce, REDUCTIONS)
+            )
 
     def _cut(self) -> None:
         """Leave out the times outside `time_range`, and those between the shown samples."""

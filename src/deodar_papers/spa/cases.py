@@ -142,42 +142,7 @@ def conditions(quick: bool) -> dict[str, Condition]:
     for name in MAZES:
         left = same(name)
         numbers = tuple(k for k in range(COUNT) if k not in left)[: QUICK if quick else COUNT]
-        for what, carrot, contact in (
-            ("carrot", CARROT, "slide"),
-            ("sticking-carrot", CARROT, "stick"),
-            ("weak-carrot", WEAK, "stick"),
-        ):
-            for noise in ("none", "low", "high"):
-                out.append(
-                    Condition(
-                        f"{name}/{what}/{noise}",
-                        name,
-                        "carrot",
-                        noise,
-                        numbers,
-                        tuple(left),
-                        "",
-                        carrot,
-                        contact,
-                    )
-                )
-        if name == "z":
-            for speed, gain in TUNING:
-                for contact in ("slide", "stick"):
-                    tuned = f"z/tuning/{speed:g}-{gain:g}-{contact}"
-                    out.append(
-                        Condition(
-                            tuned,
-                            name,
-                            "carrot",
-                            "low",
-                            numbers,
-                            tuple(left),
-                            "",
-                            Carrot(speed, gain),
-                            contact,
-                        )
-                    )
+        out += _carrots(name, numbers, tuple(left))
         out += [
             Condition(f"{name}/planner/{noise}", name, "planner", noise, numbers, tuple(left))
             for noise in ("low", "high")
@@ -185,34 +150,48 @@ def conditions(quick: bool) -> dict[str, Condition]:
         varied += _varied(
             name, numbers if name == "z" else numbers[: VARIED_QUICK if quick else VARIED], tuple(left)
         )
-    narrated = tuple(range(NARRATIVE_QUICK if quick else NARRATIVE_RUNS))
-    for noise in ("low", "high"):
-        out.append(
-            Condition(f"free/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False)
-        )
-        out.append(
-            Condition(f"moved/planner/{noise}", "z", "planner", noise, tuple(range(QUICK)), many_starts=False)
-        )
-        out.append(
-            Condition(
-                f"narrative/planner/{noise}",
-                "z",
-                "planner",
-                noise,
-                narrated,
-                obstacle="narrative",
-                many_starts=False,
-            )
-        )
-        for what in DRAW:
-            runs = tuple(range(QUICK if quick else RUNS))
-            out.append(
-                Condition(
-                    f"{what}/planner/{noise}", "z", "planner", noise, runs, obstacle=what, many_starts=False
-                )
-            )
+    out += _narrated(quick)
     small = [c for c in out if c.method == "carrot" or c.name.startswith(("free", "narrative", "moved"))]
     return {c.name: c for c in [*small, *(c for c in out if c not in small), *varied]}
+
+
+def _carrots(name: str, numbers: tuple[int, ...], left: tuple[int, ...]) -> list[Condition]:
+    """Return the followers of a carrot, in the Z-maze also those of its tuning."""
+    kinds = [
+        (f"{what}/{noise}", noise, carrot, contact)
+        for what, carrot, contact in (
+            ("carrot", CARROT, "slide"),
+            ("sticking-carrot", CARROT, "stick"),
+            ("weak-carrot", WEAK, "stick"),
+        )
+        for noise in ("none", "low", "high")
+    ]
+    if name == "z":
+        kinds += [
+            (f"tuning/{speed:g}-{gain:g}-{contact}", "low", Carrot(speed, gain), contact)
+            for speed, gain in TUNING
+            for contact in ("slide", "stick")
+        ]
+    return [
+        Condition(f"{name}/{what}", name, "carrot", noise, numbers, left, carrot=carrot, contact=contact)
+        for what, noise, carrot, contact in kinds
+    ]
+
+
+def _narrated(quick: bool) -> list[Condition]:
+    """Return the planner in the Z-maze from one start: free, carried, and with obstacles."""
+    few = tuple(range(QUICK))
+    narrated = tuple(range(NARRATIVE_QUICK if quick else NARRATIVE_RUNS))
+    drawn = few if quick else tuple(range(RUNS))
+    kinds = [("free", few, ""), ("moved", few, ""), ("narrative", narrated, "narrative")]
+    kinds += [(what, drawn, what) for what in DRAW]
+    return [
+        Condition(
+            f"{what}/planner/{noise}", "z", "planner", noise, runs, obstacle=obstacle, many_starts=False
+        )
+        for noise in ("low", "high")
+        for what, runs, obstacle in kinds
+    ]
 
 
 def _varied(name: str, numbers: tuple[int, ...], left: tuple[int, ...]) -> list[Condition]:

@@ -50,22 +50,9 @@ def numbers(runs: Runs) -> dict[str, str]:
         "of": str(sum(len(c.trials) for c in found.values())),
     }
     for name, c in found.items():
-        rows, ratio = runs.of(name), runs.divergences(name)
-        hits, n = count(rows, lambda r: r["success"])
-        out[f"success:{name}"] = f"{hits} of {n}" if n else NOT_RUN
-        out[f"ratio:{name}"] = f"{ratio.mean():.2f}" if c.many_starts and len(ratio) else NOT_RUN
-        out[f"arrival:{name}"] = (
-            f"{np.median(entries(rows, 'arrival')):.0f}" if len(entries(rows, "arrival")) else NOT_RUN
-        )
+        out |= _of_condition(runs, name, c.many_starts)
     for maze in MAZE:
-        weak = [
-            count(runs.of(f"{maze}/weak-carrot/{noise}"), lambda r: r["success"])
-            for noise in ("none", "low", "high")
-        ]
-        hits = sorted(h for h, _ in weak)
-        out[f"weak:{maze}"] = (
-            f"{hits[0]} to {hits[-1]} of {weak[0][1]}" if all(n for _, n in weak) else NOT_RUN
-        )
+        out[f"weak:{maze}"] = _weak(runs, maze)
     stuck, n = count(
         [r for m in MAZE for k in ("low", "high") for r in runs.of(f"{m}/planner/{k}")],
         lambda r: not r["success"],
@@ -84,6 +71,26 @@ def numbers(runs: Runs) -> dict[str, str]:
         SHORT,
     )
     return out
+
+
+def _of_condition(runs: Runs, name: str, many_starts: bool) -> dict[str, str]:
+    rows, ratio = runs.of(name), runs.divergences(name)
+    hits, n = count(rows, lambda r: r["success"])
+    arrival = entries(rows, "arrival")
+    return {
+        f"success:{name}": f"{hits} of {n}" if n else NOT_RUN,
+        f"ratio:{name}": f"{ratio.mean():.2f}" if many_starts and len(ratio) else NOT_RUN,
+        f"arrival:{name}": f"{np.median(arrival):.0f}" if len(arrival) else NOT_RUN,
+    }
+
+
+def _weak(runs: Runs, maze: str) -> str:
+    """Return the range of successes with a weak carrot over all noises."""
+    counts = [
+        count(runs.of(f"{maze}/weak-carrot/{k}"), lambda r: r["success"]) for k in ("none", "low", "high")
+    ]
+    hits = sorted(h for h, _ in counts)
+    return f"{hits[0]} to {hits[-1]} of {counts[0][1]}" if all(n for _, n in counts) else NOT_RUN
 
 
 def _table(runs: Runs, names: Iterable[str], columns: int) -> str:
