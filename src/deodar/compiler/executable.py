@@ -606,15 +606,17 @@ def executable(
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
     request = _Request(doc, precision, batch, place, exact, body, distribution)
-    if request.key not in model.programs:
+    found = model.programs.get(request.key)
+    if found is None:
         if doc is model.document:
             model.require()
         elif found := problems(doc):
             raise ModelError(found)
         while len(model.programs) >= MOST_KEPT:
             model.programs.pop(next(iter(model.programs)), None)  # another thread may have dropped it
-        model.programs[request.key] = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
-    return model.programs[request.key]
+        found = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
+        model.programs[request.key] = found
+    return found
 
 
 @dc.dataclass(frozen=True, eq=False)
