@@ -112,7 +112,7 @@ def bisected(model: dd.Model, low: float, high: float, peak: bool) -> float:
     """Return the input at which a peak appears, to 1e-5, by runs of 3000 time constants; or where it
     vanishes, from `low` on, where there is one.
     """
-    d = dd.dynamics(model, ["s.amplitude"])
+    d = dd.right_hand_side(model, ["s.amplitude"])
     state = d.settle(d.start, np.array([low]), 3000, least=0.0)
     while abs(high - low) > 1e-5:
         middle = (low + high) / 2
@@ -160,7 +160,7 @@ def measured() -> list[Row]:
 
     branch = dd.continuation(line(), "s.amplitude", (0, 8), finer=False)
     up, down = branch.bifurcations
-    start = branch.line.dynamics
+    start = branch.line.right_hand_side
     add("1-D, 101 samples: S-curve, folds, spectra; compiled", timed(lambda: again(branch)), 0.5, True)
     high = bisected(line(), 0.0, 8.0, True)
     low = bisected(line(), 6.0, 0.0, False)
@@ -186,7 +186,7 @@ def measured() -> list[Row]:
     add("forgetting against bisection (-1.602859)", abs(known["forgetting, 201 samples"] + 1.602859), 1e-4)
 
     hopf = dd.continuation(oscillator(), "e.resting_level", (-4, 2)).bifurcations[0]
-    d = hopf.line.dynamics
+    d = hopf.line.right_hand_side
     jacobian = d.linear(hopf.state, np.array([hopf.value]))[1] / d.time_constants[:, None]
     add("Hopf of two nodes: trace", abs(float(np.trace(jacobian))), 1e-9)
 

@@ -79,7 +79,7 @@ def main() -> int:
 
     began = time.process_time()
     own = dd.continuation(line(), "s.amplitude", (0, 8), finer=False)
-    d, seconds = own.line.dynamics, time.process_time() - began
+    d, seconds = own.line.right_hand_side, time.process_time() - began
     test = np.random.default_rng(0).standard_normal(d.size)
     written = np.asarray(field()(jnp.asarray(test), 1.3, None))
     apart = np.abs(written - d.rates(test, np.array([1.3])))

@@ -126,7 +126,7 @@ MEASURES = [
     *("dd.peaks", "dd.analysis.Peaks", "dd.analysis.Peak", "dd.regimes", "dd.analysis.Regimes"),
     *("dd.continuation", "dd.analysis.SteadyBranch", "dd.analysis.Bifurcation", "dd.bifurcation_diagram"),
     *("dd.locus", "dd.analysis.Locus", "dd.analysis.LocusPoint", "dd.locus_figure"),
-    *("dd.dynamics", "dd.analysis.Dynamics"),
+    *("dd.right_hand_side", "dd.analysis.RightHandSide"),
     *("dd.regime_map", "dd.analysis.RegimeMap", "dd.regime_loci", "dd.regime_map_figure"),
     *("dd.tune", "dd.analysis.Tuned", "dd.analysis.RegionSize"),
     *("dd.detects", "dd.reverse", "dd.remembers", "dd.forgets", "dd.rests", "dd.relaxes_within"),

@@ -8,8 +8,8 @@ from deodar import errors as errors
 from deodar import figures as figures
 from deodar import worlds as worlds
 from deodar.analysis.continuation.continuation import continuation as continuation
-from deodar.analysis.continuation.dynamics import dynamics as dynamics
 from deodar.analysis.continuation.locus import locus as locus
+from deodar.analysis.continuation.right_hand_side import right_hand_side as right_hand_side
 from deodar.analysis.isolated import isolate as isolate
 from deodar.analysis.maps.borders import regime_loci as regime_loci
 from deodar.analysis.maps.regime_map import regime_map as regime_map

@@ -7,8 +7,8 @@ other names from the module.
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.branch import SteadyBranch
-from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.locus import Locus, LocusPoint
+from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.maps.map_result import RegimeMap
 from deodar.analysis.peaks import Peak, Peaks, peaks
@@ -29,7 +29,6 @@ from deodar.analysis.working_memory import Memory, forgetting, outlives
 __all__ = [
     "Bifurcation",
     "Branch",
-    "Dynamics",
     "FieldResponse",
     "FixedPoint",
     "Grid",
@@ -43,6 +42,7 @@ __all__ = [
     "RegimeMap",
     "Regimes",
     "RegionSize",
+    "RightHandSide",
     "Selection",
     "Settled",
     "SettledBatch",

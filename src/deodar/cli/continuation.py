@@ -132,7 +132,9 @@ def _table(found: SteadyBranch) -> str:
     for b in found.bifurcations:
         lines.append(f"  {b.value:<12.8g} {b.words}")
         if b.step_value is not None:
-            lines.append(f"{'':15}with the Euler step {found.line.dynamics.dt:g} at {b.step_value:.6g}")
+            lines.append(
+                f"{'':15}with the Euler step {found.line.right_hand_side.dt:g} at {b.step_value:.6g}"
+            )
         if b.fine_value is not None:
             lines.append(f"{'':15}on a grid twice as fine {b.fine_value:.8g}")
         if b.kind == "fold" and b.instability:

@@ -56,7 +56,7 @@ def bifurcation_diagram(*branches: SteadyBranch, shown: str = "") -> Figure:
 
 
 def _first_field(branch: SteadyBranch) -> str:
-    for entry in branch.line.dynamics.doc.entries:
+    for entry in branch.line.right_hand_side.doc.entries:
         if isinstance(entry.element, Field):
             return f"{entry.path}.activation"
     raise FigureError("the model has no field", fix="Name what is drawn: shown='NAME.output'")
@@ -105,7 +105,7 @@ def _marks(axes: Axes, branch: SteadyBranch, port: str) -> None:
 def _height(b: Bifurcation, port: str) -> float:
     line = b.line
     z = line.point(b.state, b.value)
-    return float(np.max(line.dynamics.read(port, b.state, line.all_parameters(z))))
+    return float(np.max(line.right_hand_side.read(port, b.state, line.all_parameters(z))))
 
 
 def _heights(values: np.ndarray) -> np.ndarray:

@@ -8,8 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.line import DENSE, ParameterLine, leading
+from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.codec import JsonObject
 from deodar.compiler.plan import Leaf
 from deodar.errors import AnalysisError
@@ -77,7 +77,7 @@ class Bifurcation:
     @property
     def state_by_path(self) -> dict[str, np.ndarray]:
         """The steady state by element and array, such as `u.activation`."""
-        return self.line.dynamics.state(self.state)
+        return self.line.right_hand_side.state(self.state)
 
     @cached_property
     def sensitivity(self) -> dict[str, float]:
@@ -90,9 +90,9 @@ class Bifurcation:
         """
         if self.kind != "fold":
             raise AnalysisError(f"a {self.kind} has no sensitivity", fix="Ask a fold")
-        own = self.line.dynamics
+        own = self.line.right_hand_side
         paths = [path for path in live_numbers(own) if path != own.parameters[self.line.index]]
-        wide = Dynamics(
+        wide = RightHandSide(
             own.model, own.doc, [own.parameters[self.line.index], *paths], own.at, own.held, own.even
         )
         values = wide.values.copy()
@@ -117,11 +117,11 @@ class Bifurcation:
         }
 
 
-def live_numbers(dynamics: Dynamics) -> list[str]:
+def live_numbers(of: RightHandSide) -> list[str]:
     """Return the paths of all numbers on which the steady states of a model may depend."""
-    held: set[Leaf] = {(link[0], link[1]) for known in dynamics.doc.parameters for link in known.links}
-    found = [known.name for known in dynamics.doc.parameters if known.links]
-    for entry in dynamics.doc.entries:
+    held: set[Leaf] = {(link[0], link[1]) for known in of.doc.parameters for link in known.links}
+    found = [known.name for known in of.doc.parameters if known.links]
+    for entry in of.doc.entries:
         for leaf, _, parameter in leaves(entry.element):
             if parameter.form != "array" and (entry.id, leaf) not in held and _counts(leaf):
                 found.append(f"{entry.path}.{leaf}")
@@ -135,7 +135,7 @@ def _counts(leaf: str) -> bool:
 
 def _left(line: ParameterLine, x: np.ndarray, value: float) -> np.ndarray:
     """Return the left null vector of the derivative in the state."""
-    own, parameters = line.dynamics, line.all_parameters(line.point(x, value))
+    own, parameters = line.right_hand_side, line.all_parameters(line.point(x, value))
     if own.size <= DENSE:
         return np.linalg.svd(own.linear(x, parameters)[1])[0][:, -1]
     tau = own.time_constants

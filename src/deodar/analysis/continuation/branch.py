@@ -56,11 +56,13 @@ class SteadyBranch(SavedAnalysis):
         """Return a port in every state, such as `u.activation`; states first."""
         line = self.line
         points = [line.point(x, value) for x, value in zip(self.states, self.values, strict=True)]
-        return np.stack([line.dynamics.read(path, line.state(z), line.all_parameters(z)) for z in points])
+        return np.stack(
+            [line.right_hand_side.read(path, line.state(z), line.all_parameters(z)) for z in points]
+        )
 
     def state(self, number: int) -> dict[str, np.ndarray]:
         """Return the arrays of one state by element and name, such as `u.activation`."""
-        return self.line.dynamics.state(self.states[number])
+        return self.line.right_hand_side.state(self.states[number])
 
     def switch(
         self, at: Bifurcation, span: tuple[float, float] | None = None, points: int = 400

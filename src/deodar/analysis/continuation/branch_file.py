@@ -12,8 +12,8 @@ import xarray
 from deodar import codec
 from deodar.analysis.continuation import line_file
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.line import ParameterLine
+from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.analysis.saved import opened
 from deodar.codec import JsonObject
 from deodar.numerics.axes import Axis
@@ -47,7 +47,7 @@ def dataset(
         found: the bifurcations.
         about: what else the branch states, as plain data: `parameter`, `ended`, `not_refined`.
     """
-    own = line.dynamics
+    own = line.right_hand_side
     taken: dict[str, Axis | None] = {STATE: None, BIFURCATION: None}
     variables: dict[str, Any] = {
         "rate": (STATE, numbers["rate"], {"long_name": "largest growth rate"}),
@@ -82,7 +82,7 @@ def fields(path: str | Path) -> dict[str, Any]:
     data, made = opened(path, KIND, "a branch of steady states")
     line, about = line_file.line_of(made), made[KIND]
     assert line is not None
-    own = line.dynamics
+    own = line.right_hand_side
     states, places, modes = (_rows(own, data, prefix) for prefix in ("", "bifurcation:", "mode:"))
     found = [
         Bifurcation(state=x, vector=v, line=line, **b)
@@ -115,7 +115,7 @@ def _dims(
     return tuple(out)
 
 
-def _by_path(own: Dynamics, rows: Sequence[np.ndarray] | np.ndarray) -> Mapping[str, np.ndarray]:
+def _by_path(own: RightHandSide, rows: Sequence[np.ndarray] | np.ndarray) -> Mapping[str, np.ndarray]:
     """Return states by path, states first."""
     states = [own.state(x) for x in rows]
     return {
@@ -124,7 +124,7 @@ def _by_path(own: Dynamics, rows: Sequence[np.ndarray] | np.ndarray) -> Mapping[
     }
 
 
-def _rows(own: Dynamics, data: xarray.Dataset, prefix: str) -> np.ndarray:
+def _rows(own: RightHandSide, data: xarray.Dataset, prefix: str) -> np.ndarray:
     """Return states by path as rows."""
     arrays = {(path := f"{p.path}.{p.name}"): data[prefix + path].values for p in own.parts}
     number = len(data["value"] if not prefix else data[BIFURCATION])

@@ -10,9 +10,9 @@ import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
 from deodar.analysis.continuation.branch import SteadyBranch, branch
-from deodar.analysis.continuation.dynamics import Dynamics, dynamics
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.refinement import checked
+from deodar.analysis.continuation.right_hand_side import RightHandSide, right_hand_side
 from deodar.analysis.continuation.walk import WalkPoint, begun, walk
 from deodar.errors import AnalysisError, ParameterError
 from deodar.model.model import Model
@@ -70,7 +70,7 @@ def continuation(
         )
 
     def follow(of: Model) -> SteadyBranch:
-        return _followed(dynamics(of, [parameter, *made], at, hold, even), parameter, ends, made)
+        return _followed(right_hand_side(of, [parameter, *made], at, hold, even), parameter, ends, made)
 
     found = follow(model)
     if not finer:
@@ -85,7 +85,7 @@ def continuation(
 
 
 def _followed(
-    own: Dynamics, parameter: str, ends: tuple[float, float], made: Mapping[str, float]
+    own: RightHandSide, parameter: str, ends: tuple[float, float], made: Mapping[str, float]
 ) -> SteadyBranch:
     """Return the branch that begins where the model settles at the first value."""
     first, last = ends
@@ -109,7 +109,7 @@ def _followed(
 
 def _require_effect(line: ParameterLine, start: WalkPoint, parameter: str, last: float) -> None:
     """Raise an error if the parameter changes nothing in the first state."""
-    own, x, here = line.dynamics, line.state(start.z), line.all_parameters(start.z)
+    own, x, here = line.right_hand_side, line.state(start.z), line.all_parameters(start.z)
     there, unit = here.copy(), np.zeros(here.size)
     there[line.index], unit[line.index] = last, 1.0
     if own.along(x, here, np.zeros(x.size), unit).any() or (own.rates(x, there) != own.rates(x, here)).any():
@@ -131,7 +131,9 @@ def _span(span: tuple[float, float]) -> tuple[float, float]:
     return first, last
 
 
-def _unsettled(own: Dynamics, x: np.ndarray, values: np.ndarray, parameter: str, first: float) -> tuple[str]:
+def _unsettled(
+    own: RightHandSide, x: np.ndarray, values: np.ndarray, parameter: str, first: float
+) -> tuple[str]:
     """Return a message that says where the model still moves."""
     if not np.isfinite(x).all():
         return (f"the model does not stay finite at {parameter} = {first:g}",)

@@ -24,7 +24,7 @@ class FoldPlane(LocusPlane):
 
     def linear(self, z: np.ndarray) -> LocusEquations:
         """Return the equations at a point; the borders are its null vectors, right and left."""
-        own, x, p = self.dynamics, self.state(z), self.parameters(z)
+        own, x, p = self.right_hand_side, self.state(z), self.parameters(z)
         rates, jacobian, by = own.linear(x, p)
         n = x.size
         bordered = np.zeros((n + 1, n + 1))
@@ -58,7 +58,7 @@ class FoldPlane(LocusPlane):
 
     def beyond(self, z: np.ndarray) -> np.ndarray:
         """Return the direction in the plane in which both states of a fold vanish, in lengths."""
-        own, x, p = self.dynamics, self.state(z), self.parameters(z)
+        own, x, p = self.right_hand_side, self.state(z), self.parameters(z)
         v, w = self._null(z)
         bend = float(own.curvature(x, p, v, w)[0] @ v)
         slopes = own.gradient(x, p, w)[self.columns] * self.lengths
@@ -70,20 +70,20 @@ class FoldPlane(LocusPlane):
         return v * _sign(float(v @ self._seen[0])), w * _sign(float(w @ self._seen[1]))
 
     def _null(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        left, _, right = np.linalg.svd(self.dynamics.linear(self.state(z), self.parameters(z))[1])
+        left, _, right = np.linalg.svd(self.right_hand_side.linear(self.state(z), self.parameters(z))[1])
         return right[-1], left[:, -1]
 
     def _bend(self, z: np.ndarray) -> float:
         """Return w F_xx v v, which is 0 at a cusp."""
         v, w = self._seen = self._vectors(z)
-        by_state, _ = self.dynamics.curvature(self.state(z), self.parameters(z), v, w)
+        by_state, _ = self.right_hand_side.curvature(self.state(z), self.parameters(z), v, w)
         # the sign of v does not matter, that of w follows the line
         return float(by_state @ v)
 
     def _double(self, z: np.ndarray) -> float:
         """Return w T v, which is 0 where 0 is a double growth rate."""
         v, w = self._seen = self._vectors(z)
-        return float(w @ (self.dynamics.time_constants * v))
+        return float(w @ (self.right_hand_side.time_constants * v))
 
 
 def _sign(number: float) -> float:

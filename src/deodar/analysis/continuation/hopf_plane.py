@@ -34,7 +34,7 @@ class HopfPlane(LocusPlane):
 
     def linear(self, z: np.ndarray) -> LocusEquations:
         """Return the equations at a point; the borders span its null spaces, right and left."""
-        own, x, p, unit = self.dynamics, self.state(z), self.parameters(z), self._unit
+        own, x, p, unit = self.right_hand_side, self.state(z), self.parameters(z), self._unit
         rates, jacobian, by = own.linear(x, p)
         scale = unit / own.time_constants
         a, n = jacobian * scale[:, None], x.size
@@ -88,7 +88,7 @@ class HopfPlane(LocusPlane):
 
     @property
     def _unit(self) -> float:
-        return float(self.dynamics.time_constants.max())
+        return float(self.right_hand_side.time_constants.max())
 
     def _square(self, z: np.ndarray) -> float:
         """Return k."""
@@ -96,6 +96,6 @@ class HopfPlane(LocusPlane):
 
     def _matrix(self, z: np.ndarray) -> np.ndarray:
         """Return A."""
-        own = self.dynamics
+        own = self.right_hand_side
         jacobian = own.linear(self.state(z), self.parameters(z))[1]
         return jacobian * (self._unit / own.time_constants)[:, None]

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from scipy.linalg import lapack
 from scipy.sparse import linalg as sparse
 
-from deodar.analysis.continuation.dynamics import Dynamics
+from deodar.analysis.continuation.right_hand_side import RightHandSide
 
 DENSE = 600
 """Largest number of states whose matrices are stored; above, only products with them are computed."""
@@ -56,13 +56,13 @@ class ParameterLine:
     With w = 1 / sqrt(n) the length of a step is a root mean square of activation.
 
     Attributes:
-        dynamics: the model.
+        right_hand_side: the rate of change of the model, scaled.
         index: number of the parameter.
         parameters: values of all parameters.
         length: change of the parameter that counts as much as an activation of 1.
     """
 
-    dynamics: Dynamics
+    right_hand_side: RightHandSide
     index: int
     parameters: np.ndarray
     length: float
@@ -70,12 +70,12 @@ class ParameterLine:
     @property
     def weight(self) -> float:
         """Return w."""
-        return 1 / np.sqrt(max(self.dynamics.size, 1))
+        return 1 / np.sqrt(max(self.right_hand_side.size, 1))
 
     @property
     def slowest(self) -> float:
         """Return the longest time constant."""
-        return float(self.dynamics.time_constants.max(initial=1.0))
+        return float(self.right_hand_side.time_constants.max(initial=1.0))
 
     def point(self, x: np.ndarray, value: float) -> np.ndarray:
         """Return the point of a state at a value of the parameter."""
@@ -97,7 +97,7 @@ class ParameterLine:
 
     def at(self, z: np.ndarray) -> Linearisation:
         """Return the equations at a point."""
-        return _Dense(self, z) if self.dynamics.size <= DENSE else _Krylov(self, z)
+        return _Dense(self, z) if self.right_hand_side.size <= DENSE else _Krylov(self, z)
 
 
 class _Dense:
@@ -105,7 +105,7 @@ class _Dense:
 
     def __init__(self, line: ParameterLine, z: np.ndarray) -> None:
         self.line, self.x = line, line.state(z)
-        self.residual, jacobian, by = line.dynamics.linear(self.x, line.all_parameters(z))
+        self.residual, jacobian, by = line.right_hand_side.linear(self.x, line.all_parameters(z))
         self.jacobian = jacobian
         self.rows = np.column_stack([jacobian / line.weight, by[:, line.index] * line.length])
 
@@ -113,12 +113,12 @@ class _Dense:
         return solved(np.vstack([self.rows, row]), right)
 
     def rates(self) -> GrowthRates:
-        matrix = self.jacobian / self.line.dynamics.time_constants[:, None]
+        matrix = self.jacobian / self.line.right_hand_side.time_constants[:, None]
         found: GrowthRates = np.linalg.eigvals(matrix).astype(np.complex128)
         return _without_shifts(found, self.line, self.x, lambda v: matrix @ v)
 
     def mode(self, rate: complex) -> np.ndarray:
-        rates, modes = np.linalg.eig(self.jacobian / self.line.dynamics.time_constants[:, None])
+        rates, modes = np.linalg.eig(self.jacobian / self.line.right_hand_side.time_constants[:, None])
         return _unit(modes[:, np.argmin(np.abs(rates - rate))])
 
 
@@ -130,12 +130,12 @@ class _Krylov:
 
     def __init__(self, line: ParameterLine, z: np.ndarray) -> None:
         self.line, self._x, self._p = line, line.state(z), line.all_parameters(z)
-        self.residual = line.dynamics.rates(self._x, self._p)
+        self.residual = line.right_hand_side.rates(self._x, self._p)
         self._one = np.zeros(self._p.size)
         self._one[line.index] = 1.0
 
     def _along(self, dx: np.ndarray, dp: float) -> np.ndarray:
-        return self.line.dynamics.along(self._x, self._p, dx, dp * self._one)
+        return self.line.right_hand_side.along(self._x, self._p, dx, dp * self._one)
 
     def solve(self, row: np.ndarray, right: np.ndarray, accuracy: float) -> np.ndarray:
         line, n = self.line, self._x.size
@@ -158,7 +158,7 @@ class _Krylov:
         return found
 
     def rates(self) -> GrowthRates:
-        tau = self.line.dynamics.time_constants
+        tau = self.line.right_hand_side.time_constants
         found = self._leading()[0]
         return _without_shifts(found, self.line, self._x, lambda v: self._along(v, 0.0) / tau)
 
@@ -168,7 +168,7 @@ class _Krylov:
 
     def _leading(self) -> tuple[GrowthRates, GrowthRates]:
         """Return the leading growth rates and their modes, by Arnoldi's method."""
-        tau = self.line.dynamics.time_constants
+        tau = self.line.right_hand_side.time_constants
         return leading(self._x.size, lambda d: self._along(d, 0.0) / tau)
 
 
@@ -180,7 +180,7 @@ def _without_shifts(
     A shift of the state is such a mode, if the product of the matrix and the shift is small.
     """
     rates = found.copy()
-    for shift in line.dynamics.shifts(x):
+    for shift in line.right_hand_side.shifts(x):
         change = product(shift)
         if float(np.linalg.norm(change)) * line.slowest < FREE:
             rates[np.argmin(np.abs(rates - shift @ change))] = 0.0

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from deodar.analysis.continuation.dynamics import dynamics
 from deodar.analysis.continuation.line import ParameterLine
+from deodar.analysis.continuation.right_hand_side import right_hand_side
 from deodar.codec import JsonObject
 from deodar.compiler import device as devices
 from deodar.compiler.pure_step import PRECISION
@@ -21,7 +21,7 @@ def made(line: ParameterLine | None) -> JsonObject:
     made_by: JsonObject = {"made_by": provenance.made_by(devices.find(), PRECISION)}
     if line is None:
         return made_by
-    own = line.dynamics
+    own = line.right_hand_side
     by = own.doc.by_id()
     about: JsonObject = {
         "parameters": list(own.parameters),
@@ -41,5 +41,5 @@ def line_of(about: Mapping[str, Any]) -> ParameterLine | None:
     if own is None:
         return None
     model = Model(document=provenance.document(about))
-    found = dynamics(model, own["parameters"], own["at"], own["hold"], own["even"])
+    found = right_hand_side(model, own["parameters"], own["at"], own["hold"], own["even"])
     return ParameterLine(found, own["index"], np.array(own["values"], float), own["length"])

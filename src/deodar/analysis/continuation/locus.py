@@ -176,12 +176,12 @@ def locus(
         points in two parameters).
     """
     line = of.line
-    if line.dynamics.size > DENSE:
+    if line.right_hand_side.size > DENSE:
         raise AnalysisError(
-            f"the model has {line.dynamics.size} states, and a locus is followed with at most {DENSE}",
+            f"the model has {line.right_hand_side.size} states, and a locus is followed with at most {DENSE}",
             fix="Use a coarser grid, or even=[...]",
         )
-    first = line.dynamics.parameters[line.index]
+    first = line.right_hand_side.parameters[line.index]
     if parameter == first:
         raise ParameterError("is the first parameter", where=parameter, fix="Name another one")
     reach = 10 * max(1.0, abs(of.value))

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.dynamics import Dynamics
 from deodar.analysis.continuation.line import solved
+from deodar.analysis.continuation.right_hand_side import RightHandSide
 from deodar.analysis.continuation.walk import zero
 
 ACCURACY = 1e-9
@@ -64,14 +64,14 @@ class LocusPlane(ABC):
     """
 
     def __init__(self, of: Bifurcation, parameter: str, box: np.ndarray) -> None:
-        line, own = of.line, of.line.dynamics
+        line, own = of.line, of.line.right_hand_side
         self.box, self.weight = box, line.weight
         values = line.parameters
         if parameter not in own.parameters:
             wide = (*own.parameters, parameter)
-            own = Dynamics(own.model, own.doc, wide, own.at, own.held, own.even)
+            own = RightHandSide(own.model, own.doc, wide, own.at, own.held, own.even)
             values = np.append(values, own.values[-1])
-        self.dynamics: Dynamics = own
+        self.right_hand_side: RightHandSide = own
         self.columns = [line.index, own.parameters.index(parameter)]
         self.first = float(values[self.columns[1]])
         self._values = values
@@ -105,10 +105,10 @@ class LocusPlane(ABC):
 
     def state(self, z: np.ndarray) -> np.ndarray:
         """Return the state."""
-        return z[: self.dynamics.size] / self.weight
+        return z[: self.right_hand_side.size] / self.weight
 
     def parameters(self, z: np.ndarray) -> np.ndarray:
-        """Return the values of all parameters of the dynamics."""
+        """Return the values of all parameters of the right-hand side."""
         out = self._values.copy()
         out[self.columns] = self.values(z)
         return out

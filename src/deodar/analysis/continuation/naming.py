@@ -50,7 +50,7 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
         values = [line.value(before.z), line.value(after.z)]
         value = found.value + BEYOND * line.length * float(np.sign(found.value - np.mean(values)))
         parameters = line.all_parameters(line.point(found.state, value))
-        states = [line.dynamics.settle(found.state, parameters, PASSAGE)]
+        states = [line.right_hand_side.settle(found.state, parameters, PASSAGE)]
     else:
         first = max(0, found.index + 1 - AHEAD)
         behind, ahead = points[first : found.index + 1], points[found.index + 1 : found.index + 1 + AHEAD]
@@ -59,7 +59,9 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
         parameters = line.all_parameters(unstable.z)
         longest = GROWTH / max(float(unstable.rates.real.max()) * line.slowest, 1e-3)
         x = line.state(unstable.z)
-        states = [line.dynamics.settle(x + sign * MOVED * mode, parameters, longest + 50) for sign in (1, -1)]
+        states = [
+            line.right_hand_side.settle(x + sign * MOVED * mode, parameters, longest + 50) for sign in (1, -1)
+        ]
     for path, axes, threshold in _fields(found):
         counts = [_count(found, x, path, axes, threshold) for x in (found.state, *states)]
         here, beyond = counts[0], min(counts[1:])
@@ -70,7 +72,7 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
         elif beyond > here:
             name = "detection"
         else:
-            shape = line.dynamics.read(f"{path}.input", found.state, parameters)
+            shape = line.right_hand_side.read(f"{path}.input", found.state, parameters)
             local = bool(axes) and np.ptp(shape) > 1e-6 * max(1.0, float(np.abs(shape).max()))
             name = "reverse detection" if local or not axes else "forgetting"
         if name:
@@ -80,7 +82,7 @@ def named(found: Bifurcation, points: Sequence[WalkPoint]) -> Bifurcation:
 
 def _fields(found: Bifurcation) -> list[tuple[str, Axes, float]]:
     """Return path, axes and threshold of the fields of the model that are not held."""
-    own = found.line.dynamics
+    own = found.line.right_hand_side
     return [
         (e.path, tuple(e.element.axes), float(getattr(e.element.sigmoid, "threshold", 0.0)))
         for e in own.doc.entries
@@ -89,5 +91,5 @@ def _fields(found: Bifurcation) -> list[tuple[str, Axes, float]]:
 
 
 def _count(found: Bifurcation, x: np.ndarray, path: str, axes: Axes, threshold: float) -> int:
-    activation = found.line.dynamics.state(x)[f"{path}.activation"]
+    activation = found.line.right_hand_side.state(x)[f"{path}.activation"]
     return len(peaks(activation, axes, threshold))

@@ -101,7 +101,7 @@ def with_step_values(line: ParameterLine, found: Walk) -> list[Bifurcation]:
 
     A mode with the growth rate r changes by 1 + dt r in a step, so that it grows if |1 + dt r| > 1.
     """
-    dt = line.dynamics.dt
+    dt = line.right_hand_side.dt
     factors = [_turning(point, dt) for point in found.points]
     crossings = [k for k in range(len(factors) - 1) if factors[k] * factors[k + 1] < 0]
     out: list[Bifurcation] = []

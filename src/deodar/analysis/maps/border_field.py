@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.dynamics import Dynamics, dynamics
 from deodar.analysis.continuation.fold_plane import FoldPlane
 from deodar.analysis.continuation.line import DENSE, ParameterLine
 from deodar.analysis.continuation.locus import Locus
 from deodar.analysis.continuation.nearest import nearest
+from deodar.analysis.continuation.right_hand_side import RightHandSide, right_hand_side
 from deodar.analysis.continuation.walk import begun, walk
 from deodar.analysis.isolated import Isolated, isolate
 from deodar.analysis.maps.map_result import RegimeMap
@@ -83,7 +83,7 @@ class BorderField:
         self.axes: Axes = isolated.axes
         self.parameters = found.parameters
         small = _small(isolated, doc, found.parameters)
-        self.dynamics = own = _even(small, [*found.parameters, INPUT], isolated)
+        self.right_hand_side = own = _even(small, [*found.parameters, INPUT], isolated)
         if own.size > DENSE:
             raise AnalysisError(
                 f"the field has {own.size} states, and a locus is followed with at most {DENSE}",
@@ -102,7 +102,7 @@ class BorderField:
 
         They are the parts on which the fold is a border; none if there is no such fold.
         """
-        own = self.dynamics
+        own = self.right_hand_side
         p = np.append(begin, of.strength)
         x = own.start
         if of.made:
@@ -163,7 +163,7 @@ class BorderField:
 
     def _ends(self, of: FoldSearch, plane: FoldPlane, z: np.ndarray) -> bool:
         """Return whether a peak appears, or vanishes, beyond a fold."""
-        x, own = plane.state(z), self.dynamics
+        x, own = plane.state(z), self.right_hand_side
         if self._awake(x, plane.parameters(z)) != of.awake:
             return False
         p = plane.parameters(z)
@@ -173,7 +173,7 @@ class BorderField:
     def _awake(self, x: np.ndarray, parameters: np.ndarray) -> bool:
         """Return whether a state has a peak."""
         threshold = self._threshold if self._threshold_of is None else float(parameters[self._threshold_of])
-        return bool(peaks(self.dynamics.state(x)["field.activation"], self.axes, threshold))
+        return bool(peaks(self.right_hand_side.state(x)["field.activation"], self.axes, threshold))
 
 
 def _on(values: np.ndarray, at: np.ndarray, lengths: np.ndarray) -> bool:
@@ -210,9 +210,9 @@ def _small(isolated: Isolated, doc: Document, parameters: tuple[str, str]) -> Mo
     return small
 
 
-def _even(small: Model, parameters: list[str], isolated: Isolated) -> Dynamics:
-    """Return the dynamics of even states; of all states where the field distinguishes both sides."""
-    whole = dynamics(small, parameters)
+def _even(small: Model, parameters: list[str], isolated: Isolated) -> RightHandSide:
+    """Return the right-hand side of even states; of all states where the field distinguishes both sides."""
+    whole = right_hand_side(small, parameters)
     if not isolated.axes:
         return whole
     test = np.random.default_rng(0).standard_normal(whole.size)
@@ -220,4 +220,4 @@ def _even(small: Model, parameters: list[str], isolated: Isolated) -> Dynamics:
     rates = whole.state(whole.rates(whole.vector(state), whole.values))
     if any(np.abs(x - np.flip(x)).max() > 1e-6 * (1 + np.abs(x).max()) for x in rates.values()):
         return whole
-    return dynamics(small, parameters, even=[axis.name for axis in isolated.axes])
+    return right_hand_side(small, parameters, even=[axis.name for axis in isolated.axes])

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from deodar.analysis.continuation.bifurcation import Bifurcation
-from deodar.analysis.continuation.dynamics import Dynamics, dynamics
 from deodar.analysis.continuation.line import DENSE, ParameterLine, solved
 from deodar.analysis.continuation.naming import named
+from deodar.analysis.continuation.right_hand_side import RightHandSide, right_hand_side
 from deodar.analysis.continuation.walk import begun, growing, walk
 from deodar.analysis.tuning.request import TuningRequest
 from deodar.analysis.tuning.requirement import ExactQuantity
@@ -77,12 +77,14 @@ class ExactField:
         even = [axis.name for axis in axes] if middle and not request.isolated.background else []
         inputs = [f"{name}.amplitude" for name in ("middle", "first", "second", "boost")]
         try:
-            self.dynamics: Dynamics = dynamics(request.model, [*inputs, *request.names], even=even)
+            self.right_hand_side: RightHandSide = right_hand_side(
+                request.model, [*inputs, *request.names], even=even
+            )
         except DeodarError as error:
             self.why = error.problems[0].what
             return
-        if self.dynamics.size > DENSE:
-            self.why = f"the field has {self.dynamics.size} states, more than {DENSE}"
+        if self.right_hand_side.size > DENSE:
+            self.why = f"the field has {self.right_hand_side.size} states, more than {DENSE}"
 
     # --------------------------------------------------------------------------------------------- quantities
 
@@ -109,7 +111,7 @@ class ExactField:
         """Return the first fold of the kind over an input: from rest upwards, or downwards from a peak
         without input. Up to there the field keeps its state.
         """
-        own, made = self.dynamics, self._all(values)
+        own, made = self.right_hand_side, self._all(values)
         reach = self._request.isolated.scale
         if of.kind == "forgetting":
             made[MIDDLE], made[BOOST] = of.strength, of.target + of.within
@@ -139,7 +141,7 @@ class ExactField:
 
     def _fold(self, x: np.ndarray, at: float, over: int, values: np.ndarray) -> ExactValue:
         """Return a fold near a state, as the root of the minimally augmented equations (see `locus`)."""
-        own, p, n = self.dynamics, self._all(values), x.size
+        own, p, n = self.right_hand_side, self._all(values), x.size
         p[over] = at
         left, _, right = np.linalg.svd(own.linear(x, p)[1])
         border_left, border_right = left[:, -1], right[-1]
@@ -165,7 +167,7 @@ class ExactField:
 
     def _form(self, of: ExactQuantity, values: np.ndarray) -> ExactValue:
         """Return the width or amplitude of the peak of an input."""
-        own, p = self.dynamics, self._all(values)
+        own, p = self.right_hand_side, self._all(values)
         x = own.settle(own.start, p, SETTLING)
         p[MIDDLE] = of.strength
         x = own.settle(x, p, SETTLING)

@@ -48,7 +48,7 @@ def test_two_nodes_oscillate_where_the_trace_is_zero_and_later_with_a_longer_ste
     branch = dd.continuation(oscillator(dt), "e.resting_level", (-4, 6))
     first, second = branch.bifurcations
     assert [b.kind for b in branch.bifurcations] == ["Hopf", "Hopf"]
-    d, parameters = first.line.dynamics, np.array([first.value])
+    d, parameters = first.line.right_hand_side, np.array([first.value])
     jacobian = d.linear(first.state, parameters)[1] / d.time_constants[:, None]
     assert np.trace(jacobian) == pytest.approx(0.0, abs=1e-9)
     assert first.frequency == pytest.approx(np.sqrt(np.linalg.det(jacobian)), abs=1e-9)
@@ -91,7 +91,7 @@ def test_stable_states_attract_the_model_and_unstable_ones_do_not():
         session = dd.Session(model, precision="float64")
         start = branch.state(number)["u.activation"]
         kick = 1e-3 * np.exp(-((np.arange(101) - 50) ** 2) / 50)
-        d = branch.line.dynamics
+        d = branch.line.right_hand_side
         end = d.state(d.settle(d.vector({"u.activation": start + kick}), branch.values[[number]], 400))
         apart = float(np.abs(end["u.activation"] - start).max())
         assert (apart < 1e-5) == bool(branch.stable[number])
@@ -156,10 +156,10 @@ def test_two_equal_inputs_are_selected_at_a_branch_point():
 
 def test_a_field_over_two_axes_is_followed_without_matrices():
     branch = dd.continuation(plane(), "s.amplitude", (0, 9), finer=False)
-    assert branch.line.dynamics.size == 900
+    assert branch.line.right_hand_side.size == 900
     assert kinds(branch) == [("fold", "detection"), ("fold", "reverse detection")]
     up = branch.bifurcations[0]
-    d = branch.line.dynamics
+    d = branch.line.right_hand_side
     for shift, peak in ((-0.02, False), (0.02, True)):
         end = d.settle(d.start, np.array([up.value + shift]), 2000)
         assert bool(end.max() > 0) is peak

@@ -84,7 +84,7 @@ def test_states_that_are_even_held_or_induced_are_restored(tmp_path):
     branch.save(tmp_path / "memory.nc")
     again = SteadyBranch.load(tmp_path / "memory.nc")
     assert_same(branch, again)
-    own, new = branch.line.dynamics, again.line.dynamics
+    own, new = branch.line.right_hand_side, again.line.right_hand_side
     assert new.even == ("state",) and new.held == own.held and new.dt == 2
     assert np.array_equal(again.line.parameters, branch.line.parameters)
     record = dd.load_record(tmp_path / "memory.nc")
@@ -102,7 +102,7 @@ def test_a_branch_without_bifurcations_and_one_of_two_axes_survive(tmp_path):
     large.save(tmp_path / "large.zarr")
     again = SteadyBranch.load(tmp_path / "large.zarr")
     assert_same(large, again)
-    assert again.line.dynamics.size > 600
+    assert again.line.right_hand_side.size > 600
 
 
 def test_hopf_points_keep_their_frequency_and_step_value(tmp_path):
@@ -121,7 +121,7 @@ def test_a_locus_survives_its_file(tmp_path, name):
     again = Locus.load(tmp_path / name)
     assert again.data() == found.data() and np.array_equal(again.values, found.values)
     assert again.points == found.points and again.distance((2, 6)) == found.distance((2, 6))
-    assert again.line is not None and again.line.dynamics.parameters == ("s.amplitude",)
+    assert again.line is not None and again.line.right_hand_side.parameters == ("s.amplitude",)
     record = dd.load_record(tmp_path / name)
     assert record["second"].attrs["long_name"] == "u.kernel.0.amplitude"
     s, excitation = float(record["first"][3]), float(record["second"][3])

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import deodar as dd
-from deodar.analysis.continuation.dynamics import dynamics
 from deodar.analysis.continuation.line import ParameterLine
 from deodar.analysis.continuation.locus import Locus
 from deodar.analysis.continuation.nearest import nearest
+from deodar.analysis.continuation.right_hand_side import right_hand_side
 from deodar.analysis.continuation.walk import begun, walk
 from deodar.errors import AnalysisError, FigureError, ParameterError
 from tests.deodar.analysis.continuation.models import line, node, node_folds, oscillator, plane, rivals
@@ -53,7 +53,7 @@ def test_a_fold_meets_a_hopf_point_where_0_is_a_double_growth_rate():
     near = dd.continuation(model, "e.resting_level", (-4, 6), finer=False).bifurcations
     there = min(near, key=lambda b: abs(b.value - level))
     assert there.value == pytest.approx(level, abs=1e-6)
-    d = there.line.dynamics
+    d = there.line.right_hand_side
     jacobian = d.linear(there.state, np.array([there.value]))[1] / d.time_constants[:, None]
     assert np.trace(jacobian) == pytest.approx(0, abs=1e-6), "both growth rates are 0"
 
@@ -147,7 +147,7 @@ def test_a_distance_that_is_relative_to_nothing_is_refused():
 
 def test_other_parameters_of_the_branch_keep_their_values():
     """A node on a line of two parameters: the one that is not followed stays as it was on the line."""
-    own = dynamics(node(), ["s.amplitude", "u.kernel.0.amplitude"])
+    own = right_hand_side(node(), ["s.amplitude", "u.kernel.0.amplitude"])
     values = np.array([0.0, 8.0])
     line = ParameterLine(own, 0, values, 0.8)
     begin = begun(line, own.settle(own.start, values, 200), 0.0, 1.0)

@@ -121,7 +121,7 @@ def test_a_kept_input_at_one_side_leaves_states_that_are_not_even():
     found = dd.regime_map(
         model, {"level": (-6, -5.2, 9), "s.amplitude": (0.1, 1.0, 4)}, strength=4.5, inputs=["s"]
     )
-    assert BorderField(found).dynamics.even == ()
+    assert BorderField(found).right_hand_side.even == ()
     loci = dd.regime_loci(found)
     assert {curve.parameters for curve in loci} == {("level", "s.amplitude")}
     apart = distances(found, loci)["detection"]
@@ -194,7 +194,7 @@ def test_a_map_from_a_file_has_lines_though_no_sample_is_in_the_middle(tmp_path,
     made = dd.regime_map(model, {EXCITATION: (14, 30, 9), LEVEL: (-8, -3, 15)}, sigma=5)
     found = dd.analysis.RegimeMap.load(made.save(tmp_path / "map.nc"))
     loci = dd.regime_loci(found)
-    assert BorderField(found).dynamics.even == ("x",)
+    assert BorderField(found).right_hand_side.even == ("x",)
     apart = distances(found, loci)
     for name in ("detection", "forgetting"):
         assert len(apart[name]) > 5 and apart[name].max() <= 1

@@ -12,7 +12,7 @@ from tests.deodar.analysis.continuation.models import line, node
 
 
 def test_it_is_the_equation_of_the_field():
-    d = dd.dynamics(node(), ["s.amplitude", "u.resting_level"])
+    d = dd.right_hand_side(node(), ["s.amplitude", "u.resting_level"])
     for u, s, h in ((-1.0, 2.0, -5.0), (0.3, 4.0, -6.0)):
         expected = -u + h + s + 6.0 / (1 + np.exp(-4.0 * u))
         assert d.rates(np.array([u]), np.array([s, h])) == pytest.approx(expected, abs=1e-12)
@@ -27,13 +27,13 @@ def test_it_does_not_depend_on_the_step_or_the_noise():
         model = line()
         model.set("u.noise", noise)
         model.dt = dt
-        d = dd.dynamics(model, ["s.amplitude"])
+        d = dd.right_hand_side(model, ["s.amplitude"])
         found.append(d.rates(x, np.array([3.0])))
     np.testing.assert_allclose(*found, atol=1e-11)
 
 
 def test_its_derivatives_are_those_of_central_differences():
-    d = dd.dynamics(line(31), ["s.amplitude", "u.kernel.0.sigma", "u.global_inhibition"])
+    d = dd.right_hand_side(line(31), ["s.amplitude", "u.kernel.0.sigma", "u.global_inhibition"])
     rng = np.random.default_rng(1)
     x, p = rng.normal(0, 1, d.size), d.values + np.array([2.0, 0, 0])
     _, by_state, by_parameter = d.linear(x, p)
@@ -46,7 +46,7 @@ def test_its_derivatives_are_those_of_central_differences():
 
 
 def test_other_libraries_may_transform_its_function():
-    d = dd.dynamics(node(), ["s.amplitude"])
+    d = dd.right_hand_side(node(), ["s.amplitude"])
     with jax.enable_x64(True):
         slope = jax.grad(lambda s: d.function(np.array([0.0]), np.array([1.0]) * s)[0])(2.0)
     assert float(slope) == 1.0
@@ -55,7 +55,7 @@ def test_other_libraries_may_transform_its_function():
 def test_a_state_has_names_and_comes_back_from_them():
     model = line(31)
     model.add(dd.Field("v", tau=50))
-    d = dd.dynamics(model)
+    d = dd.right_hand_side(model)
     state = d.state(d.start)
     assert {name: a.shape for name, a in state.items()} == {"u.activation": (31,), "v.activation": ()}
     np.testing.assert_array_equal(d.vector(state), d.start)
@@ -64,8 +64,8 @@ def test_a_state_has_names_and_comes_back_from_them():
 
 
 def test_even_states_settle_where_all_states_do():
-    whole = dd.dynamics(line(), ["s.amplitude"])
-    even = dd.dynamics(line(), ["s.amplitude"], even=["x"])
+    whole = dd.right_hand_side(line(), ["s.amplitude"])
+    even = dd.right_hand_side(line(), ["s.amplitude"], even=["x"])
     assert even.size == 51
     p = np.array([6.0])
     np.testing.assert_allclose(
@@ -77,7 +77,7 @@ def test_time_stands_at_one_moment():
     model = line(31)
     model.set("s.amplitude", 3.0)
     model.set("s.windows", [(100.0, 200.0)])
-    inside, outside = (dd.dynamics(model, at=at) for at in (150.0, 250.0))
+    inside, outside = (dd.right_hand_side(model, at=at) for at in (150.0, 250.0))
     assert inside.read("u.input", inside.start, inside.values).max() == pytest.approx(3.0)
     assert outside.read("u.input", outside.start, outside.values).max() == 0.0
 
@@ -88,18 +88,29 @@ def test_what_has_no_steady_state_is_refused_by_name_or_held():
     trace = model.add(dd.MemoryTrace("trace", [x]))
     model["u"] >> trace
     with pytest.raises(AnalysisError, match=r"trace: learns \(MemoryTrace\).*hold=\['trace'\]"):
-        dd.dynamics(model)
-    held = dd.dynamics(model, hold=["trace"])
+        dd.right_hand_side(model)
+    held = dd.right_hand_side(model, hold=["trace"])
     assert list(held.state(held.start)) == ["u.activation"]
     model.add(dd.Sensor("eye", [x], sensor="picture"))
     with pytest.raises(AnalysisError, match="eye: reads a world"):
-        dd.dynamics(model, hold=["trace"])
+        dd.right_hand_side(model, hold=["trace"])
 
 
 def test_wrong_names_are_answered_with_the_nearest():
     with pytest.raises(UnknownName, match=r"Did you mean 'amplitude'"):
-        dd.dynamics(line(31), ["s.amplitud"])
+        dd.right_hand_side(line(31), ["s.amplitud"])
     with pytest.raises(ParameterError, match="makes another program"):
-        dd.dynamics(line(31), ["u.quadrature"])
+        dd.right_hand_side(line(31), ["u.quadrature"])
     with pytest.raises(AnalysisError, match="no state has an axis 'y'"):
-        dd.dynamics(line(31), even=["y"])
+        dd.right_hand_side(line(31), even=["y"])
+
+
+def test_the_strength_of_noise_is_no_parameter():
+    model = line(31)
+    model.set("u.noise", 1.0)
+    with pytest.raises(ParameterError, match="strength of noise"):
+        dd.right_hand_side(model, ["s.amplitude", "u.noise"])
+    model.parameter("both", 1.0)
+    model.link("u.noise", "both")
+    model.link("s.amplitude", "both")
+    assert dd.right_hand_side(model, ["both"]).values.tolist() == [1.0]

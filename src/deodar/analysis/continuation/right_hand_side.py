@@ -19,7 +19,7 @@ from deodar.compiler.program import precision_context
 from deodar.compiler.pure_step import PRECISION, PureStep
 from deodar.element import Element
 from deodar.elements.sensor import Sensor
-from deodar.errors import AnalysisError, did_you_mean
+from deodar.errors import AnalysisError, ParameterError, did_you_mean
 from deodar.leaves import leaves
 from deodar.model import edit, find
 from deodar.model.document import Document, Entry
@@ -53,8 +53,8 @@ class StatePart:
         return math.prod(self.shape)
 
 
-class Dynamics:
-    r"""The dynamics of a model without noise, at one moment, as a pure function in double precision.
+class RightHandSide:
+    r"""The rate of change of a model without noise, at one moment, as a pure function in double precision.
 
     The state x is the vector of all numbers that change from step to step. Time is constant, so that
     stimuli keep the values that they have then.
@@ -67,7 +67,7 @@ class Dynamics:
 
     Args:
         model: the model.
-        doc: its document, prepared by `dynamics`.
+        doc: its document, prepared by `right_hand_side`.
         parameters: paths of the parameters p.
         at: document time.
         held: ids of elements whose state is constant, at its start.
@@ -289,13 +289,13 @@ class Dynamics:
         return jax.jit(read)
 
 
-def dynamics(
+def right_hand_side(
     model: Model,
     parameters: Sequence[str] = (),
     at: float = 0.0,
     hold: Sequence[str] = (),
     even: Sequence[str] = (),
-) -> Dynamics:
+) -> RightHandSide:
     """Return the right-hand side of a model, for analysis by any library that works with functions of JAX.
 
     Noise is off, and every part advances in every step. `function` of the result is pure; its values and
@@ -313,9 +313,17 @@ def dynamics(
     Raises:
         AnalysisError: an element has no steady state and is not held, its state is not made of real numbers,
             or no part has an axis of `even`.
-        ParameterError: a path is unknown, or changing the parameter needs another program.
+        ParameterError: a path is unknown, changing the parameter needs another program, or it is the strength
+            of noise.
     """
     doc = model.document
+    for path in parameters:
+        if all(leaf == "noise" for _, leaf in driven(doc, path)):
+            raise ParameterError(
+                "is the strength of noise, on which no rate of change depends",
+                where=path,
+                fix="Leave it out: steady states are those without noise",
+            )
     held = frozenset(find.element(doc, path).id for path in hold)
     for entry in doc.entries:
         if entry.id not in held and (why := _restless(entry)):
@@ -323,10 +331,10 @@ def dynamics(
                 why, where=entry.path, fix=f"Hold it as it is at the start: hold=[{entry.path!r}]"
             )
         if "noise" in {leaf for leaf, _, _ in leaves(entry.element)}:
-            doc = edit.put(doc, entry.id, "noise", 0.0)
+            doc = edit.put(edit.unlink(doc, entry.id, "noise"), entry.id, "noise", 0.0)
         if entry.every != 1:
             doc = edit.every(doc, entry.id, 1)
-    found = Dynamics(model, doc, parameters, at, held, even)
+    found = RightHandSide(model, doc, parameters, at, held, even)
     names = {axis.name for part in found.parts for axis in part.axes}
     for name in even:
         if name not in names:
