@@ -31,6 +31,7 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "compiler",
         "recording",
         "session",
+        "gradients",
         "batch",
         "analysis",
         "experiments",

@@ -1,4 +1,4 @@
-"""The leaves that a parameter path drives."""
+"""The leaves that a parameter path drives: numbers, or an array."""
 
 from __future__ import annotations
 
@@ -34,3 +34,12 @@ def driven(doc: Document, path: str) -> list[Leaf]:
             fix=f"Sweep one of: {', '.join(known)}",
         )
     return [(found.entry.id, leaf) for leaf in inside]
+
+
+def array_leaf(doc: Document, path: str) -> Leaf | None:
+    """Return the leaf that a parameter is, if it is an array with values; else None."""
+    found = find.target(doc, path)
+    if found.entry is None:
+        return None
+    arrays = {leaf for leaf, _, p in leaves(found.entry.element) if p.form == "array"}
+    return (found.entry.id, found.parameter) if found.parameter in arrays else None

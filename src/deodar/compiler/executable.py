@@ -119,6 +119,7 @@ class Executable:
         exact: bool = False,
         body: Body | None = None,
         distribution: Distribution | None = None,
+        plain: bool = False,
     ) -> None:
         began = time.process_time()
         self.distribution = distribution
@@ -129,7 +130,8 @@ class Executable:
         self.part = batch if distribution is None else distribution.part(batch)
         fields = distribution if distribution is not None and distribution.along == "field" else None
         # a call of a kernel cannot be divided
-        self.kernels = None if fields is not None else native.kernels(self.device.platform, precision)
+        without = plain or fields is not None
+        self.kernels = None if without else native.kernels(self.device.platform, precision)
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
             doc,
@@ -589,12 +591,14 @@ def executable(
     device: str | Distribution | None = None,
     accuracy: str = "default",
     body: Body | None = None,
+    plain: bool = False,
 ) -> Executable:
     """The executable of a document, by default the model's present one, for the CPU, a device or several;
     kept by the model, so that it compiles once.
 
     `accuracy`: "exact" applies every kernel by its matrix, as double precision always does; "default" may
-    take what is cheaper and errs by less than 1e-4 in activation.
+    take what is cheaper and errs by less than 1e-4 in activation. `plain`: no compiled kernels, which have no
+    derivatives.
     """
     batch, doc = batch or Batch(), doc or model.document
     distribution = device if isinstance(device, Distribution) else None
@@ -605,7 +609,7 @@ def executable(
         raise ParameterError(f"accuracy is {accuracy!r}; expected default or exact")
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
-    request = _Request(doc, precision, batch, place, exact, body, distribution)
+    request = _Request(doc, precision, batch, place, exact, body, distribution, plain)
     found = model.programs.get(request.key)
     if found is None:
         if doc is model.document:
@@ -630,6 +634,7 @@ class _Request:
     exact: bool
     body: Body | None
     distribution: Distribution | None
+    plain: bool
 
     @functools.cached_property
     def key(self) -> Hashable:
@@ -649,7 +654,7 @@ class _Request:
             self.batch,
             neutral,
             devices.name(self.device),
-            native.version(native.kernels(self.device.platform, self.precision)),
+            native.version(None if self.plain else native.kernels(self.device.platform, self.precision)),
             self.body and self.body.key,
             distribution and distribution.key,
         )
@@ -661,8 +666,9 @@ class _Request:
         return hash(self.key)
 
     def make(self) -> Executable:
+        device, body, distribution = self.device, self.body, self.distribution
         return Executable(
-            self.doc, self.precision, self.batch, self.device, self.exact, self.body, self.distribution
+            self.doc, self.precision, self.batch, device, self.exact, body, distribution, self.plain
         )
 
 

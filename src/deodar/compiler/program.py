@@ -25,7 +25,7 @@ from deodar.compiler.functions import Constants, Replacements, StepArguments
 from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
-from deodar.element import Arrays, Setting, Time
+from deodar.element import Arrays, Element, Setting, Time
 from deodar.leaves import bind
 from deodar.numerics.axes import shape
 from deodar.numerics.exact import LOW, Exact
@@ -184,9 +184,16 @@ class Program:
 
     def init(self, values: ProgramValues, seed: Array, trial: Array) -> tuple[ProgramState, NoiseKeys]:
         """Return the state at the start, and the noise keys of a trial."""
+        return self.begin(values), self.keys(seed, trial)
+
+    def begin(self, values: ProgramValues) -> ProgramState:
+        """Return the state at the start."""
         groups = [self._each(g, lambda e, at: e.init(at), values) for g in range(len(self.plan.groups))]
-        keys = {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
-        return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}, keys
+        return {"groups": groups, "held": {str(g): groups[g] for g in self.slow}}
+
+    def keys(self, seed: Array, trial: Array) -> NoiseKeys:
+        """Return the noise keys of a trial."""
+        return {str(g): element_keys(seed, trial, _numbers(self.plan.groups[g])) for g in self.noisy}
 
     # -------------------------------------------------------------------------------------------------- steps
 
@@ -394,6 +401,21 @@ class Program:
         )
         return {**state, "world": world}
 
+    def injectable(self, g: int) -> bool:
+        """Return whether the rows of a group take external input."""
+        return type(self.plan.groups[g].like.element).inject is not Element.inject
+
+    def injected(
+        self, g: int, row: int, values: ProgramValues, state: Arrays, amount: Array, dt: float
+    ) -> Arrays:
+        """Return the state of a group after a step in which an amount was added to the input of a row."""
+        leaves = {path: leaf[row] for path, leaf in self._leaves(g, values).items()}
+        element = bind(self.plan.groups[g].like.element, self._value(g, leaves))
+        own: Any = {name: rows[row] for name, rows in state.items()}
+        new = element.inject(own, cast("Any", amount), dt)
+        assert new is not None
+        return {**state, **{name: state[name].at[row].set(value) for name, value in new.items()}}
+
     def _seeing(self, chunk: Chunk, state: ProgramState) -> Chunk:
         if self.body is None:
             return chunk
@@ -519,18 +541,26 @@ class Program:
         own = self._leaves(g, values)
 
         def one(own: Arrays, *args: Any) -> T:
-            def value(path: str) -> Array | Exact | _NotHere | None:
-                if only and path in group.cost and group.cost[path] != only:
-                    return _NotHere()
-                found = own.get(path)
-                return Exact(found, own[path + LOW]) if path in group.exact else found
-
-            return fn(bind(group.like.element, value), at, *args)
+            return fn(bind(group.like.element, self._value(g, own, only)), at, *args)
 
         if group.rows == 1:
             out = one(*jax.tree.map(lambda a: a[0], (own, *args)))
             return jax.tree.map(lambda a: jnp.asarray(a)[None], out)
         return jax.vmap(one, axis_size=group.rows)(own, *args)
+
+    def _value(
+        self, g: int, leaves: Arrays, only: str = ""
+    ) -> Callable[[str], Array | Exact | _NotHere | None]:
+        """Return the function that gives the value of a leaf of a row by its path."""
+        group = self.plan.groups[g]
+
+        def value(path: str) -> Array | Exact | _NotHere | None:
+            if only and path in group.cost and group.cost[path] != only:
+                return _NotHere()
+            found = leaves.get(path)
+            return Exact(found, leaves[path + LOW]) if path in group.exact else found
+
+        return value
 
     def _leaves(self, g: int, values: ProgramValues) -> Arrays:
         group = self.plan.groups[g]
