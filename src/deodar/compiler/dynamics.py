@@ -10,7 +10,7 @@ where x is the state, i the inputs, p the parameters, n the tick (a uint32; the 
 key: the seed and the trial, by which noise is drawn exactly as `simulate` draws it.
 
     prepared = d.prepare(parameters)
-    state = d.init(prepared, key)
+    state = d.init(parameters, key)
     state = d.step(prepared, state, inputs, tick, key)
     values = d.observe(prepared, state, inputs, tick, key, ports)
 
@@ -230,16 +230,16 @@ class Dynamics:
             own = program.prepare_one(values) if constants is None else constants
             return PreparedStep(values, own, self._chunk(program, values, own, {}))
 
-    def init(self, prepared: PreparedStep, key: TrialKey | None = None) -> ProgramState:
+    def init(self, parameters: Values | None = None, key: TrialKey | None = None) -> ProgramState:
         """Return the state at tick 0.
 
         Args:
-            prepared: what `prepare` returned.
+            parameters: values by path, as for `prepare`.
             key: key of the trial; None: that of seed 0 and trial 0.
         """
         given = self.key() if key is None else key
         with self._traced() as program:
-            state: ProgramState = jax.tree.map(jnp.asarray, program.begin(prepared.values))
+            state: ProgramState = jax.tree.map(jnp.asarray, program.begin(self._values(parameters)))
             if given.world is not None:
                 state["world"] = given.world
             return state

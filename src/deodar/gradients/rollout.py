@@ -83,7 +83,7 @@ def rollout(
         raise TimeError(f"{n} steps, a sample after each {gap}: expected at least 0 steps, and 1")
     prepared = dynamics.prepare(parameters)
     own = dynamics.key() if key is None else key
-    begin = RolloutStart(dynamics.init(prepared, own)) if start is None else start
+    begin = RolloutStart(dynamics.init(parameters, own)) if start is None else start
     with dynamics.context():
         first = jnp.asarray(begin.tick, jnp.uint32)
         state = jax.tree.map(jnp.asarray, begin.state)

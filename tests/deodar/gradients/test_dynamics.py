@@ -20,7 +20,7 @@ RECORD = ["u.activation", "node.activation"]
 def stepped(d: Dynamics, n: int, parameters: Any = None, inputs: Any = None, key: Any = None) -> Any:
     """Return the state after some steps."""
     prepared, key = d.prepare(parameters), d.key() if key is None else key
-    state = d.init(prepared, key)
+    state = d.init(parameters, key)
     for tick in range(n):
         state = d.step(prepared, state, inputs or {}, tick, key)
     return state
@@ -100,7 +100,7 @@ def test_external_input_is_that_of_a_session() -> None:
     d = dd.dynamics(model)
     with d.context():
         prepared, key = d.prepare(), d.key()
-        state = d.init(prepared, key)
+        state = d.init(key=key)
         for tick in range(6):
             state = d.step(prepared, state, {"u": 3 * bump} if tick >= 2 else {}, tick, key)
     assert d.named(state)["u.activation"] == pytest.approx(session.read("u.activation"), abs=1e-12)
@@ -114,7 +114,7 @@ def test_readings_of_sensors_are_inputs() -> None:
     d = dd.dynamics(model)
     with d.context():
         prepared, key = d.prepare(), d.key()
-        state = d.init(prepared, key)
+        state = d.init(key=key)
         seen = d.observe(prepared, state, {"eye": X.points}, 0, key, ["eye"])
         new = d.named(d.step(prepared, state, {"eye": X.points}, 0, key))
         blind = d.named(d.step(prepared, state, {}, 0, key))
@@ -125,7 +125,7 @@ def test_readings_of_sensors_are_inputs() -> None:
 def test_states_are_replaced_by_path() -> None:
     d = dd.dynamics(mixed())
     with d.context():
-        state = d.replaced(d.init(d.prepare()), {"u.activation": np.ones(21), "trace.trace": np.zeros(21)})
+        state = d.replaced(d.init(), {"u.activation": np.ones(21), "trace.trace": np.zeros(21)})
     assert d.named(state)["u.activation"].tolist() == [1.0] * 21
     with pytest.raises(UnknownName, match=r"u\.activation"):
         d.replaced(state, {"u.activatio": 0.0})

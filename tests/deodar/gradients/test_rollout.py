@@ -42,7 +42,7 @@ def test_inputs_are_constant_or_have_an_axis_of_steps() -> None:
     with d.context():
         out = dd.rollout(d, 8, inputs={"u": moving[:, None] * bump, "node": moving * 1.0}, record=["u"])
         prepared, key = d.prepare(), d.key()
-        state = d.init(prepared, key)
+        state = d.init(key=key)
         for tick in range(8):
             given = {"u": bump, "node": 1.0} if tick >= 3 else {}
             state = d.step(prepared, state, given, tick, key)

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 
 from deodar.analysis.continuation.line import ParameterLine
-from deodar.analysis.continuation.right_hand_side import right_hand_side
+from deodar.analysis.continuation.right_hand_side import PRECISION, right_hand_side
 from deodar.codec import JsonObject
 from deodar.compiler import device as devices
-from deodar.compiler.pure_step import PRECISION
 from deodar.model.model import Model
 from deodar.recording import provenance
 

@@ -14,9 +14,11 @@ import numpy as np
 from jax import Array
 from jax.flatten_util import ravel_pytree
 
+from deodar.compiler.arguments import ProgramState
 from deodar.compiler.driven import driven
+from deodar.compiler.dynamics import Dynamics
+from deodar.compiler.plan import Leaf
 from deodar.compiler.program import precision_context
-from deodar.compiler.pure_step import PRECISION, PureStep
 from deodar.element import Element
 from deodar.elements.sensor import Sensor
 from deodar.errors import AnalysisError, ParameterError, did_you_mean
@@ -25,6 +27,8 @@ from deodar.model import edit, find
 from deodar.model.document import Document, Entry
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes, shape
+
+PRECISION = "float64"
 
 
 @dataclass(frozen=True)
@@ -93,10 +97,13 @@ class RightHandSide:
     ) -> None:
         self.model, self.doc, self.at, self.held = model, doc, at, held
         self.parameters, self.even = tuple(parameters), tuple(even)
-        self._pure = pure = PureStep(model, doc, [driven(doc, path) for path in parameters], at)
-        self.values, self.dt = pure.values, pure.dt
-        with precision_context(PRECISION):
-            full, self._unravel = ravel_pytree(pure.start["groups"])
+        drives = {str(k): tuple(driven(doc, path)) for k, path in enumerate(parameters)}
+        self._dynamics = d = Dynamics(model, edit.describe(doc, t0=at), PRECISION, drives=drives)
+        self.dt = d.dt
+        self.values = np.array([float(value) for value in d.parameters.values()])
+        with d.context():
+            self._key, self._start = d.key(), d.init()
+            full, self._unravel = ravel_pytree(self._start["groups"])
         self._full = np.asarray(full, float)
         self.parts, free, tau = self._parts()
         self._orbit, self._weight = _orbits(self.parts, free, self.even)
@@ -108,7 +115,7 @@ class RightHandSide:
 
     def _parts(self) -> tuple[tuple[StatePart, ...], np.ndarray, np.ndarray]:
         """Return the parts that are not held, the indices of their numbers, and tau of every number."""
-        plan, groups = self._pure.executable.plan, self._pure.start["groups"]
+        plan, groups = self._dynamics.executable.plan, self._start["groups"]
         found: list[StatePart] = []
         first, tau = 0, np.ones(self._full.size)
         by = self.doc.by_id()
@@ -190,9 +197,15 @@ class RightHandSide:
         return jnp.asarray(self._full).at[self._free].set(x[self._orbit] * self._weight)
 
     def _stepped(self, full: Array, parameters: Array) -> Array:
+        d, prepared = self._dynamics, self._dynamics.prepare(self._named(parameters))
+        return ravel_pytree(d.step(prepared, self._state(full), {}, 0, self._key)["groups"])[0]
+
+    def _state(self, full: Array) -> ProgramState:
         groups: Any = self._unravel(full)
-        new = self._pure.step({"groups": groups, "held": {}}, parameters)
-        return ravel_pytree(new["groups"])[0]
+        return {"groups": groups, "held": {}}
+
+    def _named(self, parameters: Array) -> dict[str, Array]:
+        return {str(k): parameters[k] for k in range(len(self.parameters))}
 
     @cached_property
     def _compiled(self) -> dict[str, Callable[..., Any]]:
@@ -271,7 +284,7 @@ class RightHandSide:
     def read(self, path: str, x: np.ndarray, parameters: np.ndarray) -> np.ndarray:
         """Return the value of a port in a state, such as `u.output` or `u.input`."""
         entry, port = find.shown(self.doc, path)
-        known = self._readers.setdefault((entry.id, port), self._reader(entry.id, port))
+        known = self._readers.setdefault((entry.id, port), self._reader(path))
         with precision_context(PRECISION):
             return np.asarray(known(jnp.asarray(x), jnp.asarray(parameters)))
 
@@ -279,12 +292,12 @@ class RightHandSide:
     def _readers(self) -> dict[tuple[str, str], Callable[[Array, Array], Array]]:
         return {}
 
-    def _reader(self, ident: str, port: str) -> Callable[[Array, Array], Array]:
-        place = self._pure.executable.port(ident, port)
+    def _reader(self, path: str) -> Callable[[Array, Array], Array]:
+        d = self._dynamics
 
         def read(x: Array, p: Array) -> Array:
-            groups: Any = self._unravel(self._expanded(x))
-            return self._pure.observe([place], {"groups": groups, "held": {}}, p)[0]
+            prepared, state = d.prepare(self._named(p)), self._state(self._expanded(x))
+            return d.observe(prepared, state, {}, 0, self._key, [path])[path]
 
         return jax.jit(read)
 
@@ -318,7 +331,7 @@ def right_hand_side(
     """
     doc = model.document
     for path in parameters:
-        if all(leaf == "noise" for _, leaf in driven(doc, path)):
+        if all(leaf in _noise(doc, leaf) for leaf in driven(doc, path)):
             raise ParameterError(
                 "is the strength of noise, on which no rate of change depends",
                 where=path,
@@ -330,8 +343,8 @@ def right_hand_side(
             raise AnalysisError(
                 why, where=entry.path, fix=f"Hold it as it is at the start: hold=[{entry.path!r}]"
             )
-        if "noise" in {leaf for leaf, _, _ in leaves(entry.element)}:
-            doc = edit.put(edit.unlink(doc, entry.id, "noise"), entry.id, "noise", 0.0)
+        for ident, leaf in _noise(doc, (entry.id, "")):
+            doc = edit.put(edit.unlink(doc, ident, leaf), ident, leaf, 0.0)
         if entry.every != 1:
             doc = edit.every(doc, entry.id, 1)
     found = RightHandSide(model, doc, parameters, at, held, even)
@@ -350,6 +363,16 @@ def _restless(entry: Entry) -> str:
     if kind.learned_parameters is not Element.learned_parameters:
         return f"learns ({kind.__name__}), so that what it reaches depends on the past"
     return ""
+
+
+def _noise(doc: Document, leaf: Leaf) -> list[Leaf]:
+    """Return the strength of the noise of the element that has a leaf; none if it draws none.
+
+    That of an element without a state, which is a source of noise, is its amplitude.
+    """
+    element = find.entry(doc, leaf[0]).element
+    name = "noise" if element.stateful or element.noise_axes() is None else "amplitude"
+    return [(leaf[0], path) for path, _, _ in leaves(element) if path == name]
 
 
 def _slope(values: np.ndarray, axes: Axes, name: str) -> np.ndarray:

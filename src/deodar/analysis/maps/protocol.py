@@ -17,10 +17,10 @@ from deodar.analysis.maps.labels import RegimeLabel
 from deodar.analysis.maps.patterns import count, widest
 from deodar.analysis.maps.request import INPUTS, MapRequest
 from deodar.analysis.selection import HEAD_START
+from deodar.analysis.step_copies import StepCopies
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.functions import Constants
 from deodar.compiler.program import precision_context
-from deodar.compiler.pure_copies import PureCopies
 from deodar.model import find
 from deodar.numerics.axes import Axes
 
@@ -81,20 +81,20 @@ class RegimeProtocol:
         self._request = request
         doc = request.model.document
         entry = find.element(doc, "field")
-        inputs = [[(find.element(doc, name).id, "amplitude")] for name in INPUTS]
+        inputs = [((find.element(doc, name).id, "amplitude"),) for name in INPUTS]
         leaves = [*request.leaves, *inputs]
         self.axes: Axes = request.isolated.axes
         dt = request.isolated.session.dt
 
-        def copies(lanes: int) -> PureCopies:
-            return PureCopies(request.model, doc, leaves, lanes, request.precision, dt)
+        def copies(lanes: int) -> StepCopies:
+            return StepCopies(request.model, leaves, lanes, request.precision, dt)
 
         self.copies = copies(MOST_LANES)
-        matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.executable.program.dtype.itemsize
+        matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.dtype.itemsize
         if self.copies.rebuilt and matrix * MOST_LANES > LANE_BYTES:
             self.copies = copies(max(LEAST_LANES, LANE_BYTES // matrix))
         self._lanes = self.copies.count
-        self._place = self.copies.executable.plan.row[entry.id]
+        self._place = self.copies.dynamics.executable.plan.row[entry.id]
         tau = request.isolated.field.tau
         self._steps = max(2, math.ceil(tau / dt))
         # blocks last a time constant
@@ -246,7 +246,7 @@ class RegimeProtocol:
         """Return whether each lane has settled, over the block and in its last step, and whether its
         activation is far beyond what inputs and resting level explain.
         """
-        tau, dt = self._request.isolated.field.tau, self.copies.dt
+        tau, dt = self._request.isolated.field.tau, self.copies.dynamics.dt
         slow = jnp.abs(now - begin).max(-1) * (tau / (self._steps * dt))
         fast = jnp.abs(now - last).max(-1) * (tau / dt)
         most = jnp.abs(now).max(-1)
@@ -256,7 +256,7 @@ class RegimeProtocol:
     def _parameters(self, cell: Array, stage: Array) -> Array:
         """Return both parameters and the strengths of the inputs, (lanes, parameters)."""
         one, two = stage == ONE, stage >= AHEAD
-        dtype = self.copies.executable.program.dtype
+        dtype = self.copies.dtype
         strength = jnp.asarray(self._request.strength, dtype)
         first = two * strength * jnp.where(stage == AHEAD, 1 + HEAD_START, 1.0)
         cell = jnp.maximum(cell, 0)

@@ -13,12 +13,12 @@ import numpy as np
 from jax import Array
 
 from deodar.analysis.maps.patterns import count, widest
+from deodar.analysis.step_copies import StepCopies
 from deodar.analysis.tuning.request import INPUTS, TuningRequest
 from deodar.analysis.tuning.response import FieldInput, FieldResponse, SettledBatch, Stages
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.functions import Constants
 from deodar.compiler.program import precision_context
-from deodar.compiler.pure_copies import PureCopies
 from deodar.model import find
 from deodar.numerics.axes import Axes
 
@@ -59,20 +59,20 @@ class TuningProtocol:
         self.request = request
         doc, isolated = request.model.document, request.isolated
         entry = find.element(doc, "field")
-        inputs = [[(find.element(doc, name).id, "amplitude")] for name in INPUTS]
+        inputs = [((find.element(doc, name).id, "amplitude"),) for name in INPUTS]
         dt = isolated.session.dt
 
-        def copies(lanes: int) -> PureCopies:
+        def copies(lanes: int) -> StepCopies:
             leaves = [*request.leaves, *inputs]
-            return PureCopies(request.model, doc, leaves, lanes, isolated.session.precision, dt)
+            return StepCopies(request.model, leaves, lanes, isolated.session.precision, dt)
 
         self.axes: Axes = isolated.axes
         self.copies = copies(LANES)
-        matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.executable.program.dtype.itemsize
+        matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.dtype.itemsize
         if self.copies.rebuilt and matrix * LANES > LANE_BYTES:
             self.copies = copies(max(LEAST_LANES, LANE_BYTES // matrix))
         self.lanes = self.copies.count
-        self._place = self.copies.executable.plan.row[entry.id]
+        self._place = self.copies.dynamics.executable.plan.row[entry.id]
         tau = isolated.field.tau
         self._steps = max(2, math.ceil(tau / dt))
         self._longest = max(LEAST_BLOCKS, math.ceil(request.limit * tau / (self._steps * dt)))
@@ -91,7 +91,7 @@ class TuningProtocol:
         request, isolated = self.request, self.request.isolated
         # idle lanes repeat the last candidate
         padded = np.concatenate([values, np.repeat(values[-1:], self.lanes - len(values), axis=0)])
-        own = padded.astype(self.copies.executable.program.dtype)
+        own = padded.astype(self.copies.dtype)
         constants = self._call("constants", self._parameters(own, FieldInput()))
         states: dict[Stages, ProgramState] = {(): self._call("start", self._parameters(own, FieldInput()))}
         known: dict[Stages, SettledBatch] = {}
@@ -156,21 +156,21 @@ class TuningProtocol:
         above = self._activation(end.state) - threshold
         peaks = count(above if self.axes else above[:, 0], self.axes)
         width = widest(above, self.axes[0]) if self.axes else none
-        duration = self._steps * self.copies.dt / self.request.isolated.field.tau
+        duration = self._steps * self.copies.dynamics.dt / self.request.isolated.field.tau
         return end.state, (above, peaks, width, end.settled, end.active * duration)
 
     def _passed(self, begin: Array, end: Array) -> Array:
         """Return after which share of a block activation falls below 0, if it relaxes with the time constant
         of the field.
         """
-        duration = self._steps * self.copies.dt / self.request.isolated.field.tau
+        duration = self._steps * self.copies.dynamics.dt / self.request.isolated.field.tau
         left = math.exp(-duration)
         to = jnp.minimum((end - left * begin) / (1 - left), -1e-30)
         return jnp.clip(jnp.log1p(jnp.maximum(begin, 0.0) / -to) / duration, 0.0, 1.0)
 
     def _settled(self, begin: Array, last: Array, now: Array) -> Array:
         """Return whether each candidate has settled: over a block, and in its last step."""
-        tau, dt = self.request.isolated.field.tau, self.copies.dt
+        tau, dt = self.request.isolated.field.tau, self.copies.dynamics.dt
         slow = jnp.abs(now - begin).max(-1) * (tau / (self._steps * dt))
         fast = jnp.abs(now - last).max(-1) * (tau / dt)
         return ~(jnp.maximum(slow, fast) > self.request.tolerance)

@@ -114,3 +114,12 @@ def test_the_strength_of_noise_is_no_parameter():
     model.link("u.noise", "both")
     model.link("s.amplitude", "both")
     assert dd.right_hand_side(model, ["both"]).values.tolist() == [1.0]
+
+
+def test_a_source_of_noise_is_off() -> None:
+    model = line(31)
+    model.add(dd.Noise("n", list(model["u"].axes), amplitude=2.0)) >> model["u"]
+    d, without = dd.right_hand_side(model), dd.right_hand_side(line(31))
+    assert np.array_equal(d.rates(d.start, d.values), without.rates(d.start, d.values))
+    with pytest.raises(ParameterError, match="strength of noise"):
+        dd.right_hand_side(model, ["n.amplitude"])
