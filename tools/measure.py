@@ -42,8 +42,6 @@ BRANCHED = 25
 NOT_SPLIT = frozenset(
     {
         "deodar/batch/compute.py compute",
-        "deodar/experiments/trial_batch.py run_batch",
-        "deodar/experiments/trial_run.py run_trial",
     }
 )
 """Functions that may still be above BRANCHED. The list only shrinks."""

@@ -8,7 +8,7 @@ from deodar.analysis.peaks import Peak
 from deodar.analysis.preshape import Boosted
 from deodar.analysis.regimes import NOT_ASKED, Regimes
 
-Rows = Iterator[tuple[str, str]]
+WordRows = Iterator[tuple[str, str]]
 
 
 def heading(found: Regimes) -> list[str]:
@@ -51,7 +51,7 @@ def _lit(found: Regimes) -> str:
     return "peak" if found.isolated.axes else "activation above threshold"
 
 
-def _detection(found: Regimes) -> Rows:
+def _detection(found: Regimes) -> WordRows:
     up, down = found.thresholds.detection, found.thresholds.reverse
     if up is not None:
         kind = (
@@ -69,7 +69,7 @@ def _detection(found: Regimes) -> Rows:
         yield "just above detection", _peak(found, found.peak)
 
 
-def _memory(found: Regimes) -> Rows:
+def _memory(found: Regimes) -> WordRows:
     if found.memory is not None:
         left = found.memory.left
         kept = f"{_count(len(left))} left: {_peak(found, left[0])}" if left else f"no {_lit(found)} is left"
@@ -87,7 +87,7 @@ def _memory(found: Regimes) -> Rows:
         yield "boost on a pre-shape", "; ".join(_boosted(b) for b in found.boosts)
 
 
-def _selection(found: Regimes) -> Rows:
+def _selection(found: Regimes) -> WordRows:
     s = found.selection
     if s is None:
         return
@@ -101,7 +101,7 @@ def _selection(found: Regimes) -> Rows:
     yield "two inputs, one stronger", _count(len(s.different)) + stronger
 
 
-def _notes(found: Regimes) -> Rows:
+def _notes(found: Regimes) -> WordRows:
     if found.transitions and found.coarse_alone not in ("", NOT_ASKED) and found.isolated.axes:
         yield "discretisation error", f"not measured: {found.coarse_alone}"
     swept = found.ramp

@@ -92,6 +92,60 @@ BUFFER_BYTES = 16 * 2**20
 """Size of the recording buffer of a chunk."""
 
 
+@dc.dataclass(frozen=True, eq=False)
+class ProgramRequest:
+    """What an executable is made from. Requests with equal keys ask for the same one.
+
+    Attributes:
+        doc: the document.
+        precision: float32 or float64.
+        batch: the copies that run at once.
+        device: where they run; of several devices the first that belongs to this host.
+        exact: whether every kernel is applied by its matrix.
+        body: the world inside the step.
+        distribution: the devices among which a program is divided; None: it runs on one.
+        plain: whether there are no compiled kernels, which have no derivatives.
+    """
+
+    doc: Document
+    precision: str
+    batch: Batch
+    device: Device
+    exact: bool = False
+    body: Body | None = None
+    distribution: Distribution | None = None
+    plain: bool = False
+
+    @functools.cached_property
+    def key(self) -> Hashable:
+        doc, distribution = self.doc, self.distribution
+        lifted = frozenset(leaf for leafs in self.batch.sweep for leaf in leafs)
+        neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
+        outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
+        part = self.batch if distribution is None else distribution.part(self.batch)
+        devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
+        about = (doc, lifted, part.planned, self.body is not None, devices_of)
+        return (
+            signature(doc),
+            () if self.exact else tuple(strategies_of(*about).items()),
+            outside,
+            self.precision,
+            self.exact,
+            self.batch,
+            neutral,
+            devices.name(self.device),
+            native.version(None if self.plain else native.kernels(self.device.platform, self.precision)),
+            self.body and self.body.key,
+            distribution and distribution.key,
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ProgramRequest) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+
 class Executable:
     """The compiled functions of one document structure, precision and batch.
 
@@ -110,33 +164,25 @@ class Executable:
         seconds: CPU time spent on planning, tracing and compiling.
     """
 
-    def __init__(
-        self,
-        doc: Document,
-        precision: str,
-        batch: Batch,
-        device: Device | None = None,
-        exact: bool = False,
-        body: Body | None = None,
-        distribution: Distribution | None = None,
-        plain: bool = False,
-    ) -> None:
+    def __init__(self, request: ProgramRequest) -> None:
+        doc, precision, batch = request.doc, request.precision, request.batch
+        body, distribution = request.body, request.distribution
         began = time.process_time()
         self.distribution = distribution
         self.across = distribution is not None and distribution.across
-        self.device: Device = device or devices.find()
-        self.precision, self.exact = precision, exact
+        self.device: Device = request.device
+        self.precision, self.exact = precision, request.exact
         self.batch = batch
         self.part = batch if distribution is None else distribution.part(batch)
         fields = distribution if distribution is not None and distribution.along == "field" else None
         # a call of a kernel cannot be divided
-        without = plain or fields is not None
+        without = request.plain or fields is not None
         self.kernels = None if without else native.kernels(self.device.platform, precision)
         lifted = frozenset(leaf for leafs in batch.sweep for leaf in leafs)
         self.plan: Plan = plan(
             doc,
             lifted,
-            exact or precision == "float64",
+            self.exact or precision == "float64",
             self.part.planned,
             readings="constant" if body is None else "held" if body.holds else "changing",
             trials=self.part.trials or 1,
@@ -609,7 +655,7 @@ def executable(
         raise ParameterError(f"accuracy is {accuracy!r}; expected default or exact")
     exact = accuracy == "exact" or precision == "float64"
     require_trust(model, doc)
-    request = _Request(doc, precision, batch, place, exact, body, distribution, plain)
+    request = ProgramRequest(doc, precision, batch, place, exact, body, distribution, plain)
     found = model.programs.get(request.key)
     if found is None:
         if doc is model.document:
@@ -618,66 +664,17 @@ def executable(
             raise ModelError(found)
         while len(model.programs) >= MOST_KEPT:
             model.programs.pop(next(iter(model.programs)), None)  # another thread may have dropped it
-        found = _shared(request) if _bytes(doc) <= SHARED_BYTES else request.make()
+        found = _shared(request) if _bytes(doc) <= SHARED_BYTES else Executable(request)
         model.programs[request.key] = found
     return found
 
 
-@dc.dataclass(frozen=True, eq=False)
-class _Request:
-    """What an executable is made from. Requests with equal keys ask for the same one."""
-
-    doc: Document
-    precision: str
-    batch: Batch
-    device: Device
-    exact: bool
-    body: Body | None
-    distribution: Distribution | None
-    plain: bool
-
-    @functools.cached_property
-    def key(self) -> Hashable:
-        doc, distribution = self.doc, self.distribution
-        lifted = frozenset(leaf for leafs in self.batch.sweep for leaf in leafs)
-        neutral = frozenset((e.id, path) for e in doc.entries for path in resting(e.element)) - lifted
-        outside = tuple(e.element.load() for e in doc.entries if e.element.external_code())
-        part = self.batch if distribution is None else distribution.part(self.batch)
-        devices_of = len(distribution.devices) if distribution and distribution.along == "field" else 1
-        about = (doc, lifted, part.planned, self.body is not None, devices_of)
-        return (
-            signature(doc),
-            () if self.exact else tuple(strategies_of(*about).items()),
-            outside,
-            self.precision,
-            self.exact,
-            self.batch,
-            neutral,
-            devices.name(self.device),
-            native.version(None if self.plain else native.kernels(self.device.platform, self.precision)),
-            self.body and self.body.key,
-            distribution and distribution.key,
-        )
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Request) and self.key == other.key
-
-    def __hash__(self) -> int:
-        return hash(self.key)
-
-    def make(self) -> Executable:
-        device, body, distribution = self.device, self.body, self.distribution
-        return Executable(
-            self.doc, self.precision, self.batch, device, self.exact, body, distribution, self.plain
-        )
-
-
 @functools.lru_cache(maxsize=48)
-def _shared(request: _Request) -> Executable:
+def _shared(request: ProgramRequest) -> Executable:
     """The executable of all models of this process that ask for the same: one that is built again, as by a
     notebook cell, compiles nothing.
     """
-    return request.make()
+    return Executable(request)
 
 
 def _bytes(doc: Document) -> int:

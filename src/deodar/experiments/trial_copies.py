@@ -44,7 +44,7 @@ WORTH = 1e8
 WORLD = ""
 """In the place of an element: a sensor of a world on the host, which is read beside the model."""
 
-Take = Callable[[int, Sequence[np.ndarray]], None]
+TakeSamples = Callable[[int, Sequence[np.ndarray]], None]
 """Function of the number of a sample, and of the values of places from that sample on, (copies, samples,
 ...).
 """
@@ -114,7 +114,9 @@ class TrialCopies:
 
     # ------------------------------------------------------------------------------------ running and reading
 
-    def record(self, steps: int, places: Sequence[ReadPlace], first: int, gap: int, take: Take) -> None:
+    def record(
+        self, steps: int, places: Sequence[ReadPlace], first: int, gap: int, take: TakeSamples
+    ) -> None:
         """Advance by some steps; take samples after the first `first` of them, then after each `gap`.
 
         One copy alone is read between its steps, so that a world on the host is at the time of the sample. If

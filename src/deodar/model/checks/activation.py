@@ -42,7 +42,7 @@ def check(wiring: Wiring) -> Iterator[Problem]:
 
 
 @dc.dataclass(frozen=True)
-class Levels:
+class InputLevels:
     """The levels between which the activation of a field lies.
 
     Attributes:
@@ -62,7 +62,7 @@ class Levels:
 def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
     threshold: float = getattr(e.sigmoid, "threshold", 0.0)
     _, most = wiring.bounds[n.id].get("activation", (-math.inf, math.inf))
-    at = Levels(e.resting_level, threshold, *wiring.arriving(n), most)
+    at = InputLevels(e.resting_level, threshold, *wiring.arriving(n), most)
     yield from _never_on(wiring, n, e, at)
     yield from _always_on(wiring, n, e, at)
     if at.rest < threshold and isinstance(e.sigmoid, Logistic):
@@ -71,7 +71,7 @@ def _field(wiring: Wiring, n: Node, e: Field | RateNode) -> Iterator[Problem]:
         yield from _noisy(n, e, at)
 
 
-def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: Levels) -> Iterator[Problem]:
+def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> Iterator[Problem]:
     h, threshold = at.rest, at.threshold
     short = at.most < threshold - CLEAR * (threshold - h)
     if not (short and e.sigmoid.bounds((at.most, at.most))[1] < SILENT):
@@ -98,7 +98,7 @@ def _never_on(wiring: Wiring, n: Node, e: Field | RateNode, at: Levels) -> Itera
         yield warning(n, what, f"Make its inputs stronger than {threshold - h:g}, or {raised}")
 
 
-def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: Levels) -> Iterator[Problem]:
+def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: InputLevels) -> Iterator[Problem]:
     own = wiring.bounds[n.id].get("interaction", (0.0, 0.0))[0]
     if isinstance(e, RateNode):
         own = min(0.0, e.self_excitation)
@@ -112,7 +112,7 @@ def _always_on(wiring: Wiring, n: Node, e: Field | RateNode, at: Levels) -> Iter
         yield warning(n, what, fix)
 
 
-def _flat(n: Node, sigmoid: Logistic, at: Levels) -> Iterator[Problem]:
+def _flat(n: Node, sigmoid: Logistic, at: InputLevels) -> Iterator[Problem]:
     output = sigmoid.bounds((at.rest, at.rest))[1]
     if output > AT_REST:
         what = (
@@ -123,7 +123,7 @@ def _flat(n: Node, sigmoid: Logistic, at: Levels) -> Iterator[Problem]:
         yield warning(n, what, f"Use beta of {steeper:.2g} or more, or a lower resting_level")
 
 
-def _noisy(n: Node, e: Field, at: Levels) -> Iterator[Problem]:
+def _noisy(n: Node, e: Field, at: InputLevels) -> Iterator[Problem]:
     lengths = e.noise_length if isinstance(e.noise_length, tuple) else (e.noise_length,)
     deviation = e.noise / math.sqrt(2 * e.tau * (1.0 if any(lengths) else cell(tuple(e.axes))))
     missing = at.threshold - at.rest
