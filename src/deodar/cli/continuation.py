@@ -100,11 +100,8 @@ def run(args: argparse.Namespace) -> int:
     written = [] if save is None else _saved([found, *others], save, args.force)
     if args.json:
         answer = found.data() | {"switched": [other.data() for other in others]}
-        answer |= {
-            "figure": None if target is None else str(target),
-            "files": [str(path) for path in written],
-        }
-        print(codec.text(answer))
+        answer["figure"] = None if target is None else str(target)
+        print(codec.text(answer | {"files": list(map(str, written))}))
         return 0
     print(_table(found))
     for other in others:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable, Hashable, Sequence
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, Self
 
 import jax
 import numpy as np
@@ -36,6 +36,11 @@ class Distribution:
     def key(self) -> Hashable:
         """A key whose change requires a new program."""
         return (self.along, tuple(map(name, self.devices)))
+
+    @property
+    def of_fields(self) -> Self | None:
+        """The distribution itself if it divides the fields of one copy."""
+        return self if self.along == "field" else None
 
     @property
     def across(self) -> bool:

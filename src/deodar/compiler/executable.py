@@ -174,7 +174,7 @@ class Executable:
         self.precision, self.exact = precision, request.exact
         self.batch = batch
         self.part = batch if distribution is None else distribution.part(batch)
-        fields = distribution if distribution is not None and distribution.along == "field" else None
+        fields = None if distribution is None else distribution.of_fields
         # a call of a kernel cannot be divided
         without = request.plain or fields is not None
         self.kernels = None if without else native.kernels(self.device.platform, precision)
@@ -184,7 +184,7 @@ class Executable:
             lifted,
             self.exact or precision == "float64",
             self.part.planned,
-            readings="constant" if body is None else "held" if body.holds else "changing",
+            readings="constant" if body is None else body.readings,
             trials=self.part.trials or 1,
             devices=1 if fields is None else len(fields.devices),
         )

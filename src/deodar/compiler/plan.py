@@ -216,9 +216,7 @@ def plan(
         DeviceError: it has no axis that these devices can divide.
     """
     nodes, acts = _ordered(doc)
-    neutral = {
-        n.id: frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted) for n in nodes
-    }
+    neutral = {n.id: _neutral(n, lifted) for n in nodes}
     still = _still(nodes, readings != "constant")
     shards = divided_axis(nodes, devices) if devices > 1 else None
     swept = _swept(nodes, lifted)
@@ -227,8 +225,7 @@ def plan(
         for i in {i for i, path in lifted if path.startswith("kernel.")} - swept:
             found[i] = dc.replace(found[i], apart=True)
     nodes = shared(nodes, found)
-    between = _still(nodes, False) if readings == "held" else still
-    sensory = {n.id: between[n.id] and not still[n.id] and not n.element.external for n in nodes}
+    sensory = _sensory(nodes, still) if readings == "held" else dict.fromkeys(still, False)
     groups, row = _groups(nodes, neutral, still, sensory, found)
     size = _place(groups, neutral)
     calls = list(dict.fromkeys(Call(row[i][0], role, instant) for i, role, instant in acts))
@@ -277,6 +274,17 @@ def _still(nodes: Sequence[Node], embodied: bool) -> dict[str, bool]:
         return known[n.id]
 
     return {n.id: still(n) for n in nodes}
+
+
+def _sensory(nodes: Sequence[Node], still: Mapping[str, bool]) -> dict[str, bool]:
+    """Return whether each node is constant between two readings that are held, and changes with them."""
+    between = _still(nodes, False)
+    return {n.id: between[n.id] and not still[n.id] and not n.element.external for n in nodes}
+
+
+def _neutral(n: Node, lifted: frozenset[Leaf]) -> frozenset[str]:
+    """Return the leaves that have their neutral value and keep it."""
+    return frozenset(leaf for leaf in resting(n.element) if (n.id, leaf) not in lifted)
 
 
 def _groups(

@@ -182,23 +182,30 @@ def _read_signal(name: str, data: Any, where: str) -> Signal:
         raise WorldError(f"is {show(data)}; expected the description of a signal", where=place)
     given = cast("dict[str, Any]", data)
     shape, period, bounds = given.get("shape"), given.get("period"), given.get("bounds")
-    sizes = shape if isinstance(shape, list) else []
-    if shape is not None and not (
-        isinstance(shape, list) and all(type(n) is int and 0 < n <= 10**6 for n in sizes) and len(sizes) < 8
-    ):
-        raise WorldError(f"shape is {show(shape)}; expected numbers of samples, or null", where=place)
+    sizes = _sizes(shape, place)
     step = None if period is None else real(period)
     if period is not None and (step is None or not 0 < step < math.inf):
         raise WorldError(f"period is {show(period)}; expected ms above 0", where=place)
-    pairs = None
-    if bounds is not None:
-        try:
-            pairs = tuple((float(low), float(high)) for low, high in bounds)
-        except (TypeError, ValueError):
-            raise WorldError(f"bounds is {show(bounds)}; expected pairs of numbers", where=place) from None
+    pairs = _pairs(bounds, place)
     words = [given.get(what, "") for what in ("meaning", "unit")]
     if not all(isinstance(word, str) and is_text(word) for word in words):
         raise WorldError("its meaning and unit are text", where=place)
-    return Signal(
-        words[0], None if shape is None else tuple(sizes), words[1], step, given.get("each") is True, pairs
-    )
+    return Signal(words[0], sizes, words[1], step, given.get("each") is True, pairs)
+
+
+def _sizes(shape: Any, place: str) -> tuple[int, ...] | None:
+    if shape is None:
+        return None
+    sizes: Any = shape if isinstance(shape, list) else [None]
+    if not (all(type(n) is int and 0 < n <= 10**6 for n in sizes) and len(sizes) < 8):
+        raise WorldError(f"shape is {show(shape)}; expected numbers of samples, or null", where=place)
+    return tuple(sizes)
+
+
+def _pairs(bounds: Any, place: str) -> tuple[tuple[float, float], ...] | None:
+    if bounds is None:
+        return None
+    try:
+        return tuple((float(low), float(high)) for low, high in bounds)
+    except (TypeError, ValueError):
+        raise WorldError(f"bounds is {show(bounds)}; expected pairs of numbers", where=place) from None
