@@ -58,7 +58,8 @@ before = time.process_time()
 if w.session:
     dd.Session(model, world=world).step(1)
 else:
-    dd.simulate(model, model.document.step, trials=w.trials or None, world=world, progress=False)
+    step = model.document.step
+    dd.simulate(model, step, trials=w.trials or None, world=world, on=dd.Resources(progress=False))
 print(time.process_time() - before)
 """
 

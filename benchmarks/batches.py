@@ -64,7 +64,7 @@ def one_run(cores: int, separate: bool) -> None:
     about = f"{cores:3} cores" + (", separate rounding" if separate else "")
     for name, n in SINGLE.items():
         model = workloads.WORKLOADS[name].model()
-        wall, cpu = step(lambda n, model=model: dd.simulate(model, n, progress=False), n)
+        wall, cpu = step(lambda n, model=model: dd.simulate(model, n, on=dd.Resources(progress=False)), n)
         print(f"{name:8} {about}: wall {wall:9.2f} us, CPU {cpu:9.2f} us", flush=True)
 
 
@@ -91,7 +91,9 @@ def sizes() -> None:
         for copies in SIZES:
             if size * copies <= 4 * MOST_CELLS:
                 n = max(4, int(150_000 / (us * copies)))
-                run = functools.partial(dd.simulate, model, trials=copies, batch=copies, progress=False)
+                run = functools.partial(
+                    dd.simulate, model, trials=copies, on=dd.Resources(batch=copies, progress=False)
+                )
                 shown.append(f"{copies}: {step(run, n)[1] / copies:.2f}")
         print(f"{name:8} {size / 1024:7.1f} KiB a copy; us a step and copy  {'  '.join(shown)}", flush=True)
 
@@ -103,7 +105,9 @@ def sweeps() -> None:
         model = workloads.WORKLOADS[name].model()
         for path, (low, high) in values.items():
             points = [low + (high - low) * k / (POINTS - 1) for k in range(POINTS)]
-            run = functools.partial(dd.simulate, model, sweep={f"u.{path}": points}, progress=False)
+            run = functools.partial(
+                dd.simulate, model, sweep={f"u.{path}": points}, on=dd.Resources(progress=False)
+            )
             _, cpu = step(run, 300)
             print(f"{name:8} {path:20} {cpu / POINTS:6.2f} us a step of one copy", flush=True)
 
@@ -114,7 +118,7 @@ def workers() -> None:
         for count in (None, available()):
             for _ in range(2):  # the second time no program is compiled again
                 began = time.perf_counter()
-                dd.simulate(model, n, trials=TRIALS, workers=count, progress=False)
+                dd.simulate(model, n, trials=TRIALS, on=dd.Resources(workers=count, progress=False))
                 seconds = time.perf_counter() - began
             print(
                 f"{name:8} {TRIALS} trials of {n} steps, {f'{count} workers' if count else 'one batch here'}:"

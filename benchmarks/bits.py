@@ -156,8 +156,7 @@ def check(
                 record=paths,
                 every=every,
                 trials=trials,
-                batch=width,
-                workers=workers,
+                on=dd.Resources(workers=workers, batch=width),
             )
         for path in paths:
             values = data[path].values
@@ -175,7 +174,7 @@ def cost(name: str, width: int, steps: int = 20_000) -> float:
     for _ in range(7):
         for duration in best:
             began = time.perf_counter()
-            dd.simulate(model, duration, trials=width, progress=False)
+            dd.simulate(model, duration, trials=width, on=dd.Resources(progress=False))
             best[duration] = min(best[duration], time.perf_counter() - began)
     return 1e6 * (best[steps] - best[0]) / steps
 

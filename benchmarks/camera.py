@@ -60,7 +60,9 @@ def seconds(sensor: str, copies: int, period: float, every: int, noise: dict[str
     world = dd.Arena(blocks(), vehicle="khepera", physics=physics, noise=dd.ArenaNoise(**noise))
     record = {"record": "heading.output", "every": float(STEPS)}
     began = time.process_time()
-    dd.simulate(model(sensor), float(STEPS), trials=copies, world=world, progress=False, **record)
+    dd.simulate(
+        model(sensor), float(STEPS), trials=copies, world=world, on=dd.Resources(progress=False), **record
+    )
     return time.process_time() - began
 
 

@@ -236,8 +236,8 @@ def disturbed(
 
 def cost(given: argparse.Namespace, folder: Path) -> bool:
     """Print the processor time of the caller for each task of one row."""
-    from deodar.batch.cluster import Cluster
     from deodar.batch.on_cluster import ClusterPool
+    from deodar.cluster import Cluster
     from deodar.experiments.jobs import Job, run_jobs
     from deodar.experiments.rows import Rows
 
@@ -335,8 +335,8 @@ def timed(made: Any, file: Path, count: int) -> tuple[float, float, float]:
     """Run an experiment on some workers; return the wall times of all pieces, of the first one, and of the
     start.
     """
-    from deodar.batch.cluster import Cluster
     from deodar.batch.on_cluster import ClusterPool
+    from deodar.cluster import Cluster
     from deodar.experiments import packed_experiment
     from deodar.experiments.jobs import Job, run_jobs
     from deodar.experiments.rows import Rows

@@ -58,7 +58,8 @@ def difference(name: str, where: str, double: bool = False) -> float:
             model.set(f"{handle.path}.noise", 0.0)
     precision = "float64" if double else "float32"
     here, there = (
-        dd.simulate(model, STEPS, device=d, precision=precision, progress=False) for d in ("cpu", where)
+        dd.simulate(model, STEPS, precision=precision, on=dd.Resources(device=d, progress=False))
+        for d in ("cpu", where)
     )
     return max(float(np.abs(here[v].values - there[v].values).max()) for v in here.data_vars)
 
@@ -104,7 +105,9 @@ def main() -> int:
             model = workloads.WORKLOADS[name].model()
             us = [
                 step(
-                    lambda n, m=model, d=d, t=trials: dd.simulate(m, n, trials=t, device=d, progress=False),
+                    lambda n, m=model, d=d, t=trials: dd.simulate(
+                        m, n, trials=t, on=dd.Resources(device=d, progress=False)
+                    ),
                     0.3,
                 )
                 for d in ("cpu", given.device)

@@ -61,7 +61,9 @@ def main() -> None:
         return lambda: dc.replace(experiment, every=every).run(workers=given.workers)
 
     ways: dict[str, Callable[[], object]] = {
-        "plain": lambda: dd.simulate(model, given.steps, trials=given.trials, workers=given.workers)
+        "plain": lambda: dd.simulate(
+            model, given.steps, trials=given.trials, on=dd.Resources(workers=given.workers)
+        )
     }
     ways |= {f"looks every {n} ms": watched(n) for n in (5, 1)}
     clock = time.perf_counter if given.workers else time.process_time

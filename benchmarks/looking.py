@@ -24,7 +24,14 @@ def speed(mechanism: str, seconds: float) -> float:
 
     def run(duration: float) -> float:
         began = time.perf_counter()
-        dd.simulate(model, duration, record="satisfied.activation", every=10, world=world, progress=False)
+        dd.simulate(
+            model,
+            duration,
+            record="satisfied.activation",
+            every=10,
+            world=world,
+            on=dd.Resources(progress=False),
+        )
         return time.perf_counter() - began
 
     run(100.0)

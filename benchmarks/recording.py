@@ -48,10 +48,10 @@ def measure(name: str, n: int, rounds: int) -> tuple[float, float]:
     port = "u.activation" if "u" in model else "u0.activation"
 
     def without(n: int) -> Any:
-        return dd.simulate(model, n, progress=False)
+        return dd.simulate(model, n, on=dd.Resources(progress=False))
 
     def recorded(n: int) -> Any:
-        return dd.simulate(model, n, record=[port], every=EVERY, progress=False)
+        return dd.simulate(model, n, record=[port], every=EVERY, on=dd.Resources(progress=False))
 
     without(n)
     recorded(n)
@@ -75,7 +75,7 @@ def paired(model: dd.Model, n: int, rounds: int, **record: Any) -> tuple[float, 
         for k in range(rounds + 1):
             for kind, more in enumerate(({}, {**record, "out": folder / f"{k}"})):
                 began = time.perf_counter()
-                dd.simulate(model, n, seed=k, progress=False, **more)
+                dd.simulate(model, n, seed=k, on=dd.Resources(progress=False), **more)
                 if k:
                     times[kind].append(time.perf_counter() - began)
             shutil.rmtree(folder / f"{k}")
@@ -119,14 +119,14 @@ def recorded_long(steps: int, out: str) -> None:
     """Record a small field for many steps and print the memory of the process on the way."""
     model = dd.Model("long")
     model.add(dd.Field("u", [dd.Axis("x", 0, 20, samples=20)], kernel=[dd.Gaussian(5, 3)], noise=0.1))
-    dd.simulate(model, 1000, progress=False)
+    dd.simulate(model, 1000, on=dd.Resources(progress=False))
     process, seen = psutil.Process(), [psutil.Process().memory_info().rss]
 
     def note(done: int) -> None:
         if done >= steps * len(seen) / 10:
             seen.append(process.memory_info().rss)
 
-    dd.simulate(model, steps, record="u", every=1, out=out, progress=note)
+    dd.simulate(model, steps, record="u", every=1, out=out, on=dd.Resources(progress=note))
     print(f"{seen[0] / 2**20:.0f} {seen[1] / 2**20:.0f} {max(seen[2:]) / 2**20:.0f}")
 
 

@@ -103,7 +103,7 @@ def forgetting(
             record=["top.output"],
             every=2 * MADE + lasting,
             sweep={"boost.amplitude": tried[1:-1]},
-            progress=False,
+            on=dd.Resources(progress=False),
         )
         held = [False, *(data["top.output"].values[:, -1] > 0), True]
         k = int(np.argmax(held))
@@ -162,7 +162,7 @@ def cost(rounds: int, seconds: float) -> None:
 
         def timed(model: dd.Model, steps: int, trials: int | None = work.trials or None) -> float:
             began = time.process_time()
-            dd.simulate(model, steps, trials=trials, progress=False)
+            dd.simulate(model, steps, trials=trials, on=dd.Resources(progress=False))
             return time.process_time() - began
 
         n = 100
@@ -180,9 +180,9 @@ def cost(rounds: int, seconds: float) -> None:
 
 def places(model: dd.Model, dimensions: int, until: float, **how: object) -> np.ndarray:
     """Where the memory is at 800 ms and at the end: shape (runs, 2, dimensions)."""
-    data = dd.simulate(model, 2 * MADE + until, record=["u.output"], every=400.0, progress=False, **how)[
-        "u.output"
-    ]  # type: ignore[arg-type]
+    data = dd.simulate(
+        model, 2 * MADE + until, record=["u.output"], every=400.0, on=dd.Resources(progress=False), **how
+    )["u.output"]  # type: ignore[arg-type]
     g = data.isel(time=[2, -1]).values.astype(float)
     g = np.moveaxis(g, data.dims.index("time"), -dimensions - 1).reshape(-1, 2, *g.shape[-dimensions:])
     x = data["x"].values

@@ -45,7 +45,14 @@ def ratio(copies: int, device: str | None = None) -> float:
     def seconds(duration: float) -> float:
         began = time.perf_counter()
         record = {"record": "pose.output", "every": duration}
-        dd.simulate(model, duration, trials=copies, world=around, device=device, progress=False, **record)
+        dd.simulate(
+            model,
+            duration,
+            trials=copies,
+            world=around,
+            on=dd.Resources(device=device, progress=False),
+            **record,
+        )
         return time.perf_counter() - began
 
     seconds(SHORT), seconds(4 * SHORT)  # compiled

@@ -50,13 +50,13 @@ def volume(samples: int, noise: float = 0.0, kernel: bool = True) -> dd.Model:
 
 def final(model: dd.Model, steps: int, kind: str, devices: int | None) -> np.ndarray:
     """Activation after a number of steps."""
-    data = dd.simulate(model, steps, device=kind, devices=devices, progress=False)
+    data = dd.simulate(model, steps, on=dd.Resources(device=kind, devices=devices, progress=False))
     return data["u.activation"].isel(time=-1).values
 
 
 def programs(model: dd.Model, kind: str, devices: int) -> list[Executable]:
     """The programs of a step on one device and on several."""
-    return [dd.Session(model, device=kind, devices=n).program for n in (None, devices)]
+    return [dd.Session(model, on=dd.Resources(device=kind, devices=n)).program for n in (None, devices)]
 
 
 def memory_parts(program: Executable) -> dict[str, float]:
@@ -121,7 +121,7 @@ def efficiency(kind: str, devices: int) -> None:
     """Print how much faster a large field is on several graphics processors."""
     took: list[float] = []
     for n in (None, devices):
-        session = dd.Session(volume(LARGE, noise=1.0), device=kind, devices=n)
+        session = dd.Session(volume(LARGE, noise=1.0), on=dd.Resources(device=kind, devices=n))
         session.step(TIMED)
         began = time.perf_counter()
         session.step(TIMED)

@@ -131,7 +131,9 @@ def rate_winners(given: Pairs) -> np.ndarray:
     """Return the winner of the rate model in each trial."""
     out = []
     for s in given.inputs:
-        data = dd.simulate(winner_take_all(s), 400, record=["pool.output"], every=400, progress=False)
+        data = dd.simulate(
+            winner_take_all(s), 400, record=["pool.output"], every=400, on=dd.Resources(progress=False)
+        )
         out.append(int(data["pool.output"].values[-1].argmax()))
     return np.array(out)
 
@@ -242,7 +244,14 @@ def event_share(given: Targets, seed: int) -> float:
     plane = list(retina(128))
     model.add(dd.Sensor("events", plane, sensor="events"))
     data = dd.simulate(
-        model, 500, seed=seed, record="events.output", every=10, trials=10, world=given.world, progress=False
+        model,
+        500,
+        seed=seed,
+        record="events.output",
+        every=10,
+        trials=10,
+        world=given.world,
+        on=dd.Resources(progress=False),
     )
     rates = data["events.output"].mean("time").values
     pixels = np.stack(np.meshgrid(plane[0].points, plane[1].points, indexing="ij"), -1)
@@ -290,7 +299,9 @@ def rate_active(what: str, strength: np.ndarray) -> np.ndarray:
     for s in strength[:, None]:
         model = bistable(DETECTOR, np.concatenate([profile(first_input(what, s)), profile(s)]))
         duration = (BEFORE + AFTER) / 2
-        data = dd.simulate(model, duration, record=["u.output"], every=duration, progress=False)
+        data = dd.simulate(
+            model, duration, record=["u.output"], every=duration, on=dd.Resources(progress=False)
+        )
         out.append(data["u.output"].values[-1].max() > 0.5)
     return np.array(out)
 
@@ -425,7 +436,7 @@ def rates_of_neurons(python: str) -> Rows:
 
 def final(model: dd.Model, label: str) -> np.ndarray:
     """Return the output of the rate model after 400 ms."""
-    data = dd.simulate(model, 400, record=[f"{label}.output"], every=400, progress=False)
+    data = dd.simulate(model, 400, record=[f"{label}.output"], every=400, on=dd.Resources(progress=False))
     return data[f"{label}.output"].values[-1]
 
 

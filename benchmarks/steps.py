@@ -70,7 +70,9 @@ class Timed:
         model = self.models.setdefault(name, workload.model())
         before = time.process_time()
         duration = count * model.document.step
-        dd.simulate(model, duration, trials=workload.trials or None, world=world, progress=False)
+        dd.simulate(
+            model, duration, trials=workload.trials or None, world=world, on=dd.Resources(progress=False)
+        )
         return time.process_time() - before
 
     def _session(self, name: str, workload: workloads.Workload, count: int) -> float:

@@ -134,7 +134,7 @@ def run(scene: Scene, model: dd.Model, precision: str) -> dict[str, np.ndarray]:
         every=means * dt,
         precision=precision,
         world=world,
-        progress=False,
+        on=dd.Resources(progress=False),
     )
     out: dict[str, np.ndarray] = {}
     for path, variable in data.data_vars.items():

@@ -49,9 +49,7 @@ def run(name: str, *paths: str, seed: int = 0) -> xarray.Dataset:
     model = dd.load(HERE / f"{name}.json")
     found = re.search(r"(\d+) ms\.$", model.document.notes)
     assert found is not None
-    return dd.simulate(
-        model, float(found[1]), seed=seed, record=list(paths), every=5 * model.document.step, progress=False
-    )
+    return dd.simulate(model, float(found[1]), seed=seed, record=list(paths), every=5 * model.document.step)
 
 
 # ---------------------------------------------------------------------------------------------- what is drawn
@@ -211,9 +209,7 @@ def saliency() -> Figure:
     model = dd.load(HERE / "saliency.json")
     model.set("cue.center", 5.0)
     paths = ["eye.output", "spatial.activation", "pan.output", "tilt.output"]
-    end = dd.simulate(model, 3500, record=paths, every=3500, world=scene.picture, progress=False).isel(
-        time=-1
-    )
+    end = dd.simulate(model, 3500, record=paths, every=3500, world=scene.picture).isel(time=-1)
     seen, u = end["eye.output"].values, end["spatial.activation"]
     width, height = scene.picture.size
     x, y = u[u.dims[0]].values, u[u.dims[1]].values
@@ -244,11 +240,7 @@ def plan() -> Figure:
     """The wave that goes left first and right later, and the walker's way."""
     figure = blank()
     data = dd.simulate(
-        dd.load(HERE / "plan.json"),
-        1200,
-        record=["left.motivation.activation", "gone.activation"],
-        every=5,
-        progress=False,
+        dd.load(HERE / "plan.json"), 1200, record=["left.motivation.activation", "gone.activation"], every=5
     )
     axes = part(figure)
     heat(axes, data["left.motivation.activation"].values, -12, 10, threshold=False)
@@ -267,12 +259,8 @@ def spa() -> Figure:
     figure = blank()
     arena = dd.architectures.maze("z")
     model = dd.architectures.spa(arena)
-    data = dd.simulate(
-        model, 220, record=["north.motivation.activation"], every=220, world=arena, progress=False
-    )
-    pose = dd.simulate(model, 760, record=["pose.output"], every=5, world=arena, progress=False)[
-        "pose.output"
-    ].values
+    data = dd.simulate(model, 220, record=["north.motivation.activation"], every=220, world=arena)
+    pose = dd.simulate(model, 760, record=["pose.output"], every=5, world=arena)["pose.output"].values
     u = data["north.motivation.activation"].isel(time=-1)
     x, y = u["x"].values, u["y"].values
     axes = part(figure)

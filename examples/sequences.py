@@ -35,7 +35,6 @@ def judged(length: int, seeds: range) -> tuple[int, int, int]:
             dd.architectures.lesson_end(length, len(PLACES)),
             seed=seed,
             record=dd.architectures.cascade_paths(length),
-            progress=False,
         )
         begin = dd.architectures.production_start(length)
         learned = dd.architectures.cascade(data, 0.0, begin)

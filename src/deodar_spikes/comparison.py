@@ -15,6 +15,7 @@ from deodar.codec import Json
 from deodar.errors import ParameterError
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes
+from deodar.resources import Resources
 from deodar.worlds._base import World
 from deodar_spikes.drive import NetworkInput, network_input
 from deodar_spikes.norse import norse_version
@@ -169,7 +170,7 @@ def _rate_model(
         every=dt,
         trials=trials if many else None,
         world=world,
-        progress=False,
+        on=Resources(progress=False),
     )
     at = np.round((np.arange(windows) + 0.5) * window / dt).astype(int)
     out: dict[str, NDArray[np.float32]] = {}

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from deodar.batch.simulate import simulate
 from deodar.errors import TimeError
 from deodar.model.model import Model
+from deodar.resources import Resources
 from deodar.worlds._base import World
 from deodar_spikes.graph import INPUT, NirGraph
 from deodar_spikes.translate import Translated
@@ -108,7 +109,7 @@ def network_input(
             every=step,
             trials=trials,
             world=world,
-            progress=False,
+            on=Resources(progress=False),
         )
         for r in ranges:
             values = data[ports[r.label]].values

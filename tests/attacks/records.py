@@ -58,8 +58,8 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "line": ("line", {"record": ["u", "n"]}),
     "plane": ("plane", {"record": ["u", "n.output"], "every": 2}),
     "trials": ("line", {"record": ["u"], "every": 3, "trials": 5}),
-    "pieces": ("line", {"record": ["n"], "every": 50, "trials": 4, "batch": 2}),
-    "workers": ("line", {"record": ["n"], "every": 50, "trials": 4, "workers": 2}),
+    "pieces": ("line", {"record": ["n"], "every": 50, "trials": 4, "on": dd.Resources(batch=2)}),
+    "workers": ("line", {"record": ["n"], "every": 50, "trials": 4, "on": dd.Resources(workers=2)}),
 }
 
 RESUMED = tuple(case for case in CASES if case != "workers")
@@ -76,7 +76,11 @@ def child(case: str, out: str, notes: str) -> None:
                 file.write(f"{time.time()!r} {done}\n".encode())
 
         dd.simulate(
-            model(kind), STEPS * (10 if case == "workers" else 1), seed=3, out=out, progress=note, **settings
+            model(kind),
+            STEPS * (10 if case == "workers" else 1),
+            seed=3,
+            out=out,
+            **settings | {"on": dc.replace(settings.get("on", dd.Resources()), progress=note)},
         )
 
 
@@ -153,10 +157,11 @@ def resume(folder: Path, case: str, outcome: Outcome) -> None:
         for again in range(2):
             try:
                 if again:
-                    dd.resume(out, progress=stopping(1800))
+                    dd.resume(out, on=dd.Resources(progress=stopping(1800)))
                 else:
-                    given: dict[str, Any] = {"seed": 3, "out": out, "snapshots": 200, **settings}
-                    dd.simulate(model(kind), end, progress=stopping(600), **given)
+                    given: dict[str, Any] = {"seed": 3, "out": dd.Output(out, snapshots=200), **settings}
+                    on = dc.replace(settings.get("on", dd.Resources()), progress=stopping(600))
+                    dd.simulate(model(kind), end, **given | {"on": on})
             except dd.errors.Interrupted:
                 pass
             else:

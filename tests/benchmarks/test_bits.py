@@ -32,8 +32,10 @@ def test_the_last_piece_is_as_wide_as_the_others() -> None:
     """Trials 0 to 3 in pieces of 3 and 1, of which the second is filled up; points of a sweep likewise."""
     model = bits.MODELS["two lines of 31"](1)
 
-    def run(**others: object) -> np.ndarray:
-        return dd.simulate(model, 20, record=["u1.activation"], every=20, **others)["u1.activation"].values  # type: ignore[arg-type]
+    def run(batch: int, **others: object) -> np.ndarray:
+        on = dd.Resources(batch=batch)
+        data = dd.simulate(model, 20, record=["u1.activation"], every=20, on=on, **others)  # type: ignore[arg-type]
+        return data["u1.activation"].values
 
     np.testing.assert_array_equal(run(trials=[0, 1, 2, 3], batch=3)[3], run(trials=[3, 5, 7], batch=3)[0])
     sweep = {"s.amplitude": [2.0, 4.0, 6.0, 8.0]}
@@ -49,5 +51,8 @@ def test_a_batch_of_one_has_the_bits_of_a_single_run() -> None:
     model = bits.MODELS["a plane, a line and a node"](1)
     alone = dd.simulate(model, 20, record=["u0.activation"])["u0.activation"].values
     np.testing.assert_array_equal(
-        dd.simulate(model, 20, record=["u0.activation"], trials=2, batch=1)["u0.activation"].values[0], alone
+        dd.simulate(model, 20, record=["u0.activation"], trials=2, on=dd.Resources(batch=1))[
+            "u0.activation"
+        ].values[0],
+        alone,
     )

@@ -65,7 +65,7 @@ from tests.deodar.recording.models import model
 growing.FLUSH_SECONDS = run.CHUNK_SECONDS = 0.005
 dd.simulate(model(), 1, record="u")
 resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
-dd.simulate(model(), 100_000, seed=3, record="u", every=1, out=sys.argv[1], snapshots=100)
+dd.simulate(model(), 100_000, seed=3, record="u", every=1, out=dd.Output(sys.argv[1], snapshots=100))
 """
 
 

@@ -153,7 +153,7 @@ def recorded(root: Path, **how: Any) -> Any:
     """Write a record of an example as `deodar run` does, and return it."""
     model = dd.load(root / "selection.json")
     chosen: dict[str, Any] = {"duration": 60, "record": ["u.activation", "left.output"], "every": 2}
-    data = dd.simulate(model, **chosen | how, progress=False)
+    data = dd.simulate(model, **chosen | how)
     folder.write(data, model.document, root / "selection-001", "zarr")
     return data
 
@@ -554,7 +554,7 @@ def driven(folder: Path, *ports: str) -> Any:
         model.add(dd.Boost(f"go {name}", [], amplitude)) >> model.add(dd.Motor(name, [], name))
     model.add(dd.Sensor("pose", [dd.Axis("of", 0, 2, 3)], "pose"))
     how: dict[str, Any] = {"world": Arena(LAYOUT), "record": list(ports)}
-    data = dd.simulate(model, duration=3200, progress=False, **how)
+    data = dd.simulate(model, duration=3200, **how)
     dd.save_record(data, folder / "drive.zarr")
     return data
 
@@ -661,7 +661,7 @@ def test_a_run_that_cannot_continue_from_a_moment_states_why(
 def test_a_peak_of_one_sample_in_a_long_record_is_in_its_time_course(root: Path) -> None:
     model = dd.Model("pulse")
     pulse = model.add(dd.Boost("pulse", [], amplitude=1.0, windows=[dd.Window(12345.0, 12346.0)]))
-    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"], progress=False)
+    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"])
     folder.write(data, model.document, root / "pulse", "zarr")
 
     async def scene(p: Page) -> None:
@@ -680,7 +680,7 @@ def test_a_peak_of_one_sample_in_a_long_record_is_in_its_rows_over_time(root: Pa
     x = dd.Axis("x", 0, 9, 10)
     window = [dd.Window(12345.0, 12346.0)]
     pulse = model.add(dd.GaussianStimulus("pulse", [x], amplitude=9.0, center=3, sigma=0.5, windows=window))
-    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"], progress=False)
+    data = dd.simulate(model, 40_000.0, dt=1.0, record=[f"{pulse.path}.output"])
     folder.write(data, model.document, root / "pulse", "zarr")
 
     async def scene(p: Page) -> None:

@@ -34,7 +34,7 @@ u = model.add(dd.Field("u", [x], tau=10, kernel=[dd.Gaussian(1.0, 2.0)], global_
 stimulus >> dd.Gain(1.2) >> u
 assert model.check() == []
 
-data = dd.simulate(model, 50, trials=2, record=["u.activation"], every=5, progress=True)
+data = dd.simulate(model, 50, trials=2, record=["u.activation"], every=5, on=dd.Resources(progress=True))
 session = dd.Session(model)
 session.run(50)
 assert session.read("u").shape == (21,)

@@ -29,6 +29,8 @@ FLOORS: tuple[frozenset[str], ...] = tuple(
         "model",
         "kinds",
         "compiler",
+        "cores cluster precision sweep",
+        "resources",
         "recording",
         "session",
         "gradients",

@@ -105,7 +105,7 @@ def test_unsaved_edits_of_the_studio_are_offered_and_open(old: Path, tmp_path: P
 
 @pytest.mark.parametrize("record", ["version_1/record.nc", "version_1/record.zarr", "version_2/record.nc"])
 def test_a_record_is_run_again_from_its_document(record: str) -> None:
-    again = repeat(dd.load_record(OLD.parent / record), dd.simulate, progress=False)
+    again = repeat(dd.load_record(OLD.parent / record), dd.simulate)
     assert max(again.largest.values()) < 1e-4 and again.compared == 5
 
 

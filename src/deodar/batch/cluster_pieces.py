@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from deodar.batch import sent
-from deodar.batch.cluster import Cluster
 from deodar.batch.compute import compute
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import PackedModel, require_portable
@@ -17,8 +16,10 @@ from deodar.batch.pieces import EMPTY, PieceResult
 from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import PieceMessage, SentOutput, SentPart, SentState
 from deodar.batch.simulation_request import SimulationRequest
+from deodar.cluster import Cluster
 from deodar.errors import WorkerError
 from deodar.model.model import Model
+from deodar.precision import Arithmetic
 from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds._base import World
 
@@ -50,7 +51,7 @@ def run(
         WorkerError: the workers cannot run the pieces.
     """
     require_one_kind(cluster, world)
-    with ClusterPool(cluster, pieces[0].precision) as pool:
+    with ClusterPool(cluster, Arithmetic.of(pieces[0].precision).precision) as pool:
         return in_pool(pool, model, world, pieces, out, between)
 
 

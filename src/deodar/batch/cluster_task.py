@@ -43,8 +43,8 @@ def description(precision: str) -> dict[str, str]:
 def _description(precision: str) -> dict[str, str]:
     # start-up time: these bring JAX
     from deodar.batch import pool
-    from deodar.batch.cores import settled
     from deodar.compiler.device import CORES, find
+    from deodar.cores import settled
     from deodar.recording.provenance import made_by
 
     if not settled():

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from deodar.batch import pieces
-from deodar.batch.points import Points
+from deodar.batch.points import SweepPoints
 from deodar.batch.progress import Shown, bar
 from deodar.batch.run_file import OutputPart, RunOutput, Sampling
 from deodar.batch.simulation_request import SimulationRequest
@@ -29,6 +29,7 @@ from deodar.model.model import Model
 from deodar.model.resolve import Node, resolve
 from deodar.numerics.axes import shape
 from deodar.parameters import show
+from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import provenance, stored
 from deodar.session import memory
@@ -36,6 +37,7 @@ from deodar.session.exchange import embodied
 from deodar.session.interrupt import stoppable
 from deodar.session.run import Run, require_step, whole
 from deodar.session.session import LARGEST_SEED, require_model, require_seed
+from deodar.sweep import Points
 from deodar.worlds._base import World
 
 Spread = Callable[
@@ -49,15 +51,10 @@ MOST_OWN = 2**16
 """Number of points, and of trials, that have noise of their own under one seed."""
 
 
-PROVENANCE = ("duration", "seed", "every", "accuracy", "record")
-"""Parts of a request that every record states; other entries are known only after the start."""
-
-
 def compute(
     model: Model,
     request: SimulationRequest,
     world: World | None = None,
-    progress: Shown = None,
     spread: Spread | None = None,
     out: RunOutput | OutputPart | None = None,
 ) -> pieces.PieceResult:
@@ -68,8 +65,9 @@ def compute(
     `spread` runs pieces in other processes. With `out` the samples are written to a file; the result has
     none.
     """
-    sweep, precision, device = request.sweep, request.precision, request.device
-    places = devices.several(request.devices, device)
+    on, device = request.on, request.on.device
+    precision, accuracy = Arithmetic.of(request.precision)
+    places = devices.several(on.devices, device)
     across = hosts.span(places)
     hosts.require_one("a world", across and world is not None)
     doc = require_model(model).document
@@ -80,8 +78,7 @@ def compute(
     steps = whole(request.duration, step, "the duration")
     asked_for, gap, strides = _probes(request, step, out)
     names, numbers = _trials(request.trials)
-    points = Points(doc, {} if sweep is None else sweep, request.first)
-    own_noise = _own_noise(request, points)
+    points = SweepPoints(doc, request.sweep, request.first)
     for document in points.documents():
         require_step(document, step)
     ports, strides = _ports(doc, asked_for, strides)
@@ -94,7 +91,7 @@ def compute(
     cut = _cut(size, names, points, request, places)
     kept = 0 if out is not None else count * copies.size
     recorded = sum(_cells(nodes, entry, port) for entry, port in ports) * kept
-    beside = min(request.workers or 0, cut.count) if cut.count > 1 else 0
+    beside = min(on.workers or 0, cut.count) if cut.count > 1 else 0
     memory.require(
         nodes,
         precision,
@@ -108,18 +105,19 @@ def compute(
     request = dc.replace(request, duration=float(request.duration), seed=seed)
     request = dc.replace(request, record=list(map(str, paths)) or None)
     labels, listed = list(numbers) if names else None, points.asked
-    asked = {"trials": labels, "sweep": listed, "workers": request.workers, "device": device}
-    asked |= {"devices": len(places)} if request.devices is not None else {}
-    asked |= {"own_noise": True} if own_noise else {}
+    asked = {"trials": labels, "sweep": listed, "workers": on.workers, "device": device}
+    asked |= {"devices": len(places)} if on.devices is not None else {}
+    asked |= {"own_noise": True} if points.own_noise else {}
     if across:
         _require_same(doc, float(step), request, {**asked, "out": out is not None})
     if isinstance(out, RunOutput):
         out.plan(points, cut, asked)
     if cut.count > 1:
         hosts.require_one("workers or a cluster", across and spread is not None)
-        jobs = cut.requests(dc.replace(request, dt=float(step)), labels, listed)
+        sweep = Points(listed, points.own_noise) if isinstance(listed, list) else listed
+        jobs = cut.requests(dc.replace(request, dt=float(step)), labels, sweep)
         assert not isinstance(out, OutputPart)
-        with _watched(across, steps * len(jobs), progress) as tell:
+        with _watched(across, steps * len(jobs), on.progress) as tell:
             if spread is None:
                 parts = _one_by_one(model, jobs, world, steps, out, tell)
             else:
@@ -132,28 +130,28 @@ def compute(
             points.size + more_points if swept else None,
             len(numbers) + more_trials if names else None,
             tuple(map(tuple, points.leaves)),
-            own_noise=own_noise,
+            own_noise=points.own_noise,
         )
         distribution, filled = division.distributed(wide, places)
         more_points = (filled.points or points.size) - points.size
         more_trials = (filled.trials or len(numbers)) - len(numbers)
         place = distribution or device
-        dynamics = Dynamics(model, doc, precision, request.accuracy, place, embodied(doc, world))
+        dynamics = Dynamics(model, doc, precision, accuracy, place, embodied(doc, world))
         values = [np.concatenate([v, np.repeat(v[-1:], more_points)]) for v in points.values]
         numbered = [*numbers, *[numbers[-1]] * more_trials]
-        if own_noise:
+        if points.own_noise:
             numbered = _numbered(request.first, points.size + more_points, numbered)
         run = Run(dynamics, filled, float(step), seed, numbered, world, values if swept else None)
         program = run.program
         run.tolerated = filled.size - 1
         found = [program.port(i, port) for i, port in ports]
-        settings = {name: getattr(request, name) for name in PROVENANCE}
+        settings = _settings(request)
         about = provenance(doc, run, **settings, **asked, batch=cut.batch)
         sampling = Sampling(start, gap, count, float(step), strides)
         part = out.part(0) if isinstance(out, RunOutput) else out
         store = _Store(program, found, filled, count if part is None else 0)
         try:
-            with bar(steps, progress) as shown:
+            with bar(steps, on.progress) as shown:
                 if part is not None:
                     places = [(ident, port, p) for (ident, port), p in zip(ports, found, strict=True)]
                     part.begin(program, places, sampling, about)
@@ -210,10 +208,19 @@ def compute(
 def _require_same(doc: Document, step: float, request: SimulationRequest, asked: Mapping[str, Any]) -> None:
     """Raise HostsError unless all hosts compute the same."""
     hosts.require_equal("the model", stored(doc))
-    same = ("duration", "seed", "every", "record", "precision", "accuracy", "batch")
-    hosts.require_equal(
-        "the arguments of simulate", {**asked, "dt": step, **{name: getattr(request, name) for name in same}}
-    )
+    about = {**asked, "dt": step, **_settings(request), "precision": request.precision}
+    hosts.require_equal("the arguments of simulate", {**about, "batch": request.on.batch})
+
+
+def _settings(request: SimulationRequest) -> dict[str, Any]:
+    """Return the parts of a request that every record states; others are known only after the start."""
+    return {
+        "duration": request.duration,
+        "seed": request.seed,
+        "every": request.every,
+        "accuracy": Arithmetic.of(request.precision).accuracy,
+        "record": request.record,
+    }
 
 
 def _whole(
@@ -228,7 +235,7 @@ def _whole(
     return pieces.PieceResult(data, True, errors[0] if all(error is not None for error in errors) else None)
 
 
-def _missing(width: tuple[str, int] | None, points: Points, trials: int) -> tuple[int, int]:
+def _missing(width: tuple[str, int] | None, points: SweepPoints, trials: int) -> tuple[int, int]:
     """Return the number of points and trials that a piece lacks to be as wide as the others."""
     if width is None:
         return 0, 0
@@ -267,7 +274,9 @@ def _one_by_one(
             continue
         part = None if out is None else out.part(k)
         try:
-            parts[k] = compute(model, job, world, lambda done, k=k: between(k * steps + done), out=part)
+            parts[k] = compute(
+                model, watching(job, lambda done, k=k: between(k * steps + done)), world, out=part
+            )
         except Interrupted as error:
             parts[k] = pieces.PieceResult(error.data, False)
             break
@@ -277,14 +286,14 @@ def _one_by_one(
 def _cut(
     bytes_a_copy: int,
     trials: Sequence[int] | None,
-    points: Points,
+    points: SweepPoints,
     request: SimulationRequest,
     places: Sequence[devices.Device],
 ) -> pieces.Pieces:
     lengths = ({} if trials is None else {"trial": len(trials)}) | {
         path: len(values) for path, values in points.grid.items()
     }
-    workers, device = request.workers, request.device
+    workers, device = request.on.workers, request.on.device
     on_cpu = places[0].platform == devices.DEFAULT
     if workers is not None and (not on_cpu or len(places) > 1):
         given = "device" if not on_cpu else "devices"
@@ -293,18 +302,12 @@ def _cut(
             f"worker processes run on the cores of the CPU, not on {named}",
             fix=f"Leave out workers, or {given}",
         )
-    count = 1 if workers is None else require_workers(workers)
-    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, count, request.batch, len(places))
+    return pieces.cut(lengths, bytes_a_copy if on_cpu else 0, workers or 1, request.on.batch, len(places))
 
 
-def require_workers(workers: int) -> int:
-    """Return the number of workers; raise if it is not a positive whole number."""
-    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
-        raise ParameterError(
-            f"workers is {show(workers)}; expected a number of processes, at least 1",
-            fix="One for each core is best",
-        )
-    return int(workers)
+def watching(request: SimulationRequest, progress: Callable[[int], None]) -> SimulationRequest:
+    """Return the request of a piece with a function that receives its completed steps."""
+    return dc.replace(request, on=dc.replace(request.on, progress=progress))
 
 
 class _Store:
@@ -377,16 +380,6 @@ def _ports(
                 "is recorded with two intervals or conditions", where=probe.path, fix="Record it once"
             )
     return list(ports), list(ports.values())
-
-
-def _own_noise(request: SimulationRequest, points: Points) -> bool:
-    """Return whether each point has noise of its own; raise if that was asked of no list of points."""
-    if request.own_noise and not points.listed:
-        raise ParameterError(
-            "own_noise belongs to a sweep that is a list of points",
-            fix="For example sweep=[{'u.tau': 10}, {'u.tau': 20}]; trials have noise of their own",
-        )
-    return request.own_noise
 
 
 def _numbered(first: int, points: int, trials: Sequence[int]) -> list[list[int]]:

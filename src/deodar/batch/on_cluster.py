@@ -22,9 +22,9 @@ from collections.abc import Callable, Coroutine, Hashable, Mapping
 from typing import Any, Self
 
 from deodar.batch import cluster_task, scheduler
-from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_task import INSTRUCTIONS
 from deodar.batch.staffing import Staffing, WorkerWatch
+from deodar.cluster import Cluster
 from deodar.errors import WorkerError, first_line
 
 TASKS_A_WORKER = 2

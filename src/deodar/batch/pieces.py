@@ -7,14 +7,12 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from deodar import codec
-from deodar.batch.points import POINT, Sweep, dimensions
+from deodar.batch.points import dimensions
 from deodar.batch.simulation_request import SimulationRequest
-from deodar.errors import NotFinite, ParameterError
-from deodar.parameters import show
+from deodar.errors import NotFinite
 from deodar.recording.provenance import KEY
+from deodar.sweep import POINT, Points, Sweep
 
 if TYPE_CHECKING:
     import xarray
@@ -75,21 +73,25 @@ class Pieces:
         return math.ceil(self.total / self.length)
 
     def requests(
-        self, whole: SimulationRequest, trials: Sequence[int] | None, sweep: Sweep
+        self,
+        whole: SimulationRequest,
+        trials: Sequence[int] | None,
+        sweep: Mapping[str, Sequence[float]] | Points,
     ) -> list[SimulationRequest]:
         """Return for each piece the request of the whole run, with the trials and the sweep of the piece."""
         out: list[SimulationRequest] = []
+        on = dc.replace(whole.on, workers=None, cluster=None, progress=None, batch=self.batch)
         for first in range(0, self.total, self.length):
             part = slice(first, first + self.length)
             own = list(trials) if trials is not None else None
             grid: Sweep = sweep
-            if self.dimension == POINT and not isinstance(sweep, Mapping):
-                grid = sweep[part]
+            if self.dimension == POINT and isinstance(sweep, Points):
+                grid = dc.replace(sweep, values=sweep.values[part])
             elif isinstance(sweep, Mapping) and self.dimension in sweep:
                 grid = {**sweep, self.dimension: list(sweep[self.dimension][part])}
             else:
                 own = own[part] if own is not None else None
-            piece = dc.replace(whole, trials=own, sweep=grid or None, workers=None, batch=self.batch)
+            piece = dc.replace(whole, trials=own, sweep=grid or None, on=on)
             at = first if self.dimension == POINT else 0
             out.append(dc.replace(piece, width=(self.dimension, self.length), first=at))
         return out
@@ -112,12 +114,6 @@ def cut(
             worker as many pieces.
         devices: number of devices that share a piece, each with a cache of its own.
     """
-    if batch is not None and (
-        isinstance(batch, bool) or not isinstance(batch, (int, np.integer)) or batch < 1
-    ):
-        raise ParameterError(
-            f"batch is {show(batch)}; expected a number of copies that run at once, at least 1"
-        )
     dimension = max(lengths, key=lambda name: lengths[name], default="")
     total = lengths.get(dimension, 1)
     rest = math.prod(lengths.values()) // total

@@ -15,15 +15,10 @@ from deodar.leaves import leaves
 from deodar.model import edit
 from deodar.model.document import Document
 from deodar.parameters import real, show
-
-Sweep = Mapping[str, Sequence[float]] | Sequence[Mapping[str, float]]
-"""For each parameter path its values, which form a grid; or a list of points, each with a value by path."""
-
-POINT = "point"
-"""The dimension of a list of points."""
+from deodar.sweep import POINT, Points, Sweep, checked
 
 
-class Points:
+class SweepPoints:
     """The points of a sweep: the leaves that each entry drives, and its value at every point.
 
     Args:
@@ -35,15 +30,18 @@ class Points:
         paths: the parameter paths.
         leaves: for each path the numbers that it drives.
         listed: whether the points are a list.
+        own_noise: whether each point has noise of its own.
         size: number of points.
         grid: the dimensions of the points, with the values of their coordinates.
         beside: for each path of a list its value at each point; empty for a grid.
     """
 
-    def __init__(self, doc: Document, sweep: Sweep, first: int = 0) -> None:
+    def __init__(self, doc: Document, sweep: Sweep | None, first: int = 0) -> None:
         self.doc = doc
-        self.listed = not isinstance(sweep, Mapping)
-        by_path = sweep if isinstance(sweep, Mapping) else _by_path(sweep)
+        given = checked(sweep)
+        self.listed = isinstance(given, Points)
+        self.own_noise = isinstance(given, Points) and given.own_noise
+        by_path = given.by_path() if isinstance(given, Points) else given
         self.paths = list(by_path)
         self.leaves: list[list[Leaf]] = []
         lists: list[list[float]] = []
@@ -112,41 +110,6 @@ class Points:
 def dimensions(sweep: Any) -> list[str]:
     """Return the dimensions of the points of a sweep as plain data; none without a sweep."""
     return list(sweep or ()) if isinstance(sweep or {}, Mapping) else [POINT]
-
-
-def _by_path(points: Any) -> dict[str, list[Any]]:
-    """Return for each path its values at the points of a list.
-
-    Raises:
-        ParameterError: the points are not mappings with the same paths.
-    """
-    again = "For example sweep=[{'u.tau': 10, 'u.resting_level': -5}, {'u.tau': 20, 'u.resting_level': -3}]"
-    if isinstance(points, (str, bytes)) or not isinstance(points, Sequence) or not points:
-        raise ParameterError(
-            f"a sweep gives values for each parameter path, or a list of points, not {show(points)}",
-            fix=again,
-        )
-    found: list[Any] = list(points)
-    for number, point in enumerate(found):
-        if not isinstance(point, Mapping) or not point:
-            raise ParameterError(
-                f"gives a value for each parameter path, not {show(point)}",
-                where=f"point {number} of the sweep",
-                fix=again,
-            )
-        if set(point) != set(found[0]):
-            raise ParameterError(
-                f"has the paths {', '.join(map(str, point))}; point 0 has {', '.join(map(str, found[0]))}",
-                where=f"point {number} of the sweep",
-                fix="All points have the same paths",
-            )
-    if POINT in found[0]:
-        raise ParameterError(
-            f"is also the name of the dimension of the points, {POINT!r}",
-            where=f"sweep of {POINT}",
-            fix="Sweep a grid, or rename the document parameter",
-        )
-    return {path: [point[path] for point in found] for path in found[0]}
 
 
 def _require_on(doc: Document, path: str, driven: Sequence[Leaf], values: Sequence[float]) -> None:

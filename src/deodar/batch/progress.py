@@ -20,7 +20,7 @@ REDRAW_AFTER = 0.1
 LINE_AFTER = 10.0
 """Seconds after which a run whose progress is requested prints it as a line, without a terminal."""
 
-Shown = bool | Callable[[int], None] | None
+Shown = bool | Callable[[int], object] | None
 """Whether to show a progress bar (None: on a terminal, after a second), or a function that is called with the
 number of completed steps.
 """
@@ -73,7 +73,7 @@ def _replace_line(text: str) -> None:
 
 
 @contextlib.contextmanager
-def bar(steps: int, progress: Shown) -> Generator[Callable[[int], None]]:
+def bar(steps: int, progress: Shown) -> Generator[Callable[[int], object]]:
     """Show a progress bar once the run takes longer than SHOW_AFTER."""
     if callable(progress):
         yield progress

@@ -7,21 +7,22 @@ import dataclasses as dc
 import functools
 from collections.abc import Callable, Generator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_pieces import in_pool, require_one_kind
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pieces import cut
-from deodar.batch.points import POINT
-from deodar.batch.progress import Shown
-from deodar.batch.run_file import RunOutput
+from deodar.batch.run_file import Output, RunOutput
 from deodar.batch.simulate import warned
 from deodar.batch.simulation_request import SimulationRequest
+from deodar.cluster import Cluster
 from deodar.compiler import device as devices
 from deodar.compiler import hosts
 from deodar.errors import RecordError, WorkerError
+from deodar.precision import Arithmetic
 from deodar.recording import provenance
+from deodar.resources import Resources
+from deodar.sweep import POINT, checked
 from deodar.worlds._base import World
 
 if TYPE_CHECKING:
@@ -35,9 +36,8 @@ def resume(
     duration: float | None = None,
     world: World | None = None,
     trust: bool = False,
-    progress: Shown = None,
     accept: Callable[[tuple[Difference, ...]], bool] | None = None,
-    cluster: Cluster | str | None = None,
+    on: Resources = Resources(),
 ) -> xarray.Dataset:
     """Continue a run that was killed or stopped, or make a complete one longer; return its record, opened.
 
@@ -53,12 +53,11 @@ def resume(
         duration: document time of the whole run; None: that of the record.
         world: the world of its sensors; None: that of the record, opened again.
         trust: whether functions that its document names may be imported and run.
-        progress: as in `simulate`.
         accept: called with what differs from the versions and the machine of the record, if anything does;
             returns whether to continue. Samples after the stored state are then dropped at once. None:
             differences are an error. On a cluster the versions and the machine are those of its workers.
-        cluster: workers on this or many machines that share the remaining pieces, as in `simulate`; a run in
-            one piece continues in this process.
+        on: a cluster that shares the remaining pieces (a run in one piece continues in this process), and
+            whether to show progress.
 
     Raises:
         RecordError: the record is complete and not made longer, another process writes it, or versions or
@@ -72,6 +71,7 @@ def resume(
     from deodar.recording.record import about
     from deodar.recording.repeat import differences, request, world_of
 
+    on.use("dd.resume", "cluster", "progress")
     path = Path(path)
     data = files.open_record(path)
     if not files.grows(path):
@@ -92,21 +92,20 @@ def resume(
             "is complete", where=str(path), fix="Give a longer duration, for example --duration 1000"
         )
     hosts.require_one("resuming a run", hosts.count() > 1)
-    there = None if cluster is None else Cluster.of(cluster)
-    if _pieces(settings) == 1:
-        there = None
-    elif there is not None:
-        settings["workers"] = None
+    asked = dc.replace(SimulationRequest(**settings), duration=whole)
+    there = None if on.cluster is None or _pieces(asked) == 1 else Cluster.of(on.cluster)
+    workers = asked.on.workers if there is None else None
+    asked = dc.replace(asked, on=dc.replace(asked.on, workers=workers, progress=on.progress))
     world = world or world_of(data)
-    with _connected(there, settings, world) as pool:
+    with _connected(there, asked, world) as pool:
         if pool is None:
-            device = devices.several(settings["devices"], settings["device"])[0]
+            device = devices.several(asked.on.devices, asked.on.device)[0]
             used = provenance.devices_of(made)  # it follows from the request
-            made_by = provenance.made_by(device, settings["precision"], used)
+            made_by = provenance.made_by(device, Arithmetic.of(asked.precision).precision, used)
         else:
             made_by = pool.made_by
         found = differences(made, {**made, "made_by": made_by})
-        if settings["workers"] is not None:  # a worker process uses one core, however many this one uses
+        if workers is not None:  # a worker process uses one core, however many this one uses
             found = tuple(d for d in found if d.what != "cores")
         if found and (accept is None or not accept(found)):
             raise RecordError(
@@ -115,17 +114,16 @@ def resume(
                 where=str(path),
                 fix="Accept the differences: --yes, or accept=lambda differences: True",
             )
-        out = RunOutput(path, resume=True, cut=bool(found))
+        out = RunOutput(Output(path), resume=True, cut=bool(found))
         if whole > settings["duration"]:
             out.lengthen(whole)
-        asked = dc.replace(SimulationRequest(**settings), duration=whole)
         spread = None if pool is None else functools.partial(in_pool, pool)
-        return warned(model, asked, world, progress, out, spread)
+        return warned(model, asked, world, out, spread)
 
 
 @contextlib.contextmanager
 def _connected(
-    cluster: Cluster | None, settings: Mapping[str, Any], world: World | None
+    cluster: Cluster | None, asked: SimulationRequest, world: World | None
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the pieces; None without a cluster.
 
@@ -135,23 +133,26 @@ def _connected(
     if cluster is None:
         yield None
         return
-    given = next((name for name in ("devices", "device") if settings[name] not in (None, "cpu")), "")
+    used = {"devices": asked.on.devices, "device": asked.on.device}
+    given = next((f"{name} = {value}" for name, value in used.items() if value not in (None, "cpu")), "")
     if given:
         raise WorkerError(
-            f"the workers of a cluster use one core each, and the run has {given} = {settings[given]}",
+            f"the workers of a cluster use one core each, and the run has {given}",
             fix="Resume it without a cluster",
         )
     require_one_kind(cluster, world)
-    with ClusterPool(cluster, settings["precision"]) as pool:
+    with ClusterPool(cluster, Arithmetic.of(asked.precision).precision) as pool:
         yield pool
 
 
-def _pieces(settings: Mapping[str, Any]) -> int:
-    """Return the number of pieces of a run, from the settings of its record."""
-    trials, sweep = settings["trials"], settings["sweep"] or {}
-    lengths: dict[str, int] = {} if trials is None else {"trial": len(trials)}
+def _pieces(asked: SimulationRequest) -> int:
+    """Return the number of pieces of a recorded run."""
+    lengths: dict[str, int] = {}
+    if asked.trials is not None:
+        lengths = {"trial": asked.trials if isinstance(asked.trials, int) else len(asked.trials)}
+    sweep = checked(asked.sweep)
     if isinstance(sweep, Mapping):
         lengths |= {path: len(values) for path, values in sweep.items()}
     else:
-        lengths |= {POINT: len(sweep)}
-    return cut(lengths, 0, batch=settings["batch"]).count
+        lengths |= {POINT: len(sweep.values)}
+    return cut(lengths, 0, batch=asked.on.batch).count

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses as dc
 import hashlib
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -13,7 +14,7 @@ import numpy as np
 
 from deodar import codec
 from deodar.batch.pieces import Pieces
-from deodar.batch.points import Points
+from deodar.batch.points import SweepPoints
 from deodar.compiler import hosts
 from deodar.compiler.executable import Executable
 from deodar.compiler.program import Port
@@ -37,6 +38,27 @@ PIECE_CHECKPOINT = "state-{}.npz"
 
 CHECKPOINT_SECONDS = 30.0
 """Wall time between two stored states, in seconds, unless a document time is given (a guess)."""
+
+
+@dc.dataclass(frozen=True)
+class Output:
+    """Where `simulate` writes a record during the run, and how.
+
+    Attributes:
+        path: a name ending in .zarr, or a folder, which gets the record and the model.
+        force: whether an existing record, or the folder of a run, is replaced.
+        snapshots: document time between two stored states, from which `dd.resume` continues; none: about
+            every 30 s of wall time.
+    """
+
+    path: str | Path
+    force: bool = False
+    snapshots: float | None = None
+
+    @classmethod
+    def of(cls, given: Output | str | Path) -> Output:
+        """Return an output by its path, or the output itself."""
+        return given if isinstance(given, Output) else cls(given)
 
 
 class Sampling(NamedTuple):
@@ -119,9 +141,7 @@ class RunOutput:
     """The record of a run, written during the run.
 
     Args:
-        path: a name ending in .zarr, or a folder, which gets the record and the model.
-        force: whether an existing record, or the folder of a run, is replaced.
-        snapshots: document time between two stored states; None: about every 30 s of wall time.
+        output: its place.
         resume: whether to continue an incomplete record.
         cut: whether a resumed run drops the samples after its stored state at once: other versions or another
             machine computed them.
@@ -131,20 +151,13 @@ class RunOutput:
         OutputError: it cannot be written.
     """
 
-    def __init__(
-        self,
-        path: Path,
-        force: bool = False,
-        snapshots: float | None = None,
-        resume: bool = False,
-        cut: bool = False,
-    ) -> None:
+    def __init__(self, output: Output, resume: bool = False, cut: bool = False) -> None:
         # start-up time: these import xarray
         from deodar.recording import files, folder
 
-        self.force, self.snapshots = force, snapshots
-        self.path = path
-        self.record = files.locate(path)[0] if resume else folder.growing(path)
+        self.force, self.snapshots = output.force, output.snapshots
+        self.path = Path(output.path)
+        self.record = files.locate(self.path)[0] if resume else folder.growing(self.path)
         self.state: StoredState | None = None
         self.state_file = str(self.record / CHECKPOINT)
         self.resumes, self.cuts, self.longer = resume, cut, dict[str, Any]()
@@ -152,7 +165,7 @@ class RunOutput:
             if (self.record / CHECKPOINT).exists():  # else the run begins again
                 self.state = checkpoint.read(self.record / CHECKPOINT)
         else:
-            folder.claim_growing(path, force)
+            folder.claim_growing(self.path, self.force)
         self.writer: GrowingRecord | None = None
         self.reasons: dict[tuple[int, ...], str] = {}
         self.done: list[int] = []
@@ -182,7 +195,7 @@ class RunOutput:
         again = "" if isinstance(error, NotFinite) else f". deodar run {self.path} --resume continues it"
         return f"The record {end} kept: {self.path}{again}"
 
-    def plan(self, points: Points, cut: Pieces, settings: Mapping[str, Any]) -> None:
+    def plan(self, points: SweepPoints, cut: Pieces, settings: Mapping[str, Any]) -> None:
         """Set the copies of the whole run, how they are cut into pieces, and what the record states of it."""
         self.doc, self.cut = points.doc, cut
         self.grid, self.beside = points.grid, points.beside
@@ -316,12 +329,11 @@ class OutputElsewhere(RunOutput):
     """The record of a run that the first of several hosts writes, on the other hosts.
 
     Args:
-        path: its path, for the Dataset that `close` returns.
-        snapshots: as in `RunOutput`.
+        output: its place, for the Dataset that `close` returns.
     """
 
-    def __init__(self, path: Path, snapshots: float | None) -> None:
-        self.path, self.snapshots, self.force = path, snapshots, False
+    def __init__(self, output: Output) -> None:
+        self.path, self.snapshots, self.force = Path(output.path), output.snapshots, False
         self.state, self.state_file, self.resumes = None, "", False
         self.writer, self.reasons, self.done = None, {}, []
 
@@ -391,7 +403,7 @@ class OutputPart:
         steps: int,
         ports: Sequence[Port],
         check: Callable[[], None],
-        shown: Callable[[int], None],
+        shown: Callable[[int], object],
     ) -> None:
         """Advance a run that has just begun to its end, from the stored state if one is resumed.
 

@@ -18,8 +18,8 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from deodar import codec
-from deodar.batch.cluster import Cluster, slurm_settings
 from deodar.batch.pool import quiet
+from deodar.cluster import Cluster, slurm_settings
 from deodar.errors import MissingExtra, ParameterError, WorkerError, first_line
 
 CONNECT_SECONDS = 20.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import platform
 
-from deodar.batch.cores import started
 from deodar.compiler.rounding import FLAGS, SEPARATE, separate_rounding
+from deodar.cores import started
 from deodar.errors import DeviceError
 
 

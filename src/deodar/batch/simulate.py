@@ -4,6 +4,7 @@ parallel.
 
 from __future__ import annotations
 
+import dataclasses as dc
 import functools
 import math
 import warnings
@@ -11,23 +12,23 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from deodar.batch.cluster import Cluster
 from deodar.batch.cluster_pieces import run as on_cluster
 from deodar.batch.compute import Spread, compute
-from deodar.batch.points import Sweep
-from deodar.batch.progress import Shown
-from deodar.batch.run_file import OutputElsewhere, RunOutput
+from deodar.batch.run_file import Output, OutputElsewhere, RunOutput
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.batch.workers import run as in_workers
+from deodar.cluster import Cluster
 from deodar.compiler import device as places
 from deodar.compiler import hosts
-from deodar.errors import DeodarError, Interrupted, NotFinite, ParameterError, RunWarning
+from deodar.errors import DeodarError, Interrupted, NotFinite, RunWarning
 from deodar.model.model import Handle, Model
 from deodar.parameters import real
 from deodar.recording.probe import Probe
+from deodar.resources import Resources
 from deodar.session import agreement
 from deodar.session.run import MOST_STEPS
 from deodar.session.session import require_model
+from deodar.sweep import Sweep
 from deodar.worlds._base import World
 
 if TYPE_CHECKING:
@@ -45,30 +46,22 @@ day.
 def simulate(
     model: Model,
     duration: float,
+    *,
     dt: float | None = None,
     seed: int = 0,
     record: Probe | Handle | str | Sequence[Probe | Handle | str] | None = None,
     every: float | None = None,
     trials: int | Sequence[int] | None = None,
     sweep: Sweep | None = None,
-    precision: str = "float32",
     world: World | None = None,
-    progress: Shown = None,
-    workers: int | None = None,
-    batch: int | None = None,
-    device: str | None = None,
-    accuracy: str = "default",
-    out: str | Path | None = None,
-    snapshots: float | None = None,
-    force: bool = False,
-    own_noise: bool = False,
-    devices: int | str | None = None,
-    cluster: Cluster | str | None = None,
+    precision: str = "float32",
+    out: Output | str | Path | None = None,
+    on: Resources = Resources(),
 ) -> xarray.Dataset:
     """Run a model and return its record.
 
     Trials and points of a sweep are copies of the model in one batch. A batch that would exceed the
-    processor's cache is cut into pieces, along the longest of these dimensions; `workers` runs the pieces in
+    processor's cache is cut into pieces, along the longest of these dimensions; workers run the pieces in
     processes of one core each. The noise has the same bits for any cut, and float64 results agree to 1e-10. A
     worker takes one to two seconds to start, so a short run is faster without.
 
@@ -76,8 +69,8 @@ def simulate(
     because the compiler orders sums by the size of arrays: results of other widths agree to 1e-4. At the same
     width all bits agree, for any place of a copy, number of pieces, chunks, workers and restarts, and order
     of declaration. All pieces of a run have the same width: `batch` in the record; the last one is filled up.
-    With `batch=1` each trial has the bits of a single run. `python benchmarks/bits.py` tests this with random
-    combinations.
+    With `on=dd.Resources(batch=1)` each trial has the bits of a single run. `python benchmarks/bits.py` tests
+    this with random combinations.
 
     Args:
         model: the model in its present state.
@@ -91,34 +84,19 @@ def simulate(
         trials: number of trials (0 to n - 1 of the seed), or a list of trial numbers; trials differ in their
             noise.
         sweep: for each parameter path its values; several entries form a grid. Or a list of points, each a
-            mapping of values by path, which have one dimension, `point`. All points share the noise.
-        precision: float32 or float64.
+            mapping of values by path, which have one dimension, `point`. All points share the noise, except
+            those of `dd.Points(list, own_noise=True)`.
         world: the world that provides the sensors of the model.
-        progress: whether to show a progress bar; none: on a terminal, if the run takes longer than a second.
-            A function is called with the number of completed steps. From 10^9 steps on a `RunWarning` states
-            their number, and progress is shown unless this is False: without a terminal as lines.
-        workers: number of processes that share the copies; one per core is best.
-        batch: copies that run at once in one process; none: as many as fit into the cache, all on devices
-            other than the CPU.
-        device: device of the run: cpu, gpu, or one of several as gpu:1; none: the CPU.
-        accuracy: default (at most 1e-4 off in activation), or exact: every kernel by its matrix, even where
-            that is slower. Double precision is always exact, and so are elements of which a width is swept.
+        precision: float32, float64, or float32-exact: single precision with every kernel by its matrix, even
+            where that is slower. float32 is at most 1e-4 off in activation. Double precision is always exact,
+            and so are elements of which a width is swept.
         out: write the record to this place during the run: a name that ends in .zarr, or a folder,
-            which gets the record and the model. Memory does not grow with what is recorded, and if the
-            process is killed the record ends less than a second before (`dd.resume` continues it). Of several
-            hosts the first one writes; the others return a Dataset without samples.
-        snapshots: with `out`: document time between two stored states, from which `dd.resume` continues;
-            none: about every 30 s of wall time.
-        force: with `out`: whether to replace an existing record.
-        own_noise: whether each point of a list has noise of its own instead; point 0 has that of a run
-            without a sweep.
-        devices: number of devices of the kind of `device` that share the copies in equal parts, or "all" of
-            them; after `join_hosts` of all hosts, each of which returns the record. A copy has the bits that
-            it has in a batch of the size of one part. The fields of a single run are divided along an axis.
-            None: one device.
-        cluster: workers on this or many machines that share the pieces, in place of `workers`: a
-            `dd.Cluster`, or its address such as `local:4` or `tcp://HOST:8786`. Pieces are those without
-            workers; `batch` makes them smaller. A run in one piece is computed in this process.
+            which gets the record and the model; or a `dd.Output`, which may replace an existing record.
+            Memory does not grow with what is recorded, and if the process is killed the record ends less than
+            a second before (`dd.resume` continues it). Of several hosts the first one writes; the others
+            return a Dataset without samples.
+        on: devices, workers or a cluster, and whether to show progress. From 10^9 steps on a `RunWarning`
+            states their number, and progress is shown unless it is False: without a terminal as lines.
 
     Returns:
         A Dataset with one variable for each path; dimensions: those of the sweep (its paths, or `point`, with
@@ -138,6 +116,7 @@ def simulate(
         OutputError: samples cannot be written; those before are in the file.
     """
     require_model(model)
+    on.use("dd.simulate", "device", "devices", "workers", "cluster", "batch", "progress")
     steps = expected_steps(duration, model.document.step if dt is None else dt)
     if steps >= LONG_STEPS:
         step = model.document.step if dt is None else dt
@@ -147,25 +126,18 @@ def simulate(
             RunWarning,
             stacklevel=2,
         )
-        progress = True if progress is None else progress
+        on = dc.replace(on, progress=True if on.progress is None else on.progress)
     agreement.warn(model.document, world, stacklevel=2)
-    copies = trials, sweep, own_noise
-    request = SimulationRequest(
-        duration, dt, seed, record, every, *copies, precision, workers, batch, device, devices, accuracy
-    )
-    for name, given in (("workers", workers), ("devices", devices)):
-        if given is not None and cluster is not None:
-            raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
-    spread = None if cluster is None else functools.partial(on_cluster, Cluster.of(cluster))
-    with hosts.together(places.of_all_hosts(devices, device)):
-        across = hosts.count() > 1 and hosts.span(places.several(devices, device))
+    request = SimulationRequest(duration, dt, seed, record, every, trials, sweep, precision, on)
+    with hosts.together(places.of_all_hosts(on.devices, on.device)):
+        across = hosts.count() > 1 and hosts.span(places.several(on.devices, on.device))
         if out is None:
             file = None
         elif across and not hosts.first():
-            file = OutputElsewhere(Path(out), snapshots)
+            file = OutputElsewhere(Output.of(out))
         else:
-            file = RunOutput(Path(out), force, snapshots)
-        data = warned(model, request, world, progress, file, spread)
+            file = RunOutput(Output.of(out))
+        data = warned(model, request, world, file)
         # an error after the last chunk, as of a disk, also reaches the others in this call
         hosts.any_of("the end of the run", True, across)
         return data
@@ -175,19 +147,18 @@ def warned(
     model: Model,
     request: SimulationRequest,
     world: World | None,
-    progress: Shown,
     out: RunOutput | None,
     spread: Spread | None = None,
 ) -> xarray.Dataset:
     """Compute a run, in memory or into a file; return its record, with a warning if copies diverged.
 
-    `spread` runs pieces on a cluster; none: in worker processes, if the request has workers.
+    `spread` runs pieces on a cluster that is connected; none: where the request says.
 
     Raises:
         NotFinite: a single run diverges, or all copies diverge.
         Interrupted: on Ctrl-C, with the record until then.
     """
-    data, lost = _computed(model, request, world, progress, out, spread)
+    data, lost = _computed(model, request, world, out, spread)
     if lost is not None:
         raise lost
     if "diverged" in data.attrs:
@@ -199,19 +170,20 @@ def _computed(
     model: Model,
     request: SimulationRequest,
     world: World | None,
-    progress: Shown,
     out: RunOutput | None,
     spread: Spread | None,
 ) -> tuple[xarray.Dataset, NotFinite | None]:
     """Return the record, and the error if all copies diverged."""
-    if spread is None and request.workers is not None:
-        spread = functools.partial(in_workers, request.workers)
+    if spread is None and request.on.cluster is not None:
+        spread = functools.partial(on_cluster, Cluster.of(request.on.cluster))
+    elif spread is None and request.on.workers is not None:
+        spread = functools.partial(in_workers, request.on.workers)
     if out is None:
-        data, _, lost = compute(model, request, world, progress, spread)
+        data, _, lost = compute(model, request, world, spread)
         assert data is not None
         return data, lost
     try:
-        _, _, lost = compute(model, request, world, progress, spread, out)
+        _, _, lost = compute(model, request, world, spread, out)
     except BaseException as error:
         data = out.abandon()
         if isinstance(error, Interrupted):

@@ -6,15 +6,16 @@ import dataclasses as dc
 from collections.abc import Sequence
 from typing import Any
 
-from deodar.batch.points import Sweep
+from deodar.resources import Resources
+from deodar.sweep import Sweep
 
 
 @dc.dataclass(frozen=True)
 class SimulationRequest:
     """The request of a simulation, as passed to `deodar.simulate`, or of one piece of it.
 
-    Worker processes receive it pickled, so it contains plain data: the model, its world and the progress bar
-    are passed separately.
+    Worker processes receive it pickled, so a piece contains plain data: the model and its world are passed
+    separately.
 
     Attributes:
         duration: document time; a whole number of steps.
@@ -24,13 +25,8 @@ class SimulationRequest:
         every: document time between records; none: dt.
         trials: number of trials, or a list of trial numbers; none: one run without a dimension `trial`.
         sweep: for each parameter path its values, or a list of points; none: no sweep.
-        own_noise: whether each point of a list has noise of its own.
-        precision: float32 or float64.
-        workers: number of processes that share the copies; none: only this process.
-        batch: copies that run at once in one process; none: as many as fit into the cache.
-        device: where it runs; none: the CPU.
-        devices: number of devices that share the copies, or the fields of a single copy; none: one device.
-        accuracy: default or exact.
+        precision: float32, float64 or float32-exact.
+        on: what the run may use; of a piece its devices.
         width: of a piece, a dimension and its length in the other pieces. The piece is filled up to it with
             copies of its last one, whose results are dropped: the last digits in single precision depend on
             the number of copies that are computed together.
@@ -44,12 +40,7 @@ class SimulationRequest:
     every: float | None = None
     trials: int | Sequence[int] | None = None
     sweep: Sweep | None = None
-    own_noise: bool = False
     precision: str = "float32"
-    workers: int | None = None
-    batch: int | None = None
-    device: str | None = None
-    devices: int | str | None = None
-    accuracy: str = "default"
+    on: Resources = Resources()
     width: tuple[str, int] | None = None
     first: int = 0

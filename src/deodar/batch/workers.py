@@ -15,7 +15,7 @@ from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 
 from deodar.batch import sent
-from deodar.batch.compute import compute
+from deodar.batch.compute import compute, watching
 from deodar.batch.packed_model import PackedModel
 from deodar.batch.pieces import EMPTY, PieceResult
 from deodar.batch.pool import Pool
@@ -141,6 +141,6 @@ def work(send: Callable[[sent.PieceMessage], None], job: WorkerTask) -> PieceRes
         if job.sent is not None:
             part = OutputPart(SentOutput(job.sent, model.document, send), job.number, job.sent.region)
         try:
-            return compute(model, job.request, job.packed.world(), report, out=part)
+            return compute(model, watching(job.request, report), job.packed.world(), out=part)
         except Interrupted as error:
             return PieceResult(error.data, False)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses as dc
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from deodar.batch import points_file
+from deodar.batch.run_file import Output
 from deodar.batch.simulate import simulate
 from deodar.cli import _long, _machines, _options, _run_report
 from deodar.cli._run_output import GrownRecord, RunFolder
@@ -15,13 +17,15 @@ from deodar.cli._run_report import EndedRun
 from deodar.compiler import hosts
 from deodar.errors import Interrupted
 from deodar.importers.opening import load
+from deodar.resources import Resources
 from deodar.session import agreement
+from deodar.sweep import Points
 
 if TYPE_CHECKING:
     import xarray
 
-    from deodar.batch.points import Sweep
     from deodar.model.model import Model
+    from deodar.sweep import Sweep
     from deodar.worlds._base import World
 
 WARNINGS = 3
@@ -45,12 +49,16 @@ def run(args: argparse.Namespace) -> int:
     if args.points is not None:
         if sweep is not None:
             args.wrong("--points is a list and --sweep a grid; give one of them")
-        sweep = points_file.read(args.points)
-    cluster = _machines.cluster(args)
+        sweep = Points(points_file.read(args.points), bool(args.own_noise))
+    elif args.own_noise:
+        args.wrong("--own-noise needs a list of points, --points FILE; trials have noise of their own")
+    used = Resources(args.device, args.devices, args.workers, _machines.cluster(args))
     folder = RunFolder(args, model.name) if hosts.first() else None
     step = model.document.step if args.dt is None else args.dt
 
-    def simulated(duration: float, progress: bool | None = False, **into: Any) -> xarray.Dataset:
+    def simulated(
+        duration: float, progress: bool | None = False, out: Output | None = None
+    ) -> xarray.Dataset:
         return simulate(
             model,
             duration,
@@ -60,16 +68,10 @@ def run(args: argparse.Namespace) -> int:
             every=args.every,
             trials=args.trials,
             sweep=sweep,
-            own_noise=bool(args.own_noise),
-            precision=args.precision or "float32",
             world=world,
-            progress=progress,
-            workers=args.workers,
-            cluster=cluster,
-            device=args.device,
-            devices=args.devices,
-            accuracy=args.accuracy or "default",
-            **into,
+            precision=_options.arithmetic(args),
+            out=out,
+            on=dc.replace(used, progress=progress),
         )
 
     data, stopped, out = None, "", Path() if folder is None else folder.path()
@@ -78,9 +80,7 @@ def run(args: argparse.Namespace) -> int:
         with _run_report.quiet():
             if hosts.count() == 1:  # several have no terminal
                 _long.confirm_run(args, args.duration or 0.0, step, simulated)
-            data = simulated(
-                args.duration or 0.0, progress, out=out, snapshots=args.snapshots, force=args.force
-            )
+            data = simulated(args.duration or 0.0, progress, Output(out, args.force, args.snapshots))
     except Interrupted as error:
         data, stopped = error.data, str(error)
     if folder is None:  # the first host writes and reports

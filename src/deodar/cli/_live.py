@@ -149,6 +149,7 @@ def _recorded(
 def _session(args: argparse.Namespace) -> Session:
     # start-up time: these bring JAX
     from deodar.model.model import load
+    from deodar.resources import Resources
     from deodar.session.session import Session
 
     model = load(args.file, trust=args.trust)
@@ -157,11 +158,9 @@ def _session(args: argparse.Namespace) -> Session:
         model,
         args.dt,
         args.seed or 0,
-        args.precision or "float32",
+        _options.arithmetic(args),
         _options.world(args.world),
-        device=args.device,
-        accuracy=args.accuracy or "default",
-        devices=args.devices,
+        on=Resources(args.device, args.devices),
     )
 
 

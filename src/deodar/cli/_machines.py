@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from deodar.cli import _options
 
 if TYPE_CHECKING:
-    from deodar.batch.cluster import Cluster
+    from deodar.cluster import Cluster
 
 
 def add_cluster(parser: argparse.ArgumentParser, what: str, mixed: bool = False) -> None:
@@ -57,7 +57,7 @@ def cluster(args: argparse.Namespace) -> Cluster | None:
     if args.workers:
         args.wrong("--workers and --cluster exclude each other")
     # start-up time: this brings JAX
-    from deodar.batch.cluster import PATIENCE, Cluster
+    from deodar.cluster import PATIENCE, Cluster
 
     mixed = getattr(args, "mixed", False)
     return Cluster(args.cluster, args.trust_network, mixed, args.patience or PATIENCE)

@@ -64,7 +64,7 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
 def use_cores(cores: int | None, wanted: int = 1) -> None:
     """Use the number of cores of `--cores`; without it `wanted`, unless NPROC is set or JAX has started."""
     # start-up time: these bring JAX
-    from deodar.batch import cores as setting
+    from deodar import cores as setting
 
     if cores is not None:
         setting.use_cores(cores)
@@ -123,6 +123,12 @@ def add_run(parser: argparse.ArgumentParser) -> None:
     add_cores(parser)
     add_rounding(parser)
     parser.add_argument("--no-progress", action="store_true", help="show no progress bar")
+
+
+def arithmetic(args: argparse.Namespace) -> str:
+    """Return the precision of `--precision` and `--accuracy`."""
+    single = args.precision in (None, "float32")
+    return "float32-exact" if single and args.accuracy == "exact" else args.precision or "float32"
 
 
 def progress(args: argparse.Namespace) -> bool | None:

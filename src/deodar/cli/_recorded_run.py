@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses as dc
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -17,6 +18,7 @@ from deodar.errors import Interrupted
 from deodar.recording import files, provenance
 from deodar.recording.record import about
 from deodar.recording.repeat import compare, repeat
+from deodar.resources import Resources
 
 if TYPE_CHECKING:
     import xarray
@@ -79,9 +81,8 @@ def continued(args: argparse.Namespace) -> int:
                 args.duration,
                 _options.world(args.world),
                 args.trust,
-                _options.progress(args),
                 lambda differences: _accepts(args, differences),
-                _machines.cluster(args),
+                Resources(cluster=_machines.cluster(args), progress=_options.progress(args)),
             )
     except Interrupted as error:
         data, stopped = error.data, str(error)
@@ -98,16 +99,17 @@ def repeated(args: argparse.Namespace) -> int:
     folder = RunFolder(args, str(old.attrs.get("title") or "record"))
     stopped = ""
 
-    def simulated(model: Model, duration: float, **settings: Any) -> xarray.Dataset:
-        silent: dict[str, Any] = {**settings, "progress": False}
-        _long.confirm_run(args, duration, settings["dt"], lambda time: simulate(model, time, **silent))
-        return simulate(model, duration, **settings)
+    def simulated(model: Model, duration: float, *, on: Resources, **settings: Any) -> xarray.Dataset:
+        silent = dc.replace(on, progress=False)
+        _long.confirm_run(
+            args, duration, settings["dt"], lambda time: simulate(model, time, on=silent, **settings)
+        )
+        return simulate(model, duration, on=on, **settings)
 
     try:
         with _run_report.quiet():
-            repetition = repeat(
-                old, simulated, _options.world(args.world), args.trust, _options.progress(args), args.device
-            )
+            on = Resources(args.device, progress=_options.progress(args))
+            repetition = repeat(old, simulated, _options.world(args.world), args.trust, on)
     except Interrupted as error:
         repetition, stopped = compare(old, error.data), str(error)
     doc = provenance.document(about(old))

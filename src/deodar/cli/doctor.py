@@ -54,7 +54,7 @@ def _plans(as_json: bool) -> int:
     from rich.progress import track
     from rich.table import Table
 
-    from deodar.batch.cores import use_cores
+    from deodar.cores import use_cores
 
     use_cores(1)
     # start-up time: these bring JAX

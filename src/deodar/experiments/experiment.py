@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from deodar.batch.cluster import Cluster
 from deodar.batch.simulate import LONG_STEPS
+from deodar.cluster import Cluster
 from deodar.errors import DeodarError, Problem, RunWarning
 from deodar.experiments.design import Design
 from deodar.experiments.jobs import Progress

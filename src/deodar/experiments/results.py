@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from deodar import codec
-from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import require_portable
 from deodar.batch.staffing import WorkerWatch
+from deodar.cluster import Cluster
 from deodar.codec import JsonObject
 from deodar.compiler.device import find
 from deodar.credentials import masked_data

@@ -13,10 +13,16 @@ from deodar import registry
 from deodar.errors import DeodarError, RecordError, WorldError
 from deodar.model.migrations import recorded
 from deodar.model.model import Model
+from deodar.precision import Arithmetic
 from deodar.recording import provenance
 from deodar.recording.opened import again
 from deodar.recording.record import about
+from deodar.resources import Resources
+from deodar.sweep import Points, Sweep
 from deodar.worlds._base import World
+
+USED = ("workers", "batch", "device", "devices")
+"""The resources that a record states, because the last digits depend on them."""
 
 Simulate = Callable[..., xarray.Dataset]
 """A function that runs a model: `deodar.batch.simulate.simulate`."""
@@ -83,8 +89,7 @@ def repeat(
     simulate: Simulate,
     world: World | None = None,
     trust: bool = False,
-    progress: bool | None = None,
-    device: str | None = None,
+    on: Resources = Resources(),
 ) -> Repetition:
     """Run a record again and compare.
 
@@ -93,17 +98,17 @@ def repeat(
         simulate: the function that runs it.
         world: the world to run it in; None: the world of the record, opened again.
         trust: whether functions that its document names may be imported and run.
-        progress: show a bar.
-        device: the device to run it on; None: the device of the record.
+        on: the device to run it on, else that of the record, and whether to show progress.
 
     Raises:
         RecordError: the record has no provenance.
         Untrusted: its document names a function, and `trust` is not given.
     """
     model, settings = request(data, trust)
-    settings["device"] = device or settings["device"]
-    world = world or world_of(data)
-    new = simulate(model, world=world, progress=progress, **settings)
+    on.use("dd.repeat", "device", "progress")
+    recorded = settings.pop("on")
+    used = dc.replace(recorded, device=on.device or recorded.device, progress=on.progress)
+    new = simulate(model, world=world or world_of(data), on=used, **settings)
     return compare(data, new)
 
 
@@ -122,13 +127,18 @@ def request(data: xarray.Dataset, trust: bool = False) -> tuple[Model, dict[str,
         )
     try:
         model = Model(document=provenance.document(made), trusted=trust)
-        settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials", "precision")}
-        settings |= {"record": _recorded(made, model), "sweep": made["sweep"] or None}
-        settings |= {key: made.get(key) for key in ("workers", "batch", "device", "devices")}
-        settings |= {"accuracy": made.get("accuracy", "default"), "own_noise": made.get("own_noise", False)}
+        settings = {key: made[key] for key in ("duration", "dt", "seed", "every", "trials")}
+        settings |= {"record": _recorded(made, model), "sweep": _sweep(made)}
+        settings |= {"precision": Arithmetic(made["precision"], made.get("accuracy", "default")).name}
+        settings |= {"on": Resources(**{key: made.get(key) for key in USED})}
     except (KeyError, TypeError, ValueError) as error:
         raise RecordError(f"what made the record cannot be read ({type(error).__name__}: {error})") from None
     return model, settings
+
+
+def _sweep(made: Mapping[str, Any]) -> Sweep | None:
+    sweep: Any = made["sweep"]
+    return Points(sweep, own_noise=True) if made.get("own_noise", False) else sweep or None
 
 
 def _recorded(made: Mapping[str, Any], model: Model) -> list[str] | None:

@@ -24,8 +24,10 @@ from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
 from deodar.model.resolve import resolve
 from deodar.parameters import FrozenArray, show
+from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described, stored
+from deodar.resources import Resources
 from deodar.session import agreement, memory, rearrange
 from deodar.session.adopt import adopt, require
 from deodar.session.changes import changed_leaves
@@ -60,14 +62,12 @@ class Session:
         model: the model in its present state; later edits of the model have no effect on the session.
         dt: Euler step in the document's time unit; None: that of the document, else 1.
         seed: seed of all noise, 0 to 2^32 - 1.
-        precision: float32 or float64.
+        precision: float32, float64, or float32-exact: single precision with every kernel applied as a matrix,
+            however slow (float64 always does so).
         world: the world that provides the sensors and motors of the model.
         trial: trial number for this seed; a single run is trial 0.
-        device: cpu, gpu, or one of several as gpu:1; None: the CPU.
-        accuracy: default, or exact: every kernel is applied as a matrix, however slow (float64 always does
-            so).
-        devices: number of devices of the kind of `device` that divide the fields, or "all" of them; None: one
-            device. After `join_hosts` they are those of all hosts, and every host calls the same methods.
+        on: its device, or several, which divide the fields; after `join_hosts` they are those of all hosts,
+            and every host calls the same methods.
 
     Attributes:
         device: the device, as given.
@@ -83,13 +83,12 @@ class Session:
         precision: str = "float32",
         world: World | None = None,
         trial: int = 0,
-        device: str | None = None,
-        accuracy: str = "default",
-        devices: int | str | None = None,
+        on: Resources = Resources(),
     ) -> None:
         self._model = model
-        self.device = device
-        distribution = distributed(Batch(), several(devices, device))[0]
+        self.device = on.use("dd.Session", "device", "devices").device
+        numbers, accuracy = Arithmetic.of(precision)
+        distribution = distributed(Batch(), several(on.devices, on.device))[0]
         self._coming_dt: float | None = None
         self.journal: list[Change] = []
         self._recorder: Recorder | None = None
@@ -99,14 +98,14 @@ class Session:
         across = distribution is not None and distribution.across
         hosts.require_one("a world", across and world is not None)
         if across:
-            about = {"dt": dt, "seed": seed, "trial": trial, "precision": precision, "accuracy": accuracy}
+            about = {"dt": dt, "seed": seed, "trial": trial, "precision": precision}
             hosts.require_equal("the model", stored(doc))
             hosts.require_equal("the arguments of the session", about)
         model.require()
-        memory.require(resolve(doc)[0], precision, 1, 0)
+        memory.require(resolve(doc)[0], numbers, 1, 0)
         step = doc.step if dt is None else dt
         require_step(doc, step)
-        dynamics = Dynamics(model, doc, precision, accuracy, distribution or device)
+        dynamics = Dynamics(model, doc, numbers, accuracy, distribution or self.device)
         self._run = Run(dynamics, Batch(), float(step), require_seed(seed), [require_seed(trial)], world)
         agreement.warn(doc, world, stacklevel=2)
 

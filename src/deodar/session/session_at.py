@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import functools
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -13,6 +14,7 @@ from deodar import codec
 from deodar.errors import RecordError, TimeError
 from deodar.model import find
 from deodar.model.model import Model
+from deodar.resources import Resources
 from deodar.session.repeat_changes import repeat_changes
 from deodar.session.run import whole
 from deodar.session.session import Change, Session
@@ -71,12 +73,9 @@ def session_at(
             where=str(path),
             fix="Record a single run",
         )
-    options = {
-        key: settings[key]
-        for key in ("dt", "seed", "precision", "device", "devices", "accuracy")
-        if key in settings
-    }
-    session = Session(model, world=world or world_of(data), **options)
+    world = world or world_of(data)
+    on = dc.replace(settings["on"], workers=None, batch=None)
+    session = Session(model, settings["dt"], settings["seed"], settings["precision"], world, on=on)
     tick = whole(time - session.time, session.dt, "the time from the start")
     _require_recorded(data, time, made, session.time + settings.get("duration", 0.0), str(path))
     repeat_changes(
@@ -98,8 +97,8 @@ def _of_session(data: xarray.Dataset, made: Any, trust: bool) -> tuple[Model, di
             fix="Start recording before the first step, or save a snapshot",
         )
     settings = {key: made[key] for key in ("dt", "seed", "precision")}
-    if (devices := provenance.devices_of(made)) > 1:
-        settings |= {"devices": devices, "device": made["made_by"]["device"].split()[0]}
+    several = (devices := provenance.devices_of(made)) > 1
+    settings["on"] = Resources(made["made_by"]["device"].split()[0], devices) if several else Resources()
     return Model(document=provenance.document(made), trusted=trust), settings
 
 

@@ -24,7 +24,7 @@ from deodar.recording import places, writer_lock
 from deodar_papers import papers
 
 if TYPE_CHECKING:
-    from deodar.batch.cluster import Cluster
+    from deodar.cluster import Cluster
     from deodar.experiments.jobs import Job
     from deodar.experiments.rows import Rows
     from deodar_papers._report import Report

@@ -19,6 +19,7 @@ from deodar.compiler.dynamics import Dynamics
 from deodar.elements.sensor import Sensor
 from deodar.model.model import Model
 from deodar.numerics.axes import Axis
+from deodar.resources import Resources
 from deodar.session.exchange import embodied
 from deodar.session.run import Run
 from deodar_robots.eye.eye import Eye
@@ -150,7 +151,14 @@ def test(
     model = observed(mechanism, samples=samples, weights=weights, learns=False)
     record = ["satisfied.activation", "target"]
     data = simulate(
-        model, WAIT + PATIENCE, record=record, every=STEP, trials=count, world=eye, seed=seed, progress=False
+        model,
+        WAIT + PATIENCE,
+        record=record,
+        every=STEP,
+        trials=count,
+        world=eye,
+        seed=seed,
+        on=Resources(progress=False),
     )
     node = data["satisfied.activation"].transpose("trial", "time").values
     away = np.linalg.norm(data["target.output"].transpose("trial", "time", ...).values - CENTRE, axis=-1)

@@ -18,6 +18,7 @@ from deodar.elements.sensor import Sensor
 from deodar.errors import DocumentError
 from deodar.model.model import Model
 from deodar.numerics.axes import Axes
+from deodar.resources import Resources
 from deodar.worlds._base import World
 from deodar.worlds.camera import Camera
 from deodar.worlds.picture import Picture
@@ -219,7 +220,7 @@ def watched(camera: Camera, hues: Sequence[float]) -> CueScene:
         time.sleep(max(0.0, began[0] + done * PERIOD / 1000 - time.monotonic()))
 
     try:
-        seen = simulate(eye, DURATION, record="eye.output", world=camera, progress=wait)
+        seen = simulate(eye, DURATION, record="eye.output", world=camera, on=Resources(progress=wait))
         return CueScene("camera", f"camera {camera.source}", Picture(camera.picture()), cues, Recording(seen))
     finally:
         camera.close()
@@ -247,10 +248,19 @@ def run_scene(scene: CueScene, seed: int = 0, step: Callable[[], None] = lambda:
     paths = ["seen.output", "colour.activation", "spatial.activation", "pan.output", "tilt.output"]
     world = scene.world or scene.picture
     record = simulate(
-        model, DURATION, seed=seed, record=paths, every=EVERY, sweep=sweep, world=world, progress=False
+        model,
+        DURATION,
+        seed=seed,
+        record=paths,
+        every=EVERY,
+        sweep=sweep,
+        world=world,
+        on=Resources(progress=False),
     )
     step()
-    end = simulate(model, DURATION, seed=seed, sweep=sweep, world=world, progress=False).isel(time=-1)
+    end = simulate(model, DURATION, seed=seed, sweep=sweep, world=world, on=Resources(progress=False)).isel(
+        time=-1
+    )
     step()
     before = record["seen.output"].sel(time=record["time"] < CUE_AT)
     outcomes = tuple(_outcome(scene, record, end, k) for k in range(len(scene.cues)))

@@ -17,6 +17,7 @@ from deodar.analysis.robot_paths import path_length, path_until
 from deodar.architectures.spa import DIRECTIONS, OBSTACLES, STEP_MS, maze, place, spa
 from deodar.batch.simulate import simulate
 from deodar.errors import WorldError
+from deodar.resources import Resources
 from deodar.worlds.arena.arena import Arena
 
 if TYPE_CHECKING:
@@ -146,7 +147,15 @@ def run(seed: int = 0, duration: int = DURATION, done: Callable[[int], None] = l
     center, size = OBSTACLES["full"]
     arena.place("obstacle", center, size, windows=(COMES * STEP_MS, 1e9))
     return read(
-        simulate(spa(arena), duration, seed=seed, record=RECORDED, every=EVERY, world=arena, progress=done),
+        simulate(
+            spa(arena),
+            duration,
+            seed=seed,
+            record=RECORDED,
+            every=EVERY,
+            world=arena,
+            on=Resources(progress=done),
+        ),
         arena,
     )
 
@@ -165,7 +174,10 @@ def drive(
     cells = math.prod(axis.samples for axis in model["north.motivation"].element.axes)  # type: ignore[attr-defined]
     every = EVERY * max(1, math.ceil(duration / EVERY * cells * 4 * len(DIRECTIONS) / MEMORY))
     found = read(
-        simulate(model, duration, seed=seed, record=RECORDED, every=every, world=arena, progress=done), arena
+        simulate(
+            model, duration, seed=seed, record=RECORDED, every=every, world=arena, on=Resources(progress=done)
+        ),
+        arena,
     )
     return dc.replace(found, published=False)
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from deodar import codec
-from deodar.batch.cluster import Cluster
+from deodar.cluster import Cluster
 from deodar.codec import JsonObject
 from deodar.errors import DeodarError, DocumentError, Problem
 from deodar.experiments.design import EXAMPLE, VERSION

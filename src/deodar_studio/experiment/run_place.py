@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses as dc
 import os
 
-from deodar.batch.cluster import Cluster
+from deodar.cluster import Cluster
 from deodar.errors import DocumentError
 from deodar_studio.files.workspace import Workspace
 from deodar_studio.messages.to_server import RunExperiment

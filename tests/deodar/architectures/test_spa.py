@@ -26,7 +26,7 @@ RECORD = (
 
 
 def run(arena: Arena, steps: int, noise: str = "low", seed: int = 0) -> xarray.Dataset:
-    return dd.simulate(spa(arena, noise), steps, record=RECORD, world=arena, seed=seed, progress=False)
+    return dd.simulate(spa(arena, noise), steps, record=RECORD, world=arena, seed=seed)
 
 
 def test_grids_and_starts_are_those_of_the_published_model() -> None:

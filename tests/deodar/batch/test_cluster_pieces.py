@@ -10,9 +10,9 @@ from distributed import LocalCluster
 import deodar as dd
 from deodar import codec
 from deodar.batch import cluster_pieces
-from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
 from deodar.cli import main
+from deodar.cluster import Cluster
 from deodar.errors import Interrupted, ParameterError, RecordError, RunWarning, WorkerError
 from deodar.recording import provenance, repeat
 from deodar.recording.record import about
@@ -42,9 +42,12 @@ def one_core(monkeypatch):
     monkeypatch.setenv("NPROC", "1")
 
 
-def simulated(model=None, **given):
-    asked = {"record": ["u.activation"], "every": 10, "trials": 7, "batch": 2, "progress": False}
-    return dd.simulate(decider() if model is None else model, 100, **asked | given)
+def simulated(model=None, out=None, trials=7, sweep=None, **used):
+    on = dd.Resources(**{"batch": 2} | used)
+    made = decider() if model is None else model
+    return dd.simulate(
+        made, 100, record=["u.activation"], every=10, trials=trials, sweep=sweep, out=out, on=on
+    )
 
 
 def test_a_batch_on_a_cluster_has_the_same_bits(address):
@@ -54,14 +57,14 @@ def test_a_batch_on_a_cluster_has_the_same_bits(address):
 
 
 def test_a_record_is_written_by_the_caller(tmp_path, address):
-    written = simulated(cluster=address, out=tmp_path / "there.zarr", snapshots=10.0)
+    written = simulated(cluster=address, out=dd.Output(tmp_path / "there.zarr", snapshots=10.0))
     here = simulated(out=tmp_path / "here.zarr")
     np.testing.assert_array_equal(written["u.activation"].values, here["u.activation"].values)
     assert written.sizes["trial"] == 7
 
 
 def test_copies_that_diverge_are_named(tmp_path, address):
-    given = {"sweep": {"g.factor": [0.1, 1e6, 0.3]}, "trials": None, "batch": 2}
+    given = {"sweep": {"g.factor": [0.1, 1e6, 0.3]}, "trials": None}
     for out in (None, tmp_path / "there.zarr"):
         with pytest.warns(RunWarning, match="1 of 3 copies are NaN"):
             data = simulated(test_diverged.model(), cluster=address, out=out, **given)
@@ -92,7 +95,7 @@ def stopped(out, after=150, **given):
             raise KeyboardInterrupt
 
     with pytest.raises(Interrupted):
-        simulated(out=out, snapshots=20.0, progress=progress, **given)
+        simulated(out=dd.Output(out, snapshots=20.0), progress=progress, **given)
     return out
 
 
@@ -102,7 +105,7 @@ def test_a_stopped_run_continues_on_a_cluster_with_the_same_bits(tmp_path, addre
     path = stopped(tmp_path / "there.zarr", **given)
     assert np.isnan(dd.open_record(path)["u.activation"].values).any()
     done: list[int] = []
-    found = dd.resume(path, progress=done.append, cluster=address)
+    found = dd.resume(path, on=dd.Resources(cluster=address, progress=done.append))
     whole = simulated(out=tmp_path / "here.zarr")
     assert found["u.activation"].values.tobytes() == whole["u.activation"].values.tobytes()
     assert about(found)["complete"] is True and about(found)["workers"] == given.get("workers")
@@ -113,7 +116,7 @@ def test_a_run_that_began_on_a_cluster_continues_on_new_workers_and_here(tmp_pat
     whole = simulated(out=tmp_path / "here.zarr")["u.activation"].values
     for name, given in (("new workers", {"cluster": "local:2"}), ("this process", {})):
         path = stopped(tmp_path / f"{name}.zarr", after=100, cluster=address)
-        assert dd.resume(path, progress=False, **given)["u.activation"].values.tobytes() == whole.tobytes()
+        assert dd.resume(path, on=dd.Resources(**given))["u.activation"].values.tobytes() == whole.tobytes()
 
 
 def test_only_the_missing_pieces_of_a_run_are_given_to_workers(tmp_path, address, monkeypatch):
@@ -125,7 +128,7 @@ def test_only_the_missing_pieces_of_a_run_are_given_to_workers(tmp_path, address
         real(self, key, function, *arguments, **how)
 
     monkeypatch.setattr(ClusterPool, "give", give)
-    dd.resume(path, progress=False, cluster=address)
+    dd.resume(path, on=dd.Resources(cluster=address))
     assert [key for key, _ in given] == [1, 2, 3]
     assert [state is not None for _, state in given] == [True, False, False], "piece 1 has a state"
 
@@ -135,24 +138,24 @@ def test_versions_and_machine_of_the_workers_are_compared_with_the_record(tmp_pa
         elsewhere.setattr(provenance, "machine", lambda: "a toaster")
         path = stopped(tmp_path / "there.zarr")
     with pytest.raises(RecordError, match=r"machine: a toaster then, .* now"):
-        dd.resume(path, progress=False, cluster=address)
+        dd.resume(path, on=dd.Resources(cluster=address))
     heard: list[str] = []
 
     def accept(found):
         heard.extend(one.what for one in found)
         return True
 
-    assert about(dd.resume(path, progress=False, accept=accept, cluster=address))["complete"] is True
+    assert about(dd.resume(path, accept=accept, on=dd.Resources(cluster=address)))["complete"] is True
     assert heard == ["machine"]
     monkeypatch.setattr(provenance, "cores", lambda: 7)
     path = stopped(tmp_path / "cores.zarr")
     with pytest.raises(RecordError, match="cores: 7 then, 1 now"):
-        dd.resume(path, progress=False, cluster=address)
+        dd.resume(path, on=dd.Resources(cluster=address))
 
 
 def test_a_run_in_one_piece_continues_here(tmp_path, monkeypatch):
     monkeypatch.setattr(ClusterPool, "__enter__", lambda self: pytest.fail("no worker is needed"))
-    given = {"trials": 2, "batch": 2}
+    given = {"trials": 2}
 
     def progress(done):
         if done >= 50:
@@ -160,20 +163,22 @@ def test_a_run_in_one_piece_continues_here(tmp_path, monkeypatch):
 
     with pytest.raises(Interrupted):
         simulated(out=tmp_path / "there.zarr", progress=progress, **given)
-    found = dd.resume(tmp_path / "there.zarr", progress=False, cluster="local:2")
+    found = dd.resume(tmp_path / "there.zarr", on=dd.Resources(cluster="local:2"))
     assert found["u.activation"].values.tobytes() == simulated(**given)["u.activation"].values.tobytes()
 
 
 def test_what_a_cluster_cannot_continue_is_refused(tmp_path, address, monkeypatch):
     path = stopped(tmp_path / "there.zarr")
     with pytest.raises(WorkerError, match="a record states one machine"):
-        dd.resume(path, progress=False, cluster=Cluster(address, mixed=True))
+        dd.resume(path, on=dd.Resources(cluster=Cluster(address, mixed=True)))
     asked = repeat.request
     monkeypatch.setattr(
-        repeat, "request", lambda *given: (asked(*given)[0], asked(*given)[1] | {"device": "gpu"})
+        repeat,
+        "request",
+        lambda *given: (asked(*given)[0], asked(*given)[1] | {"on": dd.Resources("gpu", batch=2)}),
     )
     with pytest.raises(WorkerError, match="one core each, and the run has device = gpu"):
-        dd.resume(path, progress=False, cluster=address)
+        dd.resume(path, on=dd.Resources(cluster=address))
 
 
 def test_the_command_continues_a_run_on_a_cluster(tmp_path, address, capsys):

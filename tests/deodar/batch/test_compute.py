@@ -33,7 +33,13 @@ def test_a_batch_in_pieces_has_the_values_of_the_whole_batch(
 ) -> None:
     whole, pieces = (
         dd.simulate(
-            model, 20, record="n.activation", trials=trials, sweep=sweep, batch=size, precision="float64"
+            model,
+            20,
+            record="n.activation",
+            trials=trials,
+            sweep=sweep,
+            precision="float64",
+            on=dd.Resources(batch=size),
         )["n.activation"]
         for size in (100, batch)
     )

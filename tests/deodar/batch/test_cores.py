@@ -10,7 +10,7 @@ import sys
 import pytest
 
 import deodar as dd
-from deodar.batch import cores
+from deodar import cores
 
 MODEL = "m = dd.Model('m'); m.add(dd.Field('u', [dd.Axis('x', 0, 1, samples=11)])); "
 

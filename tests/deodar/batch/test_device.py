@@ -33,9 +33,9 @@ from deodar.compiler import device
 assert device.names() == ["cpu:0", "cpu:1"], device.names()
 seen = {}
 for name in (None, "cpu", "cpu:1"):
-    data = dd.simulate(model(), 50, trials=2, device=name)
+    data = dd.simulate(model(), 50, trials=2, on=dd.Resources(device=name))
     seen[name] = data["u.activation"].values
-    session = dd.Session(model(), device=name)
+    session = dd.Session(model(), on=dd.Resources(device=name))
     session.step(50)
     places = {d for leaf in jax.tree.leaves(session._run.state) for d in leaf.devices()}
     assert places == {jax.devices()[1 if name == "cpu:1" else 0]}, (name, places)
@@ -65,8 +65,9 @@ from deodar.recording.record import about
 def bits(one, other):
     assert one.sizes == other.sizes, (one.sizes, other.sizes)
     return np.array_equal(one["u.activation"].values, other["u.activation"].values)
-def run(made, **given):
-    return dd.simulate(made, 30, record=["u"], every=10, progress=False, **given)
+def run(made, device=None, devices=None, workers=None, batch=None, **given):
+    on = dd.Resources(device, devices, workers, batch=batch)
+    return dd.simulate(made, 30, record=["u"], every=10, on=on, **given)
 values = [1.0, 1.5, 2.0, 2.5, 3.0]
 ways = dict(devices=4), dict(batch=4)
 for precision in ("float64", "float32"):
@@ -98,7 +99,7 @@ for precision in ("float64", "float32"):
 assert about(one)["devices"] == 8 and about(one)["made_by"]["devices"] == "8"
 robot, loop = avoiding(), dict(record=["pose.output"], every=64, world=dd.Arena("blocks"))
 ways = dict(devices=4), dict(batch=2)
-one, two = (dd.simulate(robot, 64 * 10, trials=8, **loop, **given) for given in ways)
+one, two = (dd.simulate(robot, 64 * 10, trials=8, **loop, on=dd.Resources(**given)) for given in ways)
 assert np.array_equal(one["pose.output"].values, two["pose.output"].values)
 three = run(model(), trials=3, devices=8)
 assert about(three)["devices"] == 8 and about(three)["made_by"]["devices"] == "3"
@@ -133,14 +134,16 @@ from deodar.recording.repeat import repeat
 def stop(done):
     if done > 30:
         raise KeyboardInterrupt
-given = dict(record=["u"], every=1, trials=5, devices=4)
+given = dict(record=["u"], every=1, trials=5)
+def on(**more): return dd.Resources(devices=4, **more)
 try:
-    dd.simulate(model(), 400, out=sys.argv[1] + "/run", snapshots=10, progress=stop, **given)
+    out = dd.Output(sys.argv[1] + "/run", snapshots=10)
+    dd.simulate(model(), 400, out=out, on=on(progress=stop), **given)
 except Interrupted:
     pass
 else:
     raise AssertionError("not stopped")
-whole = dd.simulate(model(), 400, **given)
+whole = dd.simulate(model(), 400, on=on(), **given)
 resumed = dd.resume(sys.argv[1] + "/run")
 assert np.array_equal(whole["u.activation"].values, resumed["u.activation"].values)
 again = repeat(whole, dd.simulate)
@@ -167,12 +170,12 @@ def test_a_divided_run_is_resumed_and_repeated(monkeypatch: pytest.MonkeyPatch, 
 )
 def test_an_invalid_number_of_devices_is_an_error(devices: Any, text: str) -> None:
     with pytest.raises(DeviceError, match=re.escape(text)):
-        dd.simulate(model(), 10, trials=4, devices=devices)
+        dd.simulate(model(), 10, trials=4, on=dd.Resources(devices=devices))
 
 
 def test_devices_of_a_kind_that_is_not_there_are_an_error() -> None:
     with pytest.raises(DeviceError, match="this computer has no device 'tpu'"):
-        dd.simulate(model(), 10, trials=4, device="tpu", devices=2)
+        dd.simulate(model(), 10, trials=4, on=dd.Resources(device="tpu", devices=2))
 
 
 ELSEWHERE = """
@@ -207,7 +210,10 @@ def test_values_outside_of_programs_are_computed_on_the_cpu(monkeypatch: pytest.
 
 @pytest.mark.parametrize("name", ["gpu:99", "cpu:1000", "cpu:x", "cpu:", "quantum", "", 3])
 def test_an_unknown_device_is_an_error_that_lists_the_valid_ones(name: str) -> None:
-    for call in (lambda: dd.simulate(model(), 10, device=name), lambda: dd.Session(model(), device=name)):
+    for call in (
+        lambda: dd.simulate(model(), 10, on=dd.Resources(device=name)),
+        lambda: dd.Session(model(), on=dd.Resources(device=name)),
+    ):
         with pytest.raises(
             dd.errors.DeviceError,
             match=r"valid names: .*cpu:0" if isinstance(name, str) else "named by a text",
@@ -225,9 +231,9 @@ def test_a_missing_device_is_an_error_that_states_what_to_install(monkeypatch: p
 
 
 def test_a_record_names_its_device_and_is_repeated_on_it() -> None:
-    old = dd.simulate(model(), 20, device="cpu:0")
+    old = dd.simulate(model(), 20, on=dd.Resources(device="cpu:0"))
     assert about(old)["device"] == "cpu:0" and about(old)["made_by"]["device"].startswith("cpu")
-    assert repeat(old, dd.simulate).same_bits and repeat(old, dd.simulate, device="cpu").same_bits
+    assert repeat(old, dd.simulate).same_bits and repeat(old, dd.simulate, on=dd.Resources("cpu")).same_bits
 
 
 def test_workers_and_another_device_exclude_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -236,7 +242,7 @@ def test_workers_and_another_device_exclude_each_other(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(device, "find", lambda name: Other)
     with pytest.raises(dd.errors.WorkerError, match="cores of the CPU"):
-        dd.simulate(model(), 10, trials=2, workers=2, device="gpu")
+        dd.simulate(model(), 10, trials=2, on=dd.Resources(device="gpu", workers=2))
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])

@@ -75,7 +75,7 @@ def _error(gain: float) -> str:
 @pytest.mark.parametrize("batch", [{"batch": 2}, {"batch": 2, "workers": 2}])
 def test_diverged_points_of_all_trials_are_nan_in_pieces_and_workers(batch: dict[str, int]) -> None:
     with pytest.warns(RunWarning, match="4 of 8 copies"):
-        data = run([0.1, 1e6, 0.3, 1e7], trials=[3, 1], **batch)
+        data = run([0.1, 1e6, 0.3, 1e7], trials=[3, 1], on=dd.Resources(**batch))
     assert data["diverged"].dims == ("g.factor", "trial")
     assert [[bool(text) for text in row] for row in data["diverged"].values] == [
         [False] * 2,
@@ -99,7 +99,12 @@ def test_a_copy_diverges_if_a_recorded_coupling_is_not_finite() -> None:
 
 
 def test_a_single_run_and_a_batch_of_which_nothing_is_left_raise() -> None:
-    for others in ({}, {"trials": 3}, {"sweep": {"g.factor": [1e6, 1e7]}}, {"trials": 4, "batch": 2}):
+    for others in (
+        {},
+        {"trials": 3},
+        {"sweep": {"g.factor": [1e6, 1e7]}},
+        {"trials": 4, "on": dd.Resources(batch=2)},
+    ):
         made = model()
         made.set("g.factor", 1e6)
         with pytest.raises(NotFinite, match="g became infinite") as caught:

@@ -33,14 +33,14 @@ def test_a_step_that_is_much_too_small_is_announced() -> None:
         ) as told,
         pytest.raises(Interrupted),
     ):
-        dd.simulate(small(), 10, dt=1e-9, progress=stop)
+        dd.simulate(small(), 10, dt=1e-9, on=dd.Resources(progress=stop))
     assert [t.filename for t in told] == [__file__]
 
 
 def test_a_run_below_1e9_steps_issues_no_warning() -> None:
     with warnings.catch_warnings(), pytest.raises(Interrupted):
         warnings.simplefilter("error")
-        dd.simulate(small(), 10**9 - 1, progress=stop)
+        dd.simulate(small(), 10**9 - 1, on=dd.Resources(progress=stop))
 
 
 def test_progress_without_a_terminal_is_printed_as_lines(
@@ -52,7 +52,7 @@ def test_progress_without_a_terminal_is_printed_as_lines(
         dd.simulate(small(), 500)
     assert "simulating: " in (told := capsys.readouterr().err) and "of 500 steps after" in told
     with pytest.warns(RunWarning, match="500 steps"):
-        dd.simulate(small(), 500, progress=False)
+        dd.simulate(small(), 500, on=dd.Resources(progress=False))
     assert capsys.readouterr().err == ""
 
 

@@ -14,6 +14,7 @@ from deodar.batch.pieces import BATCH_BYTES, PieceResult, Pieces, cut, joined
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import ParameterError
 from deodar.recording.provenance import KEY
+from deodar.resources import Resources
 
 SIZES = [1, 2, 7, 100]
 
@@ -49,7 +50,7 @@ def test_workers_get_pieces_of_equal_size() -> None:
 @pytest.mark.parametrize("wrong", [0, True, 2.0, "3"])
 def test_an_invalid_batch_is_refused(wrong: object) -> None:
     with pytest.raises(ParameterError, match="batch is"):
-        cut({"trial": 3}, 1, 1, wrong)  # type: ignore[arg-type]
+        Resources(batch=wrong)  # type: ignore[arg-type]
 
 
 def part(trials: list[int], times: int, whole: bool) -> PieceResult:

@@ -19,6 +19,8 @@ POINTS = [
     {"n.resting_level": -1.5, "s.amplitude": 0.5},
 ]
 
+OWN = dd.Points(POINTS, own_noise=True)
+
 
 def node(noise: float = 0.5) -> dd.Model:
     model = dd.Model("points")
@@ -27,8 +29,11 @@ def node(noise: float = 0.5) -> dd.Model:
     return model
 
 
-def run(**given: object) -> np.ndarray:
-    data = dd.simulate(node(), 20, record="n.activation", precision="float64", **given)  # type: ignore[arg-type]
+def run(sweep: dd.Points, trials: int | None = None, **used: int) -> np.ndarray:
+    on = dd.Resources(**used)
+    data = dd.simulate(
+        node(), 20, record="n.activation", trials=trials, sweep=sweep, precision="float64", on=on
+    )
     return data["n.activation"].values
 
 
@@ -51,15 +56,15 @@ def test_each_point_has_its_values_and_its_coordinates() -> None:
 @pytest.mark.parametrize("trials", [None, 3, 8])
 @pytest.mark.parametrize("own", [False, True])
 def test_a_cut_changes_no_value(batch: int, trials: int | None, own: bool) -> None:
-    whole = run(sweep=POINTS, trials=trials, own_noise=own)
-    cut = run(sweep=POINTS, trials=trials, own_noise=own, batch=batch)
+    whole = run(dd.Points(POINTS, own), trials)
+    cut = run(dd.Points(POINTS, own), trials, batch=batch)
     assert whole.shape == ((5, 21) if trials is None else (5, trials, 21))
     np.testing.assert_allclose(cut, whole, atol=1e-12)
 
 
 def test_points_share_the_noise_unless_they_have_their_own() -> None:
     same = [{"n.resting_level": -1.0}] * 4
-    shared, own = run(sweep=same), run(sweep=same, own_noise=True)
+    shared, own = run(dd.Points(same)), run(dd.Points(same, own_noise=True))
     assert (shared == shared[0]).all()
     assert all((own[a] != own[b]).any() for a in range(4) for b in range(a))
     np.testing.assert_allclose(own[0], shared[0], atol=1e-12)
@@ -67,7 +72,9 @@ def test_points_share_the_noise_unless_they_have_their_own() -> None:
 
 def test_the_noise_of_points_is_independent() -> None:
     points = [{"n.resting_level": 0.0}] * 400
-    data = dd.simulate(node(1.0), 30, record="n.activation", sweep=points, trials=2, own_noise=True)
+    data = dd.simulate(
+        node(1.0), 30, record="n.activation", sweep=dd.Points(points, own_noise=True), trials=2
+    )
     end = data["n.activation"].values[:, :, -1]
     spread = end - end.mean(0)
     between = np.corrcoef(np.column_stack([spread[:-1], spread[1:]]).T)
@@ -77,28 +84,27 @@ def test_the_noise_of_points_is_independent() -> None:
 
 def test_a_file_holds_the_points_and_is_run_again(tmp_path: Path) -> None:
     place = tmp_path / "run.zarr"
-    written = dd.simulate(
-        node(), 20, record="n.activation", sweep=POINTS, trials=2, own_noise=True, batch=4, out=place
-    )
-    memory = dd.simulate(node(), 20, record="n.activation", sweep=POINTS, trials=2, own_noise=True, batch=4)
+    how = {"record": "n.activation", "sweep": OWN, "trials": 2, "on": dd.Resources(batch=4)}
+    written = dd.simulate(node(), 20, out=place, **how)  # type: ignore[arg-type]
+    memory = dd.simulate(node(), 20, **how)  # type: ignore[arg-type]
     assert written["n.activation"].dims == ("point", "trial", "time")
     for name in ("n.activation", "point", *POINTS[0]):
         assert (written[name].values == memory[name].values).all(), name
     model, settings = repeat.request(written)
-    assert settings["sweep"] == POINTS
+    assert settings["sweep"] == OWN
     again = dd.simulate(model, **settings)
     assert (again["n.activation"].values == memory["n.activation"].values).all()
 
 
 def test_workers_share_the_points(tmp_path: Path) -> None:
-    here = run(sweep=POINTS, trials=2, own_noise=True, batch=4)
-    there = run(sweep=POINTS, trials=2, own_noise=True, batch=4, workers=2)
+    here = run(OWN, 2, batch=4)
+    there = run(OWN, 2, batch=4, workers=2)
     assert (here == there).all()
     place = tmp_path / "run.zarr"
+    on = dd.Resources(workers=2, batch=4)
     data = dd.simulate(
-        node(), 20, record="n.activation", sweep=POINTS, trials=2, own_noise=True, batch=4, workers=2,
-        out=place, precision="float64",
-    )  # fmt: skip
+        node(), 20, record="n.activation", trials=2, sweep=OWN, precision="float64", out=place, on=on
+    )
     assert (data["n.activation"].values == here).all()
     assert data["s.amplitude"].values.tolist() == [point["s.amplitude"] for point in POINTS]
 

@@ -44,7 +44,7 @@ def test_a_terminal_shows_a_progress_bar() -> None:
 
 
 def test_the_progress_bar_is_not_written_to_a_file_and_can_be_switched_off() -> None:
-    assert on_a_terminal(", progress=False") == ""
+    assert on_a_terminal(", on=dd.Resources(progress=False)") == ""
     done = subprocess.run(
         [sys.executable, "-c", CODE.format(progress="")], stderr=subprocess.PIPE, text=True, timeout=600
     )

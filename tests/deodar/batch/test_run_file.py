@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses as dc
 import itertools
 import json
 import pickle
@@ -14,7 +15,7 @@ import pytest
 
 import deodar as dd
 from deodar.batch import run_file, sent
-from deodar.batch.compute import compute
+from deodar.batch.compute import compute, watching
 from deodar.batch.pieces import EMPTY, PieceResult
 from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import SentOutput, SentPart
@@ -38,6 +39,11 @@ def stopping(after: int) -> Callable[[int], None]:
     return stop
 
 
+def stopped(given: dict[str, Any], after: int) -> dict[str, Any]:
+    """Return the arguments of a run that stops after that number of steps."""
+    return given | {"on": dc.replace(given.get("on", dd.Resources()), progress=stopping(after))}
+
+
 @pytest.fixture(autouse=True)
 def short_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("deodar.session.run.CHUNK_SECONDS", 0.0)
@@ -47,8 +53,8 @@ CASES: dict[str, dict[str, Any]] = {
     "single": {},
     "trials": {"trials": [4, 2, 7]},
     "sweep": {"sweep": {"s.amplitude": [1.0, 2.0], "u.tau": [10.0, 20.0]}},
-    "pieces": {"trials": 3, "sweep": {"s.amplitude": [1.0, 2.0]}, "batch": 2},
-    "workers": {"trials": 4, "workers": 2},
+    "pieces": {"trials": 3, "sweep": {"s.amplitude": [1.0, 2.0]}, "on": dd.Resources(batch=2)},
+    "workers": {"trials": 4, "on": dd.Resources(workers=2)},
     "end": {"record": None, "every": None},
     "double": {"precision": "float64"},
 }
@@ -75,7 +81,9 @@ def test_a_wall_clock_that_is_set_back_delays_no_state(
         state = tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT
         stored.append(checkpoint.read(state)[0]["steps"] if state.exists() else 0)
 
-    dd.simulate(model(), 20, record="u", every=5, seed=3, out=tmp_path / "run", progress=note)
+    dd.simulate(
+        model(), 20, record="u", every=5, seed=3, out=tmp_path / "run", on=dd.Resources(progress=note)
+    )
     assert len(stored) > 3 and stored == sorted(set(stored)) and stored[-1] > 0
 
 
@@ -87,9 +95,9 @@ def test_a_stopped_run_is_resumed_to_the_same_record(case: str, tmp_path: Path) 
     for k, after in enumerate((steps // 4, steps // 2, 3 * steps // 4)):
         with pytest.raises(Interrupted) as caught:
             if k:
-                dd.resume(tmp_path / "run", progress=stopping(after))
+                dd.resume(tmp_path / "run", on=dd.Resources(progress=stopping(after)))
             else:
-                dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(after), **given)
+                dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, after))
         if case == "end":  # its only sample is at the end
             assert caught.value.data is None
             return
@@ -117,9 +125,8 @@ def sent_here(monkeypatch: pytest.MonkeyPatch) -> None:
 
             part = OutputPart(SentOutput(SentPart.of(out, k), model.document, send), k, out.region(k))
             try:
-                parts[k] = compute(
-                    model, pieces[k], world, lambda done, k=k: between(k * 40 + done), out=part
-                )
+                job = watching(pieces[k], lambda done, k=k: between(k * 40 + done))
+                parts[k] = compute(model, job, world, out=part)
             except Interrupted as error:
                 parts[k] = PieceResult(error.data, False)
                 break
@@ -131,10 +138,10 @@ def sent_here(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("sent_here")
 def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) -> None:
     given: dict[str, Any] = {"record": ["u", "n.output"], "every": 5, "seed": 3, **CASES["workers"]}
-    here = dd.simulate(model(), 40, batch=2, **given | {"workers": None})
+    here = dd.simulate(model(), 40, **given | {"on": dd.Resources(batch=2)})
     record = tmp_path / "run" / "record.zarr"
     with pytest.raises(Interrupted) as caught:
-        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(20), **given)
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 20))
     kept = caught.value.data["u.activation"].values
     assert np.isfinite(kept[:2, :4]).all() and about(caught.value.data)["complete"] is False
     assert checkpoint.read(record / run_file.PIECE_CHECKPOINT.format(0))[0]["steps"] == 20
@@ -145,7 +152,7 @@ def test_pieces_of_workers_are_resumed_from_states_of_their_own(tmp_path: Path) 
         stopping(60)(done)
 
     with pytest.raises(Interrupted):
-        dd.resume(tmp_path / "run", progress=note)
+        dd.resume(tmp_path / "run", on=dd.Resources(progress=note))
     assert begun[0] > 20, "it continues from the stored state"
     assert sorted(p.name for p in record.glob("state*")) == ["state-1.npz", "state.npz"]
     resumed = dd.resume(tmp_path / "run").load()
@@ -159,7 +166,7 @@ def test_a_run_killed_before_a_worker_reports_its_end_is_resumed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     given: dict[str, Any] = {"record": ["u"], "every": 5, "seed": 3, **CASES["workers"]}
-    here = dd.simulate(model(), 40, batch=2, **given | {"workers": None})
+    here = dd.simulate(model(), 40, **given | {"on": dd.Resources(batch=2)})
     receive = sent.receive
 
     def killed(out: RunOutput, number: int, message: sent.PieceMessage) -> None:
@@ -170,7 +177,7 @@ def test_a_run_killed_before_a_worker_reports_its_end_is_resumed(
     with monkeypatch.context() as changed:
         changed.setattr(sent, "receive", killed)
         with pytest.raises(InterruptedError):
-            dd.simulate(model(), 40, out=tmp_path / "run", snapshots=20, **given)
+            dd.simulate(model(), 40, out=dd.Output(tmp_path / "run", snapshots=20), **given)
     assert checkpoint.read(tmp_path / "run/record.zarr/state-0.npz")[0]["steps"] == 40
     resumed = dd.resume(tmp_path / "run").load()
     assert resumed["u.activation"].values.tobytes() == here["u.activation"].values.tobytes()
@@ -184,7 +191,7 @@ def test_the_cores_of_this_process_do_not_matter_to_a_run_in_workers(
     with monkeypatch.context() as elsewhere:
         elsewhere.setattr("deodar.recording.provenance.cores", lambda: 1)
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(20), **given)
+            dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 20))
     monkeypatch.setattr("deodar.recording.provenance.cores", lambda: 7)
     assert about(dd.resume(tmp_path / "run"))["complete"] is True
 
@@ -198,14 +205,14 @@ def test_samples_of_workers_after_their_states_are_dropped_where_differences_are
     with monkeypatch.context() as elsewhere:
         elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(50), **given)
+            dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 50))
         early = state.read_bytes()
         with pytest.raises(Interrupted):
-            dd.resume(tmp_path / "run", progress=stopping(70))
+            dd.resume(tmp_path / "run", on=dd.Resources(progress=stopping(70)))
     state.write_bytes(early)
     assert finite(tmp_path / "run", 6) == 4
     with pytest.raises(Interrupted):
-        dd.resume(tmp_path / "run", progress=stopping(56), accept=lambda found: True)
+        dd.resume(tmp_path / "run", accept=lambda found: True, on=dd.Resources(progress=stopping(56)))
     assert finite(tmp_path / "run", 3) == 4 and finite(tmp_path / "run", 6) == 2
 
 
@@ -218,7 +225,7 @@ def test_a_run_in_a_world_is_resumed(tmp_path: Path) -> None:
             1600,
             world=dd.Arena("blocks"),
             out=tmp_path / "run",
-            progress=stopping(40),
+            on=dd.Resources(progress=stopping(40)),
             **given,
         )
     assert dd.resume(tmp_path / "run").load().identical(here)
@@ -239,7 +246,7 @@ def test_a_run_that_is_made_longer_remembers_it_when_it_is_stopped(tmp_path: Pat
     given = {"record": ["u"], "every": 5, "seed": 3}
     dd.simulate(model(), 20, out=tmp_path / "run", **given)
     with pytest.raises(Interrupted):
-        dd.resume(tmp_path / "run", duration=60, progress=stopping(30))
+        dd.resume(tmp_path / "run", duration=60, on=dd.Resources(progress=stopping(30)))
     stated = about(dd.open_record(tmp_path / "run"))
     assert stated["complete"] is False and stated["duration"] == 60
     assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 60, **given))
@@ -248,11 +255,11 @@ def test_a_run_that_is_made_longer_remembers_it_when_it_is_stopped(tmp_path: Pat
 def test_a_resumed_run_that_is_stopped_keeps_the_samples_that_were_there(tmp_path: Path) -> None:
     given = {"record": ["u"], "every": 1, "seed": 3}
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(30), **given)
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 30))
     before = dd.open_record(tmp_path / "run").sizes["time"]
     (tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT).unlink()
     with pytest.raises(Interrupted):
-        dd.resume(tmp_path / "run", progress=stopping(5))
+        dd.resume(tmp_path / "run", on=dd.Resources(progress=stopping(5)))
     found = files.load_record(tmp_path / "run")
     assert found.sizes["time"] == before
     assert found.drop_attrs().identical(dd.simulate(model(), before - 1, **given).drop_attrs())
@@ -270,7 +277,13 @@ def test_a_state_of_another_run_is_refused(tmp_path: Path) -> None:
     for name, seed in (("run", 3), ("other", 4)):
         with pytest.raises(Interrupted):
             dd.simulate(
-                model(), 40, record="u", every=5, seed=seed, out=tmp_path / name, progress=stopping(10)
+                model(),
+                40,
+                record="u",
+                every=5,
+                seed=seed,
+                out=tmp_path / name,
+                on=dd.Resources(progress=stopping(10)),
             )
     state = Path("record.zarr") / run_file.CHECKPOINT
     (tmp_path / "run" / state).write_bytes((tmp_path / "other" / state).read_bytes())
@@ -291,13 +304,13 @@ def test_a_run_with_conditions_alone_states_where_it_ended(
 def test_a_stop_before_the_first_step_samples_once(tmp_path: Path) -> None:
     given = {"record": ["n", "u.output,when=peak"], "every": 10, "seed": 3}
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(0), **given)
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 0))
     found, whole = dd.resume(tmp_path / "run"), dd.simulate(model(), 40, out=tmp_path / "whole", **given)
     assert found["u.output.time"].values.tolist() == whole["u.output.time"].values.tolist()
 
 
 def test_a_run_in_pieces_does_not_become_longer(tmp_path: Path) -> None:
-    dd.simulate(model(), 20, record="u", every=5, trials=4, batch=2, out=tmp_path / "run")
+    dd.simulate(model(), 20, record="u", every=5, trials=4, out=tmp_path / "run", on=dd.Resources(batch=2))
     with pytest.raises(RecordError, match="several pieces"):
         dd.resume(tmp_path / "run", duration=40)
 
@@ -305,7 +318,7 @@ def test_a_run_in_pieces_does_not_become_longer(tmp_path: Path) -> None:
 def test_a_run_that_was_killed_before_its_first_state_begins_again(tmp_path: Path) -> None:
     given = {"record": ["u"], "every": 5, "seed": 3}
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(10), **given)
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 10))
     (tmp_path / "run" / "record.zarr" / run_file.CHECKPOINT).unlink()
     assert dd.resume(tmp_path / "run").load().identical(dd.simulate(model(), 40, **given))
 
@@ -316,7 +329,9 @@ def test_other_versions_are_an_error_unless_accepted(
     with monkeypatch.context() as elsewhere:
         elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, record="u", every=5, out=tmp_path / "run", progress=stopping(10))
+            dd.simulate(
+                model(), 40, record="u", every=5, out=tmp_path / "run", on=dd.Resources(progress=stopping(10))
+            )
     with pytest.raises(RecordError, match="a toaster then"):
         dd.resume(tmp_path / "run")
     assert main(["run", str(tmp_path / "run"), "--resume"]) == 1
@@ -343,14 +358,14 @@ def test_samples_after_the_stored_state_are_dropped_where_differences_are_accept
         if accepted:
             elsewhere.setattr("deodar.recording.provenance.machine", lambda: "a toaster")
         with pytest.raises(Interrupted):
-            dd.simulate(model(), 40, out=path, progress=stopping(40 * (pieces - 1) + 10), **given)
+            dd.simulate(model(), 40, out=path, **stopped(given, 40 * (pieces - 1) + 10))
         state = (path / "record.zarr" / run_file.CHECKPOINT).read_bytes()
         with pytest.raises(Interrupted):
-            dd.resume(path, progress=stopping(40 * (pieces - 1) + 30))
+            dd.resume(path, on=dd.Resources(progress=stopping(40 * (pieces - 1) + 30)))
     (path / "record.zarr" / run_file.CHECKPOINT).write_bytes(state)
     later = finite(path, 6)
     with pytest.raises(Interrupted):
-        dd.resume(path, progress=stopping(40 * (pieces - 1) + 16), accept=lambda found: True)
+        dd.resume(path, accept=lambda found: True, on=dd.Resources(progress=stopping(40 * (pieces - 1) + 16)))
     assert finite(path, 3) == later
     assert finite(path, 6) == (later - (2 if pieces == 2 else 1) if accepted else later)
 
@@ -366,12 +381,12 @@ def test_copies_that_diverge_are_nan_in_the_file(tmp_path: Path) -> None:
 
 
 def test_copies_that_diverged_before_a_stop_are_nan_after_it(tmp_path: Path) -> None:
-    amplitudes = {"sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0, 1.5]}, "batch": 2}
+    amplitudes = {"sweep": {"u.kernel.0.amplitude": [1.0, 3e38, 2.0, 1.5]}, "on": dd.Resources(batch=2)}
     given: dict[str, Any] = {"record": ["u"], "every": 5, **amplitudes}
     with pytest.warns(dd.errors.RunWarning):
         here = dd.simulate(model(), 40, **given)
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, out=tmp_path / "run", progress=stopping(60), **given)
+        dd.simulate(model(), 40, out=tmp_path / "run", **stopped(given, 60))
     with pytest.warns(dd.errors.RunWarning):
         there = dd.resume(tmp_path / "run")
     assert there.load().identical(here) and np.isnan(there["u.activation"].values[1]).all()
@@ -387,12 +402,12 @@ def test_a_run_that_diverges_keeps_its_record_until_then(tmp_path: Path) -> None
 
 
 def test_an_existing_run_is_replaced_only_with_force(tmp_path: Path) -> None:
-    given = {"record": "u", "every": 5, "out": tmp_path / "run"}
-    dd.simulate(model(), 20, **given)
+    out = tmp_path / "run"
+    dd.simulate(model(), 20, record="u", every=5, out=out)
     with pytest.raises(OutputExists):
-        dd.simulate(model(), 40, **given)
+        dd.simulate(model(), 40, record="u", every=5, out=out)
     assert dd.open_record(tmp_path / "run").sizes["time"] == 5
-    dd.simulate(model(), 40, force=True, **given)
+    dd.simulate(model(), 40, record="u", every=5, out=dd.Output(out, force=True))
     assert dd.open_record(tmp_path / "run").sizes["time"] == 9
 
 
@@ -420,7 +435,9 @@ def test_the_command_resumes_and_answers_in_json(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(Interrupted):
-        dd.simulate(model(), 40, record="u", every=5, out=tmp_path / "run", progress=stopping(10))
+        dd.simulate(
+            model(), 40, record="u", every=5, out=tmp_path / "run", on=dd.Resources(progress=stopping(10))
+        )
     monkeypatch.chdir(tmp_path)
     assert main(["run", "run", "--resume", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)

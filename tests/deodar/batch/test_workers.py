@@ -60,7 +60,8 @@ def test_the_results_do_not_depend_on_the_split() -> None:
     model = small()
 
     def run(**split: int) -> dict[str, np.ndarray]:
-        data = dd.simulate(model, 60, record=RECORD, every=20, seed=4, trials=5, precision="float64", **split)
+        on = dd.Resources(**split)
+        data = dd.simulate(model, 60, record=RECORD, every=20, seed=4, trials=5, precision="float64", on=on)
         assert (
             data.sizes["trial"] == 5 and about(data)["complete"] and about(data)["trials"] == [0, 1, 2, 3, 4]
         )
@@ -83,7 +84,7 @@ def test_the_results_do_not_depend_on_the_split() -> None:
 def test_a_sweep_is_split_along_its_longest_entry_and_repeated_to_the_bit() -> None:
     model, sweep = small(), {"s.amplitude": [4.0, 8.0], "u.tau": [10.0, 15.0, 20.0]}
     whole = dd.simulate(model, 40, sweep=sweep, trials=[3, 1])
-    split = dd.simulate(model, 40, sweep=sweep, trials=[3, 1], workers=2)
+    split = dd.simulate(model, 40, sweep=sweep, trials=[3, 1], on=dd.Resources(workers=2))
     assert split["u.activation"].dims == whole["u.activation"].dims and split.drop_attrs().coords.identical(
         whole.drop_attrs().coords
     )
@@ -96,7 +97,7 @@ def test_a_sweep_is_split_along_its_longest_entry_and_repeated_to_the_bit() -> N
 
 
 def test_an_incomplete_record_is_compared_with_the_trials_that_it_has() -> None:
-    whole = dd.simulate(small(), 50, trials=6, batch=2)
+    whole = dd.simulate(small(), 50, trials=6, on=dd.Resources(batch=2))
     some = whole.isel(trial=[0, 1, 4, 5])
     some.attrs["deodar"] = some.attrs["deodar"].replace('"complete": true', '"complete": false')
     assert repeat(some, dd.simulate).same_bits
@@ -110,7 +111,7 @@ import deodar as dd
 print("begun", flush=True)
 model = dd.Model("m")
 model.add(dd.Field("u", [dd.Axis("x", 0, 1, samples=11)], noise=0.1))
-print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
+print(dd.simulate(model, 10, trials=2, on=dd.Resources(workers=2)).sizes["trial"])
 """
     script = tmp_path / "script.py"
     script.write_text(code)
@@ -144,9 +145,7 @@ def test_ctrl_c_stops_all_workers_and_returns_the_complete_pieces() -> None:
             trials=most,
             record=["u.activation"],
             every=steps // 10,
-            workers=2,
-            batch=1,
-            progress=told,
+            on=dd.Resources(workers=2, batch=1, progress=told),
         )
     presser.join()
     data = caught.value.data
@@ -166,7 +165,7 @@ def test_a_second_ctrl_c_ends_the_workers_at_once() -> None:
         os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        dd.simulate(small(), 50_000_000, trials=2, workers=2, progress=told)
+        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2, progress=told))
     assert not children() and signal.getsignal(signal.SIGINT) is before
 
 
@@ -186,7 +185,7 @@ def test_no_thread_or_process_of_the_pool_remains_after_the_call(how: str) -> No
     with pytest.raises(
         {"stops": dd.errors.Interrupted, "fails": ValueError, "dies": dd.errors.WorkerError}[how]
     ):
-        dd.simulate(small(), 50_000_000, trials=2, workers=2, progress=told)
+        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2, progress=told))
     assert len({child.pid for child in seen}) == 2 and not children() and set(threading.enumerate()) == before
 
 
@@ -196,7 +195,7 @@ def test_ctrl_c_without_workers_returns_the_complete_pieces() -> None:
             raise KeyboardInterrupt
 
     with pytest.raises(dd.errors.Interrupted, match="3 of 10 pieces") as caught:
-        dd.simulate(small(), 1000, trials=10, batch=1, progress=told)
+        dd.simulate(small(), 1000, trials=10, on=dd.Resources(batch=1, progress=told))
     assert caught.value.data["trial"].values.tolist() == [0, 1, 2]
 
 
@@ -209,7 +208,7 @@ def test_a_worker_that_dies_raises_a_worker_error() -> None:
     killer = threading.Thread(target=kill)
     killer.start()
     with pytest.raises(dd.errors.WorkerError, match="ended unexpectedly"):
-        dd.simulate(small(), 50_000_000, trials=2, workers=2)
+        dd.simulate(small(), 50_000_000, trials=2, on=dd.Resources(workers=2))
     killer.join()
     assert not children()
 
@@ -275,7 +274,7 @@ def test_an_error_in_a_worker_is_raised_unchanged_in_the_caller() -> None:
     model = small()
     model["u"] >> model.add(dd.Gain(1e30, name="g")) >> model.add(dd.Gain(1e30, name="h")) >> model["u"]
     with pytest.raises(dd.errors.NotFinite, match="became infinite") as caught:
-        dd.simulate(model, 100, trials=2, workers=2)
+        dd.simulate(model, 100, trials=2, on=dd.Resources(workers=2))
     assert caught.value.paths and caught.value.problems[0].fix
 
 
@@ -288,12 +287,12 @@ class Locked(World):
 
 def test_a_value_that_cannot_be_pickled_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(dd.errors.WorkerError, match=r"the world Locked cannot be sent .*bolted"):
-        dd.simulate(small(), 10, trials=2, workers=2, world=Locked())
+        dd.simulate(small(), 10, trials=2, world=Locked(), on=dd.Resources(workers=2))
     monkeypatch.setattr(World, "__module__", "__main__")
     with pytest.raises(dd.errors.WorkerError, match="World is written in the script itself"):
-        dd.simulate(small(), 10, trials=2, workers=2, world=World())
+        dd.simulate(small(), 10, trials=2, world=World(), on=dd.Resources(workers=2))
     with pytest.raises(dd.errors.ParameterError, match="workers is 0"):
-        dd.simulate(small(), 10, trials=2, workers=0)
+        dd.simulate(small(), 10, trials=2, on=dd.Resources(workers=0))
 
 
 def test_workers_import_the_modules_of_custom_kinds(tmp_path: Path) -> None:
@@ -315,7 +314,7 @@ import deodar as dd
 model = dd.Model("m")
 model.add(Lift("s", amplitude=2.0)) >> model.add(dd.Field("u", [], noise=0.1))
 try:
-    print(dd.simulate(model, 10, trials=2, workers=2).sizes["trial"])
+    print(dd.simulate(model, 10, trials=2, on=dd.Resources(workers=2)).sizes["trial"])
 except dd.errors.WorkerError as error:
     print(error)
 """
@@ -338,9 +337,9 @@ def test_memory_counts_all_workers(monkeypatch: pytest.MonkeyPatch) -> None:
         available = 500 * 2**20
 
     monkeypatch.setattr(psutil, "virtual_memory", lambda: Little)
-    dd.simulate(small(), 5, trials=4, batch=1)
+    dd.simulate(small(), 5, trials=4, on=dd.Resources(batch=1))
     with pytest.raises(dd.errors.TooLarge, match="fewer workers"):
-        dd.simulate(small(), 5, trials=4, workers=4)
+        dd.simulate(small(), 5, trials=4, on=dd.Resources(workers=4))
 
 
 def test_a_worker_ends_when_its_parent_is_killed(tmp_path: Path) -> None:

@@ -146,7 +146,7 @@ def test_a_record_is_repeated_and_compared(here: Path, capsys: pytest.CaptureFix
         (["small.json", "--duration", "5", "--points", "none.csv"], 1, "none.csv: cannot be read"),
         (["small.json", "--duration", "5", "--points", "small.json"], 1, "is no list of points"),
         (["small.json", "--duration", "5", "--points", "p.csv", "--sweep", "u.tau=7"], 2, "one of them"),
-        (["small.json", "--duration", "5", "--sweep", "u.tau=7", "--own-noise"], 1, "list of points"),
+        (["small.json", "--duration", "5", "--sweep", "u.tau=7", "--own-noise"], 2, "list of points"),
         (["small.json", "--duration", "5", "--world", "picture:none.jpg"], 1, "no such picture"),
         (["small.json", "--duration", "5", "--out", "small.json"], 1, "not a folder"),
         (["small.json", "--duration", "5", "--out", "a/b"], 1, "does not exist"),

@@ -54,9 +54,9 @@ def line(tau=20.0, **given):
     made.add(dd.GaussianStimulus("place", [x], center=20, sigma=3, amplitude=6)) >> u
     return made
 
-def values(made, **given):
-    given = {"record": ["u"], "every": 20, "devices": "all", "progress": False, **given}
-    data = dd.simulate(made, 60, **given)
+def values(made, devices="all", workers=None, batch=None, **given):
+    given = {"record": ["u"], "every": 20, **given}
+    data = dd.simulate(made, 60, on=dd.Resources(None, devices, workers, batch=batch), **given)
     return data["u.activation"].values if "u.activation" in data else data.attrs
 
 found = {
@@ -69,7 +69,7 @@ found = {
     "noise": values(volume(kernel=[], noise=1.0, global_inhibition=0.0)),
 }
 found["alone"] = values(line(), trials=6, precision="float64", devices=None)
-session = dd.Session(volume(), devices="all", seed=3)
+session = dd.Session(volume(), seed=3, on=dd.Resources(devices="all"))
 session.run(10)
 kept = session.snapshot()
 session.inject("u", 2.0, 2)
@@ -89,7 +89,7 @@ if host >= 0:
         else:
             raise AssertionError(text)
 
-    out = values(volume(), out=f"{folder}/night.zarr", snapshots=20.0)
+    out = values(volume(), out=dd.Output(f"{folder}/night.zarr", snapshots=20.0))
     if host == 0:
         assert np.array_equal(out, found["waves"])
         made_by = about(dd.open_record(f"{folder}/night.zarr"))["made_by"]
@@ -123,7 +123,7 @@ if host >= 0:
     fails(HostsError, "differ in the calls of the session", session.step)
     fails(HostsError, "follows the wall clock", lambda: session.run_live(5))
     fails(HostsError, "joined already", lambda: dd.join_hosts("127.0.0.1:" + port, 2, host))
-    alone = dd.simulate(line(), 20 + host, progress=False)
+    alone = dd.simulate(line(), 20 + host)
     assert alone.sizes["time"] == 1
     assert np.array_equal(values(line(), trials=3), found["few"])
 print("good")
@@ -153,7 +153,7 @@ def shown(done):
 
 try:
     given = {"record": ["u"], "every": 100.0, "out": sys.argv[5]} if how == "SIGINT" else {}
-    dd.simulate(made, 1e8, trials=trials or None, devices="all", progress=shown, **given)
+    dd.simulate(made, 1e8, trials=trials or None, on=dd.Resources(devices="all", progress=shown), **given)
 except (HostsError, Interrupted) as error:
     print(type(error).__name__, error)
 """
@@ -176,7 +176,7 @@ class Broken:
 
 host, port = int(sys.argv[1]), sys.argv[2]
 dd.join_hosts("127.0.0.1:" + port, 2, host, timeout=100)
-session = dd.Session(volume(), devices="all")
+session = dd.Session(volume(), on=dd.Resources(devices="all"))
 session.run(10)
 if host:
     run.time = Broken()
@@ -311,7 +311,7 @@ def test_the_command_runs_on_the_hosts_of_slurm_and_the_first_one_writes(tmp_pat
     assert json.loads(here[1])["complete"] is True and there[1] == ""
     data = dd.open_record(tmp_path / "night")
     assert data.sizes["trial"] == 4
-    alone = dd.simulate(dd.load("example:selection"), 20, trials=4, precision="float64", progress=False)
+    alone = dd.simulate(dd.load("example:selection"), 20, trials=4, precision="float64")
     for name in alone.data_vars:
         assert np.abs(data[name].values - alone[name].values).max() < 1e-10, name
 
@@ -381,7 +381,7 @@ def test_an_error_of_a_run_on_a_device_of_one_host_concerns_no_other(
         monkeypatch.setattr(hosts, "_joined", [links[index]])
         with pytest.raises(UnknownName):
             made = dd.load("example:selection")
-            dd.simulate(made, 1, record=["missing"], devices=1, device="cpu:0", progress=False)
+            dd.simulate(made, 1, record=["missing"], on=dd.Resources(device="cpu:0", devices=1))
         assert not links[index].failed
         assert at_once(links, ("a", 1), ("a", 2)) == [[1, 2]] * 2
 
@@ -577,5 +577,5 @@ def test_arguments_that_are_not_valid_are_named(given: tuple[object, ...], text:
     with pytest.raises(ParameterError, match=text):
         dd.join_hosts(*given)  # pyright: ignore[reportArgumentType]
     with pytest.raises(HostsError, match=r"Call dd.join_hosts\(...\) before the first run"):
-        dd.simulate(dd.load("example:selection"), 1, progress=False)
+        dd.simulate(dd.load("example:selection"), 1)
         dd.join_hosts("node1:7007", 2, 0)

@@ -72,8 +72,8 @@ import numpy as np, deodar as dd
 from deodar.compiler.traffic import collectives
 from tests.deodar.compiler.test_shard import linked, plane, sharing, volume
 
-def values(made, **given):
-    data = dd.simulate(made, 40, record=list(given.pop("record", ["u"])), every=20, progress=False, **given)
+def values(made, record=("u",), devices=None):
+    data = dd.simulate(made, 40, record=list(record), every=20, on=dd.Resources(devices=devices))
     return {name: data[name].values for name in data.data_vars}
 
 def divided(made):
@@ -109,7 +109,7 @@ assert np.abs(values(noisy)["u.activation"] - values(noisy, devices=8)["u.activa
 made = volume(64)
 memory = []
 for devices in (None, 8):
-    session = dd.Session(made, devices=devices)
+    session = dd.Session(made, on=dd.Resources(devices=devices))
     found = session.program.chunk(())[0].memory_analysis()
     memory.append(found.argument_size_in_bytes + found.output_size_in_bytes + found.temp_size_in_bytes)
 assert memory[1] <= 1.25 * memory[0] / 8, memory
@@ -125,7 +125,7 @@ from deodar.recording.record import about
 from tests.deodar.compiler.test_shard import linked, volume
 
 made = linked()
-one, many = dd.Session(made, seed=3), dd.Session(made, seed=3, devices="all")
+one, many = dd.Session(made, seed=3), dd.Session(made, seed=3, on=dd.Resources(devices="all"))
 
 def near():
     for path in ("u", "v", "line", "node", "trace.output"):
@@ -171,7 +171,7 @@ near()
 data = dd.open_record(sys.argv[1] + "/night.zarr")
 assert about(data)["made_by"]["devices"] == "8"
 assert np.abs(data["u.activation"].isel(time=-1).values - one.read("u")).max() < 1e-4
-again = dd.Session(made, seed=3, devices=8)
+again = dd.Session(made, seed=3, on=dd.Resources(devices=8))
 again.set("u.kernel.0.sigma", 4.0)
 again.reset()
 again.run(10)
@@ -191,10 +191,11 @@ def fails(text, call):
 fails("costs are measured on one device, and 8 divide the fields", many.costs)
 shifted = volume(24)
 shifted["u"] >> shifted.add(dd.Shift(3.0, name="aside")) >> shifted.add(dd.Field("v", shifted["u"].axes))
-fails("aside", lambda: dd.Session(shifted, devices=8))
+eight = dd.Resources(devices=8)
+fails("aside", lambda: dd.Session(shifted, on=eight))
 fails("u: cannot be divided among 8 devices along 'x'",
-      lambda: dd.Session(volume(24, quadrature="cell"), devices=8))
-fails("by matrices along the axis 'x'", lambda: dd.Session(volume(24), precision="float64", devices=8))
+      lambda: dd.Session(volume(24, quadrature="cell"), on=eight))
+fails("by matrices along the axis 'x'", lambda: dd.Session(volume(24), precision="float64", on=eight))
 print("good")
 """
 

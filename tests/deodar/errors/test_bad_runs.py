@@ -95,9 +95,13 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
     "precision": (
         lambda m: dd.simulate(m, 5, precision="float16"),
         ParameterError,
-        ("precision is 'float16'; expected float32 or float64",),
+        ("precision is 'float16'; expected float32, float32-exact, float64",),
     ),
-    "precision, live": (lambda m: dd.Session(m, precision="double"), ParameterError, ("float32 or float64",)),
+    "precision, live": (
+        lambda m: dd.Session(m, precision="double"),
+        ParameterError,
+        ("float32, float32-exact, float64",),
+    ),
     "trials 0": (
         lambda m: dd.simulate(m, 5, trials=0),
         ParameterError,
@@ -179,12 +183,12 @@ RUNS: dict[str, tuple[Call, type[DeodarError], tuple[str, ...]]] = {
         ("sweep of u.tau",),
     ),
     "noise of its own for a grid": (
-        lambda m: dd.simulate(m, 5, sweep={"u.tau": [10, 20]}, own_noise=True),
+        lambda m: dd.simulate(m, 5, sweep=dd.Points({"u.tau": [10, 20]}, own_noise=True)),
         ParameterError,
-        ("own_noise belongs to a sweep that is a list of points",),
+        ("dd.Points is a list of points, and this is a grid",),
     ),
     "noise of its own for too many trials": (
-        lambda m: dd.simulate(m, 5, sweep=[{"u.tau": 10}], trials=[70_000], own_noise=True),
+        lambda m: dd.simulate(m, 5, sweep=dd.Points([{"u.tau": 10}], own_noise=True), trials=[70_000]),
         ParameterError,
         ("own_noise serves 65536 points",),
     ),

@@ -20,8 +20,8 @@ from distributed import LocalCluster
 
 from deodar.batch import cluster_task, on_cluster
 from deodar.batch import scheduler as schedulers
-from deodar.batch.cluster import Cluster, slurm_settings
 from deodar.batch.on_cluster import ClusterPool
+from deodar.cluster import Cluster, slurm_settings
 from deodar.errors import MissingExtra, ParameterError, RecordError, WorkerError
 from deodar.experiments import results
 from deodar.recording import provenance, writer_lock
@@ -472,7 +472,7 @@ def test_the_library_of_slurm_is_opened_in_a_thread_and_keeps_ctrl_c(tmp_path):
     code = (
         "import signal, threading\n"
         "from deodar.batch import scheduler\n"
-        "from deodar.batch.cluster import Cluster\n"
+        "from deodar.cluster import Cluster\n"
         f"there = Cluster({f'slurm:{tmp_path}/jobs.yaml'!r}, trust_network=True)\n"
         "one = threading.Thread(target=lambda: print(scheduler.slurm_script(there)))\n"
         "one.start()\n"

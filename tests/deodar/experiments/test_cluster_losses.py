@@ -13,8 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from deodar.batch import on_cluster, scheduler
-from deodar.batch.cluster import Cluster
 from deodar.batch.on_cluster import ClusterPool
+from deodar.cluster import Cluster
 from deodar.errors import DeodarError
 from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.merging import merge_results

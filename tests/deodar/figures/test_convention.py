@@ -78,7 +78,7 @@ def test_a_line_has_the_colour_of_its_port() -> None:
     model = dd.Model("one field")
     model.add(dd.Field("u", [dd.Axis("x", 0, 10, samples=11)]))
     paths = [f"u.{port}" for port in _style.PORTS]
-    data = dd.simulate(model, 2, record=paths, progress=False)
+    data = dd.simulate(model, 2, record=paths)
     for port, path in zip(_style.PORTS, paths, strict=True):
         for draw in (dd.time_course, dd.snapshot):
             [axes] = draw(data[path]).axes

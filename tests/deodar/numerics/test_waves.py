@@ -187,7 +187,7 @@ def test_default_strategies_are_within_1e_4_of_exact_ones(
 def test_exact_accuracy_uses_matrices_and_is_stated_in_the_record() -> None:
     made = model()
     exact = dd.simulate(made, 100, precision="float64")["u.activation"].values
-    asked = dd.simulate(made, 100, accuracy="exact")
+    asked = dd.simulate(made, 100, precision="float32-exact")
     assert np.abs(asked["u.activation"].values - exact).max() < 2e-5
     assert (
         executable(made, accuracy="exact").plan.describe().count("waves")
@@ -195,10 +195,10 @@ def test_exact_accuracy_uses_matrices_and_is_stated_in_the_record() -> None:
         < executable(made).plan.describe().count("waves")
     )
     assert json.loads(asked.attrs["deodar"])["accuracy"] == "exact"
-    session = dd.Session(made, accuracy="exact")
+    session = dd.Session(made, precision="float32-exact")
     assert session.set("u.kernel.0.sigma", 2.0) == "rebuild", "matrices hold at any width"
-    with pytest.raises(ParameterError, match="default or exact"):
-        dd.simulate(made, 1, accuracy="high")
+    with pytest.raises(ParameterError, match="float32, float32-exact, float64"):
+        dd.simulate(made, 1, precision="high")
 
 
 def test_only_widths_outside_of_the_bucket_recompile() -> None:

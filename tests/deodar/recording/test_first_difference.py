@@ -18,7 +18,7 @@ from tests.deodar.recording.test_replay import model
 
 @pytest.fixture(scope="module")
 def data() -> xarray.Dataset:
-    return dd.simulate(model(), duration=200, record=["u.activation", "n.output"], trials=2, progress=False)
+    return dd.simulate(model(), duration=200, record=["u.activation", "n.output"], trials=2)
 
 
 @pytest.fixture(autouse=True)

@@ -126,7 +126,9 @@ def test_a_resumed_run_has_the_samples_of_a_whole_one(
             raise KeyboardInterrupt
 
     with pytest.raises(dd.errors.Interrupted):
-        dd.simulate(model(), 100, seed=2, record=given, every=2, out=tmp_path / "run", progress=stop)
+        dd.simulate(
+            model(), 100, seed=2, record=given, every=2, out=tmp_path / "run", on=dd.Resources(progress=stop)
+        )
     resumed = dd.resume(tmp_path / "run")
     assert resumed.drop_attrs().load().identical(whole.drop_attrs().load())
 

@@ -34,7 +34,6 @@ def data() -> xarray.Dataset:
         every=2,
         trials=3,
         sweep={"s.amplitude": [1, 4]},
-        progress=False,
     )
 
 
@@ -150,9 +149,7 @@ def test_a_saved_record_has_chunks_of_whole_frames_of_one_copy(data: xarray.Data
 
 
 def test_a_record_written_during_a_run_is_read(tmp_path: Path) -> None:
-    kept = dd.simulate(
-        model(), duration=300, record=["u.activation", "n.output"], out=tmp_path / "r.zarr", progress=False
-    )
+    kept = dd.simulate(model(), duration=300, record=["u.activation", "n.output"], out=tmp_path / "r.zarr")
     reader = RecordReader(tmp_path / "r.zarr")
     u = place(reader, "u.activation")
     for k in (0, 123, 300):

@@ -15,7 +15,7 @@ from tests.deodar.worlds.test_recorded_run import driving
 
 
 def test_a_single_run_continues_with_the_bits_of_an_undisturbed_session(tmp_path: Path) -> None:
-    dd.simulate(mixed(), 60, seed=4, record=["u", "v"], every=5, out=tmp_path / "run", progress=False)
+    dd.simulate(mixed(), 60, seed=4, record=["u", "v"], every=5, out=tmp_path / "run")
     said: list[tuple[int, int]] = []
     session = dd.session_at(tmp_path / "run", 37, progress=lambda *at: said.append(at))
     script = dd.Session(mixed(), seed=4)
@@ -75,7 +75,7 @@ def edited(place: Path) -> None:
 
 
 def trials(place: Path) -> None:
-    dd.simulate(mixed(), 6, record=["u"], trials=2, out=place, progress=False)
+    dd.simulate(mixed(), 6, record=["u"], trials=2, out=place)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_a_record_that_cannot_be_continued_states_why(
 
 
 def test_a_record_with_other_values_is_refused(tmp_path: Path) -> None:
-    data = dd.simulate(mixed(), 6, record=["u"], every=1, progress=False)
+    data = dd.simulate(mixed(), 6, record=["u"], every=1)
     data["u.activation"][4] += 1
     dd.save_record(data, tmp_path / "run.nc")
     assert dd.session_at(tmp_path / "run.nc", 3).tick == 3
@@ -108,7 +108,7 @@ def test_a_record_with_other_values_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_time_between_samples_is_compared_with_the_sample_before_it(tmp_path: Path) -> None:
-    data = dd.simulate(mixed(), 40, record=["u"], every=5, progress=False)
+    data = dd.simulate(mixed(), 40, record=["u"], every=5)
     data["u.activation"][4] += 1
     dd.save_record(data, tmp_path / "run.nc")
     assert dd.session_at(tmp_path / "run.nc", 19).tick == 19
@@ -117,7 +117,7 @@ def test_a_time_between_samples_is_compared_with_the_sample_before_it(tmp_path: 
 
 
 def test_a_time_after_the_end_of_the_record_is_refused(tmp_path: Path) -> None:
-    dd.simulate(mixed(), 12, record=["u"], every=5, out=tmp_path / "run", progress=False)
+    dd.simulate(mixed(), 12, record=["u"], every=5, out=tmp_path / "run")
     assert dd.session_at(tmp_path / "run", 12).tick == 12
     with pytest.raises(TimeError, match="the record ends at 12, before 13"):
         dd.session_at(tmp_path / "run", 13)

@@ -21,7 +21,7 @@ def record(path: Path, seed: int) -> Path:
     """Write a record of a node with noise."""
     model = dd.Model("m")
     model.add(dd.Noise("n")) >> model.add(dd.RateNode("u"))
-    data = dd.simulate(model, duration=20, record=["u.activation"], seed=seed, progress=False)
+    data = dd.simulate(model, duration=20, record=["u.activation"], seed=seed)
     folder.write(data, model.document, path, "zarr")
     return path
 

@@ -21,8 +21,8 @@ def use_cores(n: int) -> None:
     One core is right for most single runs, and the command line's default: work on fields below 50 x 50 x 30
     samples is no faster on two cores (the difference was within 15 %) and takes up to twice the CPU time. A
     field of 50 x 50 x 30 took 0.7 of the time, for 1.15 times the CPU time (measured by `NPROC=1` against
-    `NPROC=2` on two otherwise idle cores). Trials and sweeps gain from `simulate(..., workers=n)`, which runs
-    processes of one core each.
+    `NPROC=2` on two otherwise idle cores). Trials and sweeps gain from workers, which are processes of
+    one core each.
 
     Args:
         n: number of cores, at least 1.

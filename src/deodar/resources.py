@@ -1,0 +1,110 @@
+"""What a computation may use, and what it shows."""
+
+from __future__ import annotations
+
+import dataclasses as dc
+from collections.abc import Callable
+from typing import Any, Self
+
+import numpy as np
+
+from deodar.cluster import Cluster
+from deodar.cores import use_cores
+from deodar.errors import ParameterError, show
+
+
+@dc.dataclass(frozen=True)
+class Resources:
+    """What a computation may use, and what it shows, as functions take it: `on=dd.Resources(workers=4)`.
+
+    It does not change what is computed; in single precision the last digits may differ. A function refuses a
+    field that it cannot use. All use `cores`, and all but `Session` use `progress`. Beside these `simulate`
+    uses all fields, `Session` a device or several, `Experiment.run` workers or a cluster, and `resume` a
+    cluster.
+
+    Attributes:
+        device: device of the run: cpu, gpu, or one of several as gpu:1; none: the CPU.
+        devices: number of devices of the kind of `device` that share the copies of a run in equal parts, or
+            "all" of them; after `join_hosts` of all hosts, each of which returns the record. A copy has the
+            bits that it has in a batch of the size of one part. The fields of a single run, or of a session,
+            are divided along an axis. None: one device.
+        workers: number of processes of one core each that share the copies of a run, or the trials of an
+            experiment; one per core is best. None: this process.
+        cluster: workers on this or many machines, in place of `workers`: a `dd.Cluster`, or its address such
+            as `local:4` or `tcp://HOST:8786`. A run has the pieces that it has without workers; `batch` makes
+            them smaller. A run in one piece is computed in this process.
+        batch: copies that run at once in one process; none: as many as fit into the cache, all on devices
+            other than the CPU.
+        cores: cores of the CPU for every program of this process, fixed when the first one runs: see
+            `use_cores`. None: as it is.
+        progress: whether `simulate` and `resume` show a progress bar; none: on a terminal, if the run takes
+            longer than a second. Or a function: these call it with the number of completed steps,
+            `Experiment.run` with a `Progress` after each piece, `regime_map` with the number of cells that
+            are computed and the number that is known to be needed, `regimes` with the name of the next
+            measurement, `tune` with what is done, the number of candidates so far and the lowest margin of
+            the best.
+    """
+
+    device: str | None = None
+    devices: int | str | None = None
+    workers: int | None = None
+    cluster: Cluster | str | None = None
+    batch: int | None = None
+    cores: int | None = None
+    progress: bool | Callable[..., object] | None = None
+
+    def __post_init__(self) -> None:
+        for name, what, fix in (
+            ("workers", "a number of processes", "One for each core is best"),
+            ("batch", "a number of copies that run at once", ""),
+        ):
+            given = getattr(self, name)
+            if given is not None and not _counts(given):
+                raise ParameterError(f"{name} is {show(given)}; expected {what}, at least 1", fix=fix)
+        if self.cluster is None:
+            return
+        Cluster.of(self.cluster)
+        for name in ("workers", "devices"):
+            if getattr(self, name) is not None:
+                raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
+
+    def use(self, user: str, *fields: str) -> Self:
+        """Set the number of cores, and return itself.
+
+        Args:
+            user: the function that uses it.
+            fields: names of the fields that the function uses, beside `cores`.
+
+        Raises:
+            ParameterError: another field is given.
+            CoresError: JAX has started with another number of cores.
+        """
+        usable = (*fields, "cores")
+        for field in dc.fields(self):
+            if getattr(self, field.name) is not None and field.name not in usable:
+                raise ParameterError(
+                    f"{user} cannot use {field.name}",
+                    where="on",
+                    fix=f"Leave it out; {user} uses {', '.join(usable)}",
+                )
+        if self.cores is not None:
+            use_cores(self.cores)
+        return self
+
+    def told(self, user: str) -> Callable[..., object]:
+        """Return the function that receives the progress of a function that draws no bar.
+
+        Raises:
+            ParameterError: a bar is asked for.
+        """
+        if self.progress is True:
+            raise ParameterError(f"{user} draws no progress bar", where="on", fix="Give a function")
+        return self.progress or _ignored
+
+
+def _ignored(*progress: object) -> None:
+    """Ignore the progress."""
+
+
+def _counts(value: Any) -> bool:
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and int(value) >= 1
