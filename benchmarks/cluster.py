@@ -82,7 +82,8 @@ def call(folder: Path, given: argparse.Namespace, cluster: str) -> subprocess.Po
     """Start a process that runs the experiment on a cluster."""
     code = (
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import cluster\n"
-        f"cluster.experiment({given.trials}, {given.steps}).run({str(folder)!r}, cluster={cluster!r})"
+        f"from deodar.resources import Resources; on = Resources(cluster={cluster!r})\n"
+        f"cluster.experiment({given.trials}, {given.steps}).run({str(folder)!r}, on=on)"
     )
     return subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
 
@@ -156,9 +157,11 @@ def rows(given: argparse.Namespace, folder: Path) -> bool:
 
 def run(made: Any, folder: Path, **how: Any) -> None:
     """Run an experiment; trials that diverge are part of it."""
+    from deodar.resources import Resources
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        made.run(folder, **how)
+        made.run(folder, on=Resources(**how))
 
 
 def kills(given: argparse.Namespace, folder: Path) -> bool:
@@ -245,7 +248,7 @@ def cost(given: argparse.Namespace, folder: Path) -> bool:
         began, cpu = time.perf_counter(), time.process_time()
         keys = [f"{k:06}" for k in range(given.tasks)]
         jobs = [Job((key,), json.loads, {"s": json.dumps([{"key": key}])}) for key in keys]
-        run_jobs(jobs, Rows(folder / "rows.jsonl", {}), cluster=pool)
+        run_jobs(jobs, Rows(folder / "rows.jsonl", {}), pool=pool)
         cpu, wall = time.process_time() - cpu, time.perf_counter() - began
     each = 1000 * cpu / given.tasks
     print(
@@ -340,6 +343,7 @@ def timed(made: Any, file: Path, count: int) -> tuple[float, float, float]:
     from deodar.experiments import packed_experiment
     from deodar.experiments.jobs import Job, run_jobs
     from deodar.experiments.rows import Rows
+    from deodar.resources import Resources
 
     setup, began, first = made.setup(), time.perf_counter(), list[float]()
     handed = packed_experiment.PackedExperiment.of(setup)
@@ -359,7 +363,7 @@ def timed(made: Any, file: Path, count: int) -> tuple[float, float, float]:
             if progress.rows and not first:
                 first.append(time.perf_counter() - began)
 
-        run_jobs(jobs, Rows(file, {}), told, cluster=pool)
+        run_jobs(jobs, Rows(file, {}), Resources(progress=told), pool)
         return time.perf_counter() - began, first[0], start
 
 

@@ -58,7 +58,7 @@ def main() -> None:
     )
 
     def watched(every: float) -> Callable[[], object]:
-        return lambda: dc.replace(experiment, every=every).run(workers=given.workers)
+        return lambda: dc.replace(experiment, every=every).run(on=dd.Resources(workers=given.workers))
 
     ways: dict[str, Callable[[], object]] = {
         "plain": lambda: dd.simulate(

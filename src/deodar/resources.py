@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Callable
+from numbers import Integral
 from typing import Any, Self
 
-import numpy as np
-
 from deodar.cluster import Cluster
-from deodar.cores import use_cores
 from deodar.errors import ParameterError, show
 
 
@@ -19,8 +17,8 @@ class Resources:
 
     It does not change what is computed; in single precision the last digits may differ. A function refuses a
     field that it cannot use. All use `cores`, and all but `Session` use `progress`. Beside these `simulate`
-    uses all fields, `Session` a device or several, `Experiment.run` workers or a cluster, and `resume` a
-    cluster.
+    uses all fields, `Session` a device or several, `Experiment.run` and `run_jobs` workers or a cluster, and
+    `resume` a cluster.
 
     Attributes:
         device: device of the run: cpu, gpu, or one of several as gpu:1; none: the CPU.
@@ -38,11 +36,8 @@ class Resources:
         cores: cores of the CPU for every program of this process, fixed when the first one runs: see
             `use_cores`. None: as it is.
         progress: whether `simulate` and `resume` show a progress bar; none: on a terminal, if the run takes
-            longer than a second. Or a function: these call it with the number of completed steps,
-            `Experiment.run` with a `Progress` after each piece, `regime_map` with the number of cells that
-            are computed and the number that is known to be needed, `regimes` with the name of the next
-            measurement, `tune` with what is done, the number of candidates so far and the lowest margin of
-            the best.
+            longer than a second. Or a function: these call it with the number of completed steps, others as
+            they say.
     """
 
     device: str | None = None
@@ -68,6 +63,11 @@ class Resources:
             if getattr(self, name) is not None:
                 raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
 
+    @property
+    def shared(self) -> bool:
+        """Whether worker processes are to compute."""
+        return self.workers is not None or self.cluster is not None
+
     def use(self, user: str, *fields: str) -> Self:
         """Set the number of cores, and return itself.
 
@@ -88,10 +88,13 @@ class Resources:
                     fix=f"Leave it out; {user} uses {', '.join(usable)}",
                 )
         if self.cores is not None:
+            # start-up time: this brings JAX
+            from deodar.cores import use_cores
+
             use_cores(self.cores)
         return self
 
-    def told(self, user: str) -> Callable[..., object]:
+    def told(self, user: str) -> Callable[..., Any]:
         """Return the function that receives the progress of a function that draws no bar.
 
         Raises:
@@ -107,4 +110,4 @@ def _ignored(*progress: object) -> None:
 
 
 def _counts(value: Any) -> bool:
-    return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and int(value) >= 1
+    return isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= 1

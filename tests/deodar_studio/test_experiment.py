@@ -111,7 +111,7 @@ def test_an_experiment_file_opens_with_its_model_and_runs_in_a_worker(folder: Pa
     with studio(folder) as address:
         play(address, scene)
     table = dd.load_results(folder / "two_targets-001")
-    expected = few().run(folder / "by script", workers=1)
+    expected = few().run(folder / "by script", on=dd.Resources(workers=1))
     assert table.sizes["trial"] == 12
     assert np.array_equal(table["place"], expected["place"], equal_nan=True)
 
@@ -189,7 +189,7 @@ def test_a_stopped_run_continues_and_so_does_one_of_a_studio_that_ended(folder: 
         play(address, begin)
     with studio(folder) as address:
         play(address, resume)
-    expected = slow.run(folder / "by script", workers=1)
+    expected = slow.run(folder / "by script", on=dd.Resources(workers=1))
     assert np.array_equal(dd.load_results(folder / "two_targets-001")["duration"], expected["duration"])
 
 
@@ -227,7 +227,9 @@ def test_a_row_opens_the_record_of_its_trial_which_gives_the_same_row(
 
 
 def test_a_row_whose_record_is_in_a_store_is_repeated(folder: Path) -> None:
-    few(1, record=["u"], every=5.0).run(folder / "results", workers=1, records=folder / "store")
+    few(1, record=["u"], every=5.0).run(
+        folder / "results", on=dd.Resources(workers=1), records=folder / "store"
+    )
     row = json.loads((folder / "results" / "trials.jsonl").read_text().splitlines()[2])
     assert row["trial"] == 1 and row["record"]["object"].startswith("records/0000/")
 

@@ -77,7 +77,7 @@ def test_the_processes_of_a_cluster_run_the_trials_and_are_counted(folder: Path)
         await p.do("repeat_trial", trial=5)
 
     at_its_experiment(folder, scene)
-    expected = few().run(folder / "by script", workers=1)
+    expected = few().run(folder / "by script", on=dd.Resources(workers=1))
     found = dd.load_results(folder / "two_targets-001")
     for name in ("place", "duration"):
         assert np.array_equal(found[name], expected[name], equal_nan=True)
@@ -199,7 +199,7 @@ def test_a_cluster_without_scheduler_workers_or_library_is_an_error_with_its_fix
 @pytest.fixture
 def begun(folder: Path) -> tuple[Path, list[str]]:
     """Return the results of an experiment with its first two rows, and the lines of the others."""
-    few().run(folder / "results", workers=1)
+    few().run(folder / "results", on=dd.Resources(workers=1))
     lines = (folder / "results" / "trials.jsonl").read_text(encoding="utf-8").splitlines(keepends=True)
     shutil.copytree(folder / "results", folder / "theirs")
     (folder / "theirs" / "trials.jsonl").write_text("".join(lines[:3]), encoding="utf-8")

@@ -335,10 +335,10 @@ def test_another_document_ends_the_repetition_of_a_record(
     recorded(root)
     begun, go = threading.Event(), threading.Event()
 
-    def session_at(path: Path, time: float, trust: bool, progress: Any) -> None:
+    def session_at(path: Path, time: float, trust: bool, on: dd.Resources) -> None:
         begun.set()
         go.wait(20)
-        progress(1, 2)
+        on.told("dd.session_at")(1, 2)
 
     monkeypatch.setattr(run, "session_at", session_at)
 

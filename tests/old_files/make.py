@@ -85,7 +85,7 @@ def objects(folder: Path) -> None:
             raise KeyboardInterrupt
 
     with contextlib.suppress(KeyboardInterrupt):
-        experiment.run(folder / "stopped", progress=stop)
+        experiment.run(folder / "stopped", on=dd.Resources(progress=stop))
 
 
 def main(version: str, folder: Path) -> None:
@@ -123,7 +123,7 @@ def main(version: str, folder: Path) -> None:
 
     bench.MOST_COPIES = 2
     try:
-        experiment.run(folder / "stopped", progress=stop)
+        experiment.run(folder / "stopped", on=dd.Resources(progress=stop))
     except KeyboardInterrupt:
         rows = folder / "stopped" / "trials.jsonl"
         rows.write_bytes(rows.read_bytes()[:-40])

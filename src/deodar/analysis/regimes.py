@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Unpack
 
@@ -22,6 +22,7 @@ from deodar.analysis.working_memory import Memory, forgetting, outlives, suppres
 from deodar.codec import JsonObject
 from deodar.elements.field import Field
 from deodar.model.model import Model
+from deodar.resources import Resources
 
 ABOVE = 1.02
 """Input just above detection, relative to the threshold."""
@@ -225,7 +226,7 @@ def regimes(
     accuracy: float = 0.01,
     limit: float = LIMIT,
     finer: bool = False,
-    progress: Callable[[str], None] | None = None,
+    on: Resources = Resources(),
     **isolation: Unpack[Isolation],
 ) -> Regimes:
     """Measure the instabilities of one field of a model.
@@ -237,7 +238,7 @@ def regimes(
         limit: longest settling, in time constants.
         finer: whether to measure the thresholds also on a grid twice as fine, if that grid has at most 20,000
             samples.
-        progress: called with the name of the next measurement.
+        on: its `progress` is called with the name of the next measurement.
         sigma: width of the localised input; none: that of the kernel's excitation.
         center: position of the localised input; none: the sample nearest to the middle.
         precision: float32 or float64.
@@ -248,7 +249,7 @@ def regimes(
         UnknownName: if the model has no element at `path`.
         AnalysisError: if the element is not a field.
     """
-    tell = progress or (lambda what: None)
+    tell = on.use("dd.regimes", "progress").told("dd.regimes")
     tell("compiling")
     isolated = isolate(model, path, **isolation)
     tell("resting state")

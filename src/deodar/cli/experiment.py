@@ -104,6 +104,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.experiments.experiment import Experiment
     from deodar.experiments.results import ROWS, run_trials
     from deodar.importers.opening import load
+    from deodar.resources import Resources
 
     _options.use_cores(None)  # one core, as in workers: the number of cores changes the last digits
     if args.file == Path("merge"):
@@ -130,7 +131,8 @@ def run(args: argparse.Namespace) -> int:
     _confirm(args, setup, out)
     try:
         with Bar(args.no_progress or args.json, "trials") as bar:
-            data = run_trials(setup, out, args.workers or None, bar.show, cluster=cluster, part=part)
+            on = Resources(workers=args.workers or None, cluster=cluster, progress=bar.show)
+            data = run_trials(setup, out, on, part)
     except (KeyboardInterrupt, OutputError, WorkerError) as stop:
         if not (out / ROWS).is_file():
             raise

@@ -12,6 +12,7 @@ from deodar import codec
 from deodar.cli import _figure, _options, _report
 from deodar.cli._bar import Bar
 from deodar.exporters.tools import EXPORTERS, of_models, of_records
+from deodar.resources import Resources
 
 HELP = (
     "write a record in another format, what deodar plot draws of it as a video, or a model as a file of"
@@ -93,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
         names = drawn.names
         with Bar(args.no_progress or not sys.stderr.isatty(), "frames") as bar:
             drawn.figure.animate(
-                out, drawn.record, every, args.speed, args.width, args.force, progress=_shown(bar)
+                out, drawn.record, every, args.speed, args.width, args.force, Resources(progress=_shown(bar))
             )
     else:
         names = _convert(args, format, out)

@@ -92,6 +92,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.figures.regime_map import regime_map_figure
     from deodar.importers.opening import load
     from deodar.recording import files
+    from deodar.resources import Resources
 
     model = load(args.file)
     _options.apply_set(model, args)
@@ -113,7 +114,7 @@ def run(args: argparse.Namespace) -> int:
             args.field,
             args.strength,
             refine=not args.every_cell,
-            progress=lambda done, known: bar.show(Progress(done, known, done / known, None)),
+            on=Resources(progress=lambda done, known: bar.show(Progress(done, known, done / known, None))),
             sigma=args.sigma,
             inputs=args.input,
             precision=args.precision,

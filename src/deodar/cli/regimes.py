@@ -72,6 +72,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.analysis.regimes import regimes
     from deodar.figures import _files
     from deodar.figures.regimes import regimes_figure
+    from deodar.resources import Resources
 
     _files.claim(target, args.force)
     sigma = args.sigma[0] if args.sigma is not None and len(args.sigma) == 1 else args.sigma
@@ -83,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
             precision=args.precision,
             inputs=args.input,
             finer=True,
-            progress=status.update,
+            on=Resources(progress=status.update),
         )
         status.update("folds")
         folds = confirmed(found)

@@ -54,6 +54,7 @@ def run(args: argparse.Namespace) -> int:
     from deodar.importers.opening import load
     from deodar.model import output
     from deodar.model.model import save
+    from deodar.resources import Resources
 
     model = load(args.file)
     _options.apply_set(model, args)
@@ -74,7 +75,9 @@ def run(args: argparse.Namespace) -> int:
             wanted.parameters,
             wanted.requirements,
             bounds=wanted.bounds,
-            progress=lambda what, n, margin: status.update(f"{what}: {n} candidates, margin {margin:.2g}"),
+            on=Resources(
+                progress=lambda what, n, margin: status.update(f"{what}: {n} candidates, margin {margin:.2g}")
+            ),
             **options,
         )
     if args.out is not None:

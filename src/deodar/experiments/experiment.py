@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from deodar.batch.simulate import LONG_STEPS
-from deodar.cluster import Cluster
 from deodar.errors import DeodarError, Problem, RunWarning
 from deodar.experiments.design import Design
-from deodar.experiments.jobs import Progress
+from deodar.experiments.jobs import USABLE
 from deodar.experiments.observations import DIVERGED
 from deodar.experiments.results import run_trials
 from deodar.experiments.setup import Setup
+from deodar.resources import Resources
 
 if TYPE_CHECKING:
     import xarray
@@ -69,28 +68,24 @@ class Experiment(Design):
     def run(
         self,
         out: str | Path | None = None,
-        workers: int | None = None,
-        progress: Callable[[Progress], None] | None = None,
+        *,
         trust: bool = False,
-        cluster: Cluster | str | None = None,
         part: tuple[int, int] | None = None,
         records: str | Path | None = None,
+        on: Resources = Resources(),
     ) -> xarray.Dataset:
         """Run all trials without a row, and return the table of all trials.
 
         Args:
             out: folder of the results. An existing run in this folder is resumed, with the same results as
                 without the stop. None: results are not stored.
-            workers: number of processes of one core each; none: this process.
-            progress: function that is called with a `Progress` after each piece.
             trust: whether functions that the document names may be imported and run.
-            cluster: the workers that run the trials, in place of `workers`: a `dd.Cluster`, or its address
-                such as `local:4` or `tcp://HOST:8786`.
             part: the first trial and the one after the last, to run a part of the trials; batches that begin
                 there are run whole. `dd.merge_results` merges the folders of all parts.
             records: folder, or address of fsspec such as `s3://BUCKET/NAME`, of a store for the records of
                 trials: one object for each batch. All workers must reach it. `dd.open_records` reads it.
                 None: each trial has files of its own, in `records/` beside the rows.
+            on: workers or a cluster; its `progress` is called with a `Progress` after each piece.
 
         Returns:
             A Dataset over `trial`: levels as coordinates; outcome, duration, times of conditions (NaN: it did
@@ -107,6 +102,7 @@ class Experiment(Design):
             WorkerError: the workers cannot run the experiment; rows that exist are kept.
             KeyboardInterrupt: on Ctrl-C, after the running pieces have ended; their rows are stored.
         """
+        on.use("an experiment", *USABLE)
         setup = self.setup(trust)
         setup.store = "" if records is None else str(records)
         if setup.trials * setup.steps >= LONG_STEPS:
@@ -115,7 +111,7 @@ class Experiment(Design):
                 f" {setup.steps:.3g} steps of dt = {setup.dt:g})"
             )
             warnings.warn(f"{total}: a smaller number may be meant", RunWarning, stacklevel=2)
-        data = run_trials(setup, out, workers, progress, cluster=cluster, part=part)
+        data = run_trials(setup, out, on, part)
         if DIVERGED in data.attrs:
             warnings.warn(str(data.attrs[DIVERGED]), RunWarning, stacklevel=2)
         return data

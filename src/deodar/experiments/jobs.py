@@ -11,10 +11,14 @@ from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing, WorkerWatch
 from deodar.experiments.rows import KEY, Row, Rows
+from deodar.resources import Resources
 from deodar.session.interrupt import stoppable
 
 MACHINE = "machine"
 """Key of the machine of a row, where rows of several kinds of machines are stored together."""
+
+USABLE = ("workers", "cluster", "progress")
+"""The resources that an experiment uses."""
 
 
 @dataclass(frozen=True)
@@ -62,10 +66,8 @@ class Progress:
 def run_jobs(
     jobs: Sequence[Job],
     rows: Rows,
-    progress: Callable[[Progress], None] | None = None,
-    workers: int | None = None,
-    stopped: Callable[[], bool] | None = None,
-    cluster: ClusterPool | None = None,
+    on: Resources = Resources(),
+    pool: ClusterPool | None = None,
     watch: WorkerWatch | None = None,
 ) -> None:
     """Run the jobs whose rows are missing, and store their rows.
@@ -75,20 +77,21 @@ def run_jobs(
     Args:
         jobs: all of the experiment.
         rows: the store of rows; a job all of whose rows exist is not run again.
-        progress: function that is called with a `Progress` after each job.
-        workers: number of processes of one core each; none: this process, one job after another. A script
-            that calls this with workers must do so below `if __name__ == "__main__":`.
-        stopped: function that is called several times a second while workers run; once it returns true, the
+        on: workers, else this process runs one job after another; its `progress` is called with a `Progress`
+            after each job. A script that calls this with workers must do so below `if __name__ ==
+            "__main__":`.
+        pool: the workers of a cluster that run the jobs, in place of those of `on`: an entered
+            `dd.ClusterPool`.
+        watch: function that is called several times a second while workers run, with the numbers of present
+            workers and of the jobs that they have (`workers` and `running`); once it returns true, the
             running jobs are ended, and their rows are not stored.
-        cluster: the workers that run the jobs, in place of `workers`; an entered `dd.ClusterPool`.
-        watch: function that is called as often as `stopped`, with the numbers of present workers and of the
-            jobs that they have (`workers` and `running`); it may end the jobs as well.
 
     Raises:
-        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `stopped`
-            or `watch` returned true.
+        KeyboardInterrupt: on Ctrl-C, after the running jobs have ended; their rows are stored. Or `watch`
+            returned true.
         WorkerError: a worker process has died, or a cluster cannot run the jobs.
     """
+    progress = on.use("run_jobs", *USABLE).told("run_jobs")
     missing = [job for job in jobs if not all(key in rows.found for key in job.keys)]
     total, before = (
         sum(job.cost for job in jobs),
@@ -101,24 +104,12 @@ def run_jobs(
     def tell(new: Sequence[Row]) -> None:
         seconds = time.monotonic() - began
         left = seconds / done * (total - before - done) if done else None
-        if progress is not None:
-            progress(
-                Progress(
-                    kept,
-                    of,
-                    (before + done) / total if total else 1.0,
-                    left,
-                    new,
-                )
-            )
+        progress(Progress(kept, of, (before + done) / total if total else 1.0, left, new))
 
-    def ends(now: Staffing) -> bool:
-        return (watch is not None and watch(now)) or (stopped is not None and stopped())
-
-    stored = {} if progress is None else {row[KEY]: row for row in rows.found.values()}
+    stored = {row[KEY]: row for row in rows.found.values()}
     tell([stored[key] for job in jobs for key in job.keys if key in stored])
     del stored
-    for job, found in _anywhere(missing, workers, ends, cluster):
+    for job, found in _anywhere(missing, on.workers, watch or (lambda now: False), pool):
         new = rows.append(found)
         done += job.cost
         kept += len({row[KEY] for row in new} & {*job.keys})

@@ -7,7 +7,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import tempfile
-from collections.abc import Callable, Generator, Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -24,7 +24,7 @@ from deodar.experiments import packed_experiment, record_index
 from deodar.experiments.comparing import compare
 from deodar.experiments.experiment_migrations import migrate
 from deodar.experiments.experiment_table import dataset, lacks, read_row, table
-from deodar.experiments.jobs import Job, Progress, run_jobs
+from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.record_target import (
     RecordTarget,
     claimed,
@@ -41,6 +41,7 @@ from deodar.model import output
 from deodar.model.document import Document
 from deodar.recording import files, provenance, writer_lock
 from deodar.recording.store_address import StoreAddress
+from deodar.resources import Resources
 
 if TYPE_CHECKING:
     import xarray
@@ -57,59 +58,50 @@ ROWS, TABLE, DATASET, EXPERIMENT, MODEL = (
 def run_trials(
     setup: Setup,
     out: str | Path | None,
-    workers: int | None = None,
-    progress: Callable[[Progress], None] | None = None,
-    watch: WorkerWatch | None = None,
-    cluster: Cluster | str | None = None,
+    on: Resources = Resources(),
     part: tuple[int, int] | None = None,
+    watch: WorkerWatch | None = None,
 ) -> xarray.Dataset:
     """Run the trials without a row, write the table, and return it.
 
     Args:
         setup: the opened experiment.
         out: the folder; None: results are not stored.
-        workers: number of processes of one core each; none: this process.
-        progress: function that is called with a `Progress` after each piece.
-        watch: function that is called several times a second while workers run or are awaited, and ends
-            them once it returns true (see `run_jobs`).
-        cluster: the workers that run the trials, in place of `workers`, or their address.
+        on: workers or a cluster, and a function that is called with a `Progress` after each piece.
         part: the first trial and the one after the last, to run a part of the trials; pieces that begin there
             are run whole, so that parts without gaps between them are the whole experiment.
+        watch: function that is called several times a second while workers run or are awaited, and ends
+            them once it returns true (see `run_jobs`).
 
     Raises:
         RecordError: another process runs an experiment in this folder.
     """
-    if workers and cluster is not None:
-        raise ParameterError("workers and cluster exclude each other", fix="Leave one of them out")
     if part is not None and not 0 <= part[0] < part[1] <= setup.trials:
         raise ParameterError(
             f"the trials {part[0]} to {part[1]} are no part of 0 to {setup.trials}",
             fix=f"For example 0:{max(1, setup.trials // 2)}",
         )
     if setup.store:
-        _require_records(setup, out, bool(workers) or cluster is not None)
-    where = None if cluster is None else Cluster.of(cluster)
+        _require_records(setup, out, on.shared)
     if out is None:
         with tempfile.TemporaryDirectory(prefix="deodar-") as folder:
-            return _run_trials(setup, Path(folder), workers, progress, watch, where, part)
+            return _run_trials(setup, Path(folder), on, part, watch)
     folder = output.location(out)
     claim(folder, ROWS, "an experiment")
     with writer_lock.locked(folder):
-        return _run_trials(setup, folder, workers, progress, watch, where, part)
+        return _run_trials(setup, folder, on, part, watch)
 
 
 def _run_trials(
     setup: Setup,
     out: Path,
-    workers: int | None,
-    progress: Callable[[Progress], None] | None,
-    watch: WorkerWatch | None,
-    cluster: Cluster | None,
+    on: Resources,
     part: tuple[int, int] | None,
+    watch: WorkerWatch | None,
 ) -> xarray.Dataset:
-    handed = packed_experiment.PackedExperiment.of(setup) if workers or cluster else None
-    with _opened(setup, handed, cluster, watch) as pool:
-        about = _about(setup, workers, out) if pool is None else _about(setup, 1, out, pool.made_by)
+    handed = packed_experiment.PackedExperiment.of(setup) if on.shared else None
+    with _opened(setup, handed, on, watch) as pool:
+        about = _about(setup, on.shared, out, None if pool is None else pool.made_by)
 
         def read(made: JsonObject) -> JsonObject:
             return _of_today(made, about, setup.model.document)
@@ -129,7 +121,7 @@ def _run_trials(
             if pool is not None and records is not None:
                 _require_shared(pool, out)
         jobs = list(_jobs(setup, handed, records, part))
-        run_jobs(jobs, rows, progress, workers, cluster=pool, watch=watch)
+        run_jobs(jobs, rows, on, pool, watch)
         if pool is not None and pool.cluster.mixed:
             compare(jobs, rows, pool, out)
     data = dataset(rows.found.values(), about)
@@ -164,7 +156,7 @@ def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> Non
 def _opened(
     setup: Setup,
     handed: packed_experiment.PackedExperiment | None,
-    cluster: Cluster | None,
+    on: Resources,
     watch: WorkerWatch | None,
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the experiment; None without a cluster.
@@ -172,11 +164,11 @@ def _opened(
     Raises:
         WorkerError: they cannot; no trial has been run.
     """
-    if cluster is None or handed is None:
+    if on.cluster is None or handed is None:
         yield None
         return
     require_portable(setup.world)
-    with ClusterPool(cluster, setup.experiment.precision, watch) as pool:
+    with ClusterPool(Cluster.of(on.cluster), setup.experiment.precision, watch) as pool:
         pool.everywhere(packed_experiment.prepare, handed)
         yield pool
 
@@ -215,14 +207,12 @@ def _jobs(
             yield Job(keys, packed_experiment.work, {"handed": handed, **given}, len(piece))
 
 
-def _about(
-    setup: Setup, workers: int | None, folder: Path, made: Mapping[str, str] | None = None
-) -> JsonObject:
+def _about(setup: Setup, workers: bool, folder: Path, made: Mapping[str, str] | None = None) -> JsonObject:
     """Return the identity of the experiment: a file never mixes rows of two experiments.
 
     Args:
         setup: the opened experiment.
-        workers: whether worker processes of one core run it.
+        workers: whether workers of one core run it.
         folder: the folder of the results.
         made: versions and machine of the workers of a cluster.
     """

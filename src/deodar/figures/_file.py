@@ -23,6 +23,7 @@ from deodar.model import output
 from deodar.recording import files
 from deodar.recording.provenance import KEY
 from deodar.recording.repeat import world_of
+from deodar.resources import Resources
 
 LETTERS = {"none": "", "a": "{}", "(a)": "({})", "a)": "{})", "A": "{}", "(A)": "({})", "A)": "{})"}
 """The letters of panels: how the first one is written."""
@@ -244,7 +245,7 @@ class FigureFile:
         speed: float | None = None,
         width: int = _video.WIDTH,
         force: bool = False,
-        progress: Callable[[int, int], None] | None = None,
+        on: Resources = Resources(),
     ) -> Path:
         """Write a video of the figure.
 
@@ -259,13 +260,14 @@ class FigureFile:
             speed: time of the record by time of the video. None: 25 frames in a second.
             width: width in pixels.
             force: whether to replace an existing video.
-            progress: called with the number of frames that are done, and of all frames.
+            on: its `progress` is called with the number of frames that are done, and of all frames.
 
         Raises:
             FigureError: nothing changes over time, or the speed needs too many frames in a second.
             MissingExtra: the extra `video` is not installed.
             OutputExists: the video exists, and `force` is not given.
         """
+        tell = on.use("animate", "progress").told("animate")
         path = output.location(path)
         format = _encode.format_of(path)
         _encode.claim(path, format, force)
@@ -280,7 +282,7 @@ class FigureFile:
             figure = _panels.draw(cells, self._sized(cells), shown, changing)
             if not changing:
                 raise FigureError("nothing in the figure changes over time")
-            _encode.write(_video.frames(figure, changing, shown, width, progress), path, format, rate, force)
+            _encode.write(_video.frames(figure, changing, shown, width, tell), path, format, rate, force)
         return path
 
     def records(self, record: xarray.Dataset | str | Path | None = None) -> list[xarray.Dataset]:

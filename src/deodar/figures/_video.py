@@ -71,7 +71,7 @@ def frames(
     changing: Sequence[Changing],
     shown: Sequence[float],
     width: int,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Callable[[int, int], object] | None = None,
 ) -> Iterator[np.ndarray]:
     """Yield the frames: arrays (rows, columns, 3) of bytes.
 

@@ -32,7 +32,7 @@ def session_at(
     time: float,
     world: World | None = None,
     trust: bool = False,
-    progress: Callable[[int, int], None] | None = None,
+    on: Resources = Resources(),
 ) -> Session:
     """Return a session in the state that a recorded run had at a time.
 
@@ -44,7 +44,7 @@ def session_at(
         time: document time; a whole number of steps after the start.
         world: the world of its sensors; None: that of the record, opened again.
         trust: whether functions that its document names may be imported and run.
-        progress: called with the number of steps taken and their total.
+        on: its `progress` is called with the number of steps taken and their total.
 
     Raises:
         RecordError: the record has several trials or points of a sweep, or began during a session, or a
@@ -58,6 +58,7 @@ def session_at(
     from deodar.recording.record import about
     from deodar.recording.repeat import request, world_of
 
+    tell = on.use("dd.session_at", "progress").told("dd.session_at")
     data = files.open_record(Path(path))
     made = about(data)
     changes: list[Change] = []
@@ -74,15 +75,15 @@ def session_at(
             fix="Record a single run",
         )
     world = world or world_of(data)
-    on = dc.replace(settings["on"], workers=None, batch=None)
-    session = Session(model, settings["dt"], settings["seed"], settings["precision"], world, on=on)
+    there = dc.replace(settings["on"], workers=None, batch=None)
+    session = Session(model, settings["dt"], settings["seed"], settings["precision"], world, on=there)
     tick = whole(time - session.time, session.dt, "the time from the start")
     _require_recorded(data, time, made, session.time + settings.get("duration", 0.0), str(path))
     repeat_changes(
         session,
         [c for c in changes if c.tick <= tick],
         tick,
-        progress or (lambda done, steps: None),
+        tell,
         _comparisons(session, data, time, str(path)),
     )
     return session

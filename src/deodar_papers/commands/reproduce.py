@@ -21,6 +21,7 @@ from deodar.experiments.jobs import run_jobs
 from deodar.experiments.rows import Rows, claim
 from deodar.model import output
 from deodar.recording import places, writer_lock
+from deodar.resources import Resources
 from deodar_papers import papers
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ def _ran(
     """Run the jobs, and return whether they came to their end; otherwise say how to resume them."""
     try:
         with Bar(args.no_progress or args.json, "runs") as bar:
-            run_jobs(jobs, rows, bar.show, args.workers or None, cluster=pool)
+            run_jobs(jobs, rows, Resources(workers=args.workers or None, progress=bar.show), pool)
     except KeyboardInterrupt:
         print(
             f"deodar reproduce: stopped; {len(rows.found)} runs are kept. Resume with: {_again(args, out)}",

@@ -28,6 +28,7 @@ from deodar.model import find, output
 from deodar.model.resolve import resolve
 from deodar.numerics.axes import shape
 from deodar.recording import writer_lock
+from deodar.resources import Resources
 from deodar_studio.experiment.run_place import RunPlace
 
 MOST_RECORDED = 128 * 2**20
@@ -116,7 +117,8 @@ class ExperimentRun:
             cluster = self.place.cluster
             workers = None if cluster is not None else self.workers
             take = functools.partial(self._take, {row["trial"] for row in self.rows})
-            run_trials(self.setup, self.folder, workers, take, self._watched, cluster)
+            on = Resources(workers=workers, cluster=cluster, progress=take)
+            run_trials(self.setup, self.folder, on, watch=self._watched)
         except KeyboardInterrupt:
             self.state = "stopped"
         except DeodarError as error:

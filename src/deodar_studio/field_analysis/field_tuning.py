@@ -132,6 +132,7 @@ def tuned(send: Callable[[object], None], packed: PackedModel, wanted: Mapping[s
     # start-up time of the studio: these bring SciPy
     from deodar.analysis.tuning.tune import tune
     from deodar.analysis.tuning.tuning_file import tuning_file
+    from deodar.resources import Resources
 
     asked = tuning_file(wanted, "the requirements")
     told = 0.0
@@ -142,7 +143,9 @@ def tuned(send: Callable[[object], None], packed: PackedModel, wanted: Mapping[s
             told = time.monotonic()
             send(candidates)
 
-    found = tune(packed.model, asked.parameters, asked.requirements, progress=tell, **asked.options)
+    found = tune(
+        packed.model, asked.parameters, asked.requirements, on=Resources(progress=tell), **asked.options
+    )
     requirements = [
         MetRequirement(text, margin, found.reached.get(text), text in found.exact)
         for text, margin in found.margins.items()

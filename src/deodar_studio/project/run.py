@@ -12,6 +12,7 @@ from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.recording.provenance import described
 from deodar.recording.replay import RecordReader
+from deodar.resources import Resources
 from deodar.session.exchange import used
 from deodar.session.session import Session
 from deodar.session.session_at import session_at
@@ -278,7 +279,7 @@ class DocumentRun:
         def repeat() -> Session:
             progress(0, 1)
             moment = float(record.times[record.index(time)])
-            session = session_at(record.path, moment, trust=trust, progress=progress)
+            session = session_at(record.path, moment, trust=trust, on=Resources(progress=progress))
             progress(1, 1)
             return session
 

@@ -44,6 +44,10 @@ def test_what_is_no_resource_is_refused_where_it_is_written(wrong: dict[str, obj
 CALLS: dict[str, tuple[Callable[[], object], str]] = {
     "session": (lambda: dd.Session(model(), on=dd.Resources(workers=2)), "workers"),
     "session, progress": (lambda: dd.Session(model(), on=dd.Resources(progress=True)), "progress"),
+    "experiment": (lambda: dd.Experiment("e", model(), 5, 1).run(on=dd.Resources(device="gpu")), "device"),
+    "regimes": (lambda: dd.regimes(model(), "u", on=dd.Resources(workers=2)), "workers"),
+    "map": (lambda: dd.regime_map(model(), {}, on=dd.Resources(cluster="local:2")), "cluster"),
+    "tune": (lambda: dd.tune(model(), [], [], on=dd.Resources(devices=2)), "devices"),
     "resume": (lambda: dd.resume(PLACE, on=dd.Resources(batch=2)), "batch"),
 }
 
@@ -51,8 +55,13 @@ CALLS: dict[str, tuple[Callable[[], object], str]] = {
 @pytest.mark.parametrize("name", CALLS)
 def test_a_function_refuses_what_it_cannot_use(name: str) -> None:
     call, field = CALLS[name]
-    with pytest.raises(ParameterError, match=f"on: dd.* cannot use {field}. Leave it out; dd.* uses .*cores"):
+    with pytest.raises(ParameterError, match=f"on: .* cannot use {field}. Leave it out; .* uses .*cores"):
         call()
+
+
+def test_a_function_without_a_bar_asks_for_a_function() -> None:
+    with pytest.raises(ParameterError, match="dd.tune draws no progress bar. Give a function"):
+        dd.tune(model(), [], [], on=dd.Resources(progress=True))
 
 
 def test_the_number_of_cores_is_that_of_the_process() -> None:

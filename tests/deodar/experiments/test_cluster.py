@@ -25,6 +25,7 @@ from deodar.cluster import Cluster, slurm_settings
 from deodar.errors import MissingExtra, ParameterError, RecordError, WorkerError
 from deodar.experiments import results
 from deodar.recording import provenance, writer_lock
+from deodar.resources import Resources
 from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds.camera import Camera
 from tests.deodar.experiments import clustered
@@ -51,7 +52,9 @@ def pieces(monkeypatch):
 
 
 def _run(folder, cluster, progress=None):
-    return clustered.within(lambda: clustered.experiment().run(folder, progress=progress, cluster=cluster))
+    return clustered.within(
+        lambda: clustered.experiment().run(folder, on=Resources(cluster=cluster, progress=progress))
+    )
 
 
 def _paths():
@@ -79,7 +82,8 @@ def test_a_killed_caller_leaves_no_process_and_is_resumed(tmp_path, rows, pieces
     code = (
         "import pytest; from tests.deodar.experiments import clustered\n"
         "with pytest.MonkeyPatch.context() as patch:\n"
-        f"    clustered.small_pieces(patch); clustered.experiment().run({str(folder)!r}, cluster='local:1')"
+        "    clustered.small_pieces(patch); from deodar.resources import Resources\n"
+        f"    clustered.experiment().run({str(folder)!r}, on=Resources(cluster='local:1'))"
     )
     caller = subprocess.Popen([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": _paths()})
     file, end = folder / "trials.jsonl", time.monotonic() + clustered.LIMIT
@@ -257,9 +261,9 @@ def test_what_cannot_travel_is_refused(tmp_path, scheduler, monkeypatch):
     setup = clustered.experiment().setup()
     setup.world = Camera(0)
     with pytest.raises(WorkerError, match="Camera is bound to this machine and its clock"):
-        results.run_trials(setup, tmp_path / "out", cluster=scheduler.scheduler_address)
+        results.run_trials(setup, tmp_path / "out", Resources(cluster=scheduler.scheduler_address))
     with pytest.raises(ParameterError, match="workers and cluster exclude each other"):
-        clustered.experiment().run(tmp_path / "out", workers=2, cluster="local:2")
+        clustered.experiment().run(tmp_path / "out", on=Resources(workers=2, cluster="local:2"))
     monkeypatch.setattr(_collect, "__module__", "__main__")
     with pytest.raises(WorkerError, match="_collect is written in the script itself"):
         on_cluster.pickled(_collect, ())
@@ -284,7 +288,7 @@ def test_ctrl_c_keeps_what_runs_and_a_second_call_resumes(tmp_path, rows, pieces
 
     address = scheduler.scheduler_address
     with pytest.raises(KeyboardInterrupt):
-        clustered.experiment().run(tmp_path / "out", progress=told, cluster=address)
+        clustered.experiment().run(tmp_path / "out", on=Resources(cluster=address, progress=told))
     stored = len(clustered.lines(tmp_path / "out"))
     assert pressed[0] + 1 < stored < len(rows)
     _run(tmp_path / "out", address)
@@ -355,7 +359,7 @@ def test_a_second_ctrl_c_ends_at_once(tmp_path, rows, pieces, scheduler):
 
     address = scheduler.scheduler_address
     with pytest.raises(SecondInterrupt):
-        clustered.experiment().run(tmp_path / "out", progress=told, cluster=address)
+        clustered.experiment().run(tmp_path / "out", on=Resources(cluster=address, progress=told))
     assert len(clustered.lines(tmp_path / "out")) == 3, "the header and the first piece"
     _run(tmp_path / "out", address)
     assert clustered.lines(tmp_path / "out") == rows
@@ -529,7 +533,9 @@ def test_a_run_on_a_cluster_is_watched_and_stopped(tmp_path, rows, pieces):
 
     setup, before = clustered.experiment().setup(), clustered.processes()
     with pytest.raises(KeyboardInterrupt):
-        clustered.within(lambda: results.run_trials(setup, tmp_path / "out", watch=watch, cluster="local:2"))
+        clustered.within(
+            lambda: results.run_trials(setup, tmp_path / "out", Resources(cluster="local:2"), watch=watch)
+        )
     assert seen[0].running == 0, "who watches is called before the first piece"
     assert (seen[-1].workers, seen[-1].running) == (2, 4)
     assert clustered.processes() == before, "its workers have ended"

@@ -20,6 +20,7 @@ from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.merging import merge_results
 from deodar.experiments.results import ROWS, load_results
 from deodar.experiments.rows import Rows
+from deodar.resources import Resources
 from tests.deodar.experiments import clustered
 
 KEYS = [f"{k:02}" for k in range(12)]
@@ -152,7 +153,9 @@ def test_any_division_order_repetition_and_loss_gives_the_same_rows(
         with contextlib.suppress(_KilledError), _LossyPool(fates, loop) as pool:
             jobs = _jobs(cuts, order)
             clustered.within(
-                lambda told=told, jobs=jobs, pool=pool: run_jobs(jobs, Rows(file, {}), told, cluster=pool)
+                lambda told=told, jobs=jobs, pool=pool: run_jobs(
+                    jobs, Rows(file, {}), Resources(progress=told), pool
+                )
             )
     stored = sorted(json.loads(line)["key"] for line in file.read_text().splitlines()[1:])
     assert stored == KEYS
@@ -162,7 +165,7 @@ def test_each_fate_occurs(tmp_path, hasty, loop):
     """Otherwise the property above would be tested without losses."""
     with _LossyPool(["late", "cancelled", "broken", "slow", "gone"], loop) as pool:
         jobs = [Job((key,), json.loads, {"s": json.dumps([{"key": key}])}) for key in KEYS]
-        clustered.within(lambda: run_jobs(jobs, Rows(tmp_path / "rows", {}), cluster=pool))
+        clustered.within(lambda: run_jobs(jobs, Rows(tmp_path / "rows", {}), pool=pool))
         assert pool.client.submitted == len(KEYS) + 4
 
 

@@ -192,7 +192,7 @@ def test_rows_are_equal_with_workers_after_an_interruption_and_from_files(
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        made.run(tmp_path / "part", progress=stop)
+        made.run(tmp_path / "part", on=dd.Resources(progress=stop))
     assert finished(made, tmp_path / "part").identical(data) and load_results(tmp_path / "part").identical(
         data
     )

@@ -169,7 +169,7 @@ def test_a_stopped_experiment_resumes_with_the_same_table(tmp_path, monkeypatch)
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        experiment.run(tmp_path / "part", progress=stop)
+        experiment.run(tmp_path / "part", on=dd.Resources(progress=stop))
     file = tmp_path / "part" / ROWS
     file.write_bytes(file.read_bytes()[:-40])  # as if a kill had truncated the last line
     assert 4 <= load_results(tmp_path / "part").sizes["trial"] < 16
@@ -357,7 +357,9 @@ def test_objects_of_a_world_are_moved_after_an_event():
 def test_workers_give_the_same_table(tmp_path, monkeypatch):
     experiment = Experiment("d", decider(), 400, 6, conditions=[Crosses("decided", "u.activation")])
     here = experiment.run()
-    assert experiment.run(tmp_path / "out", workers=1).drop_attrs().identical(here.drop_attrs())
+    assert (
+        experiment.run(tmp_path / "out", on=dd.Resources(workers=1)).drop_attrs().identical(here.drop_attrs())
+    )
 
 
 def test_very_many_steps_in_total_issue_a_warning(monkeypatch):

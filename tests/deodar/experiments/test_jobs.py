@@ -13,6 +13,7 @@ import pytest
 
 from deodar.experiments.jobs import Job, run_jobs
 from deodar.experiments.rows import Rows
+from deodar.resources import Resources
 from tests.deodar.experiments import decisions
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -48,7 +49,7 @@ def test_only_missing_jobs_are_run(tmp_path, rows):
 
 def test_workers_give_the_same_rows(tmp_path, rows):
     kept = Rows(tmp_path / "runs.jsonl", {})
-    run_jobs(jobs(), kept, workers=2)
+    run_jobs(jobs(), kept, Resources(workers=2))
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows
 
 
@@ -81,7 +82,7 @@ def test_ctrl_c_keeps_the_rows_of_the_jobs_that_run(tmp_path, rows):
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        run_jobs(jobs()[:3], kept, told, workers=2)
+        run_jobs(jobs()[:3], kept, Resources(workers=2, progress=told))
     assert len(kept.found) > pressed[0], "the other worker's job was ended, and its rows were kept"
     run_jobs(jobs(), kept)
     assert sorted(kept.found.values(), key=lambda r: r["key"]) == rows

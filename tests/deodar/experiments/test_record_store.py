@@ -29,6 +29,7 @@ from deodar.model import output
 from deodar.recording.files import load_record
 from deodar.recording.record_store import FolderStore
 from deodar.recording.store_address import StoreAddress
+from deodar.resources import Resources
 from tests.deodar.experiments import clustered
 from tests.deodar.recording.failing_store import FailingFileSystem, register
 
@@ -220,12 +221,12 @@ def test_one_trial_of_a_remote_object_reads_a_part_of_it(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("how", [{"workers": 2}, {"cluster": "local:2"}], ids=["workers", "cluster"])
 def test_workers_write_the_same_objects(tmp_path, whole, how):
-    made().run(tmp_path / "out", records=tmp_path / "store", **how)
+    made().run(tmp_path / "out", records=tmp_path / "store", on=Resources(**how))
     found, expected = contents(tmp_path / "store"), contents(whole[1])
     assert {name: found[name] for name in NAMES} == {name: expected[name] for name in NAMES}
     assert found["index.jsonl"] == expected["index.jsonl"]
     with pytest.raises(WorkerError, match="in the memory of this process, which workers do not see"):
-        made().run(tmp_path / "none", records="memory://nowhere", **how)
+        made().run(tmp_path / "none", records="memory://nowhere", on=Resources(**how))
     assert not (tmp_path / "none").exists()
 
 
@@ -355,7 +356,7 @@ def test_a_store_that_fails_half_way_stops_the_rows_and_is_resumed(tmp_path, who
             FailingFileSystem.become(mode)
 
     with pytest.raises(OutputError, match=says) as caught:
-        made().run(out, records=ADDRESS, progress=told)
+        made().run(out, records=ADDRESS, on=Resources(progress=told))
     assert SECRET not in str(caught.value) and "top%20secret" not in str(caught.value)
     assert bare(out) == bare(whole[0])[:5]
     stored = [name.partition("/store/")[2] for name in FailingFileSystem.names()]
@@ -411,7 +412,7 @@ def test_a_disk_that_is_unmounted_half_way_is_not_written_to_this_machine(tmp_pa
             store.mkdir()
 
     with pytest.raises(OutputError, match="does not see the store of the records"):
-        made().run(out, records=store, progress=told)
+        made().run(out, records=store, on=Resources(progress=told))
     assert not list(store.iterdir()) and bare(out) == bare(whole[0])[:3]
     with pytest.raises(RecordError, match=r"lacks 1 of the 1 objects with the records of.*Connect the store"):
         made().run(out, records=store)
@@ -424,7 +425,7 @@ def test_a_disk_that_is_unmounted_half_way_is_not_written_to_this_machine(tmp_pa
 def test_a_resumed_run_names_the_store_of_its_rows(tmp_path, files):
     out, store = tmp_path / "out", tmp_path / "store"
     with pytest.raises(KeyboardInterrupt):
-        made().run(out, records=store, progress=stop_after(4))
+        made().run(out, records=store, on=Resources(progress=stop_after(4)))
     with pytest.raises(RecordError, match=rf"lacks 2 of the 2 objects.*Continue with --records {store}, or"):
         made().run(out, records=tmp_path / "other")
     assert not (tmp_path / "other").exists()

@@ -134,9 +134,9 @@ def test_rows_keep_their_bits_with_workers_and_after_a_stop_although_the_widths_
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        experiment.run(tmp_path / "part", progress=stop)
+        experiment.run(tmp_path / "part", on=dd.Resources(progress=stop))
     assert experiment.run(tmp_path / "part").identical(whole)
-    shared = experiment.run(tmp_path / "shared", workers=2)
+    shared = experiment.run(tmp_path / "shared", on=dd.Resources(workers=2))
     assert shared.drop_attrs().identical(whole.drop_attrs())
 
 

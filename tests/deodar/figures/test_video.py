@@ -151,7 +151,12 @@ def test_the_interval_and_the_speed_set_the_frames(data: xarray.Dataset, tmp_pat
     figure = FigureFile([FigurePanel("u.activation", trial=0)], width=60, height=40)
     done: list[tuple[int, int]] = []
     figure.animate(
-        tmp_path / "a.gif", data, every=10, speed=0.05, width=200, progress=lambda *n: done.append(n)
+        tmp_path / "a.gif",
+        data,
+        every=10,
+        speed=0.05,
+        width=200,
+        on=dd.Resources(progress=lambda *n: done.append(n)),
     )
     assert milliseconds(tmp_path / "a.gif") == [200, 200, 200] and done == [(1, 3), (2, 3), (3, 3)]
     figure.animate(tmp_path / "b.gif", data, width=200)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Unpack
 
 import numpy as np
@@ -12,6 +12,7 @@ from deodar.analysis.maps.map_result import RegimeMap
 from deodar.analysis.maps.protocol import RegimeProtocol
 from deodar.analysis.maps.request import MapOptions, requested
 from deodar.model.model import Model
+from deodar.resources import Resources
 
 
 def regime_map(
@@ -20,7 +21,7 @@ def regime_map(
     field: str = "",
     strength: float | None = None,
     refine: bool = True,
-    progress: Callable[[int, int], None] | None = None,
+    on: Resources = Resources(),
     **options: Unpack[MapOptions],
 ) -> RegimeMap:
     """Map what a field does with its input over two parameters, by simulation of each cell.
@@ -38,7 +39,8 @@ def regime_map(
             of the model's own field, which makes a peak without interaction.
         refine: whether a coarse grid comes first, and then only cells of which a neighbour has another label;
             else every cell is computed.
-        progress: called with the number of cells that are computed and the number that is known to be needed.
+        on: its `progress` is called with the number of cells that are computed and the number that is known
+            to be needed.
         limit: longest stage, in time constants (500); a field that has not settled then gets a label of its
             own.
         sigma: width of the inputs; None: that of the kernel's excitation, in all cells.
@@ -52,9 +54,9 @@ def regime_map(
         ParameterError: changing a parameter needs another program, or its values are no axis of a map.
         UnknownName: a path is unknown.
     """
+    tell, finished = on.use("dd.regime_map", "progress").told("dd.regime_map"), 0
     request = requested(model, over, field, strength, options)
     protocol = RegimeProtocol(request)
-    tell, finished = progress or (lambda done, known: None), 0
 
     def compute(labels: np.ndarray, cells: np.ndarray) -> np.ndarray:
         nonlocal finished

@@ -10,12 +10,13 @@ import numpy as np
 
 from deodar.analysis.tuning.centring import WIDEST, RegionSize, centred, region_size, together
 from deodar.analysis.tuning.exact_values import ExactField, ExactValue
-from deodar.analysis.tuning.judge import CandidateJudge, TuningProgress
+from deodar.analysis.tuning.judge import CandidateJudge
 from deodar.analysis.tuning.request import TuneOptions, requested
 from deodar.analysis.tuning.requirement import ExactQuantity, Requirement
 from deodar.analysis.tuning.search import searched
 from deodar.analysis.tuning.tuned import Tuned, result
 from deodar.model.model import Model
+from deodar.resources import Resources
 
 ROUNDS = 2
 """How often the values are moved to the middle of the region and back to the exact values."""
@@ -33,7 +34,7 @@ def tune(
     requirements: Sequence[Requirement],
     field: str = "",
     bounds: Mapping[str, tuple[float, float]] | None = None,
-    progress: TuningProgress | None = None,
+    on: Resources = Resources(),
     **options: Unpack[TuneOptions],
 ) -> Tuned:
     """Find values of parameters at which a field meets requirements, near the middle of their region.
@@ -50,7 +51,8 @@ def tune(
         field: path of the field or node; empty: the only one.
         bounds: lowest and highest value by path; else a tenth and ten times the present value, inside the
             range of the parameter.
-        progress: called with what is done, the number of candidates so far and the lowest margin of the best.
+        on: its `progress` is called with what is done, the number of candidates so far and the lowest margin
+            of the best.
         strength: amplitude of the inputs; None: 1.2 times the required detection threshold, or without one
             1.2 times the distance between resting level and threshold.
         seed: seed of the search; equal seeds give equal results on one machine (0).
@@ -69,6 +71,7 @@ def tune(
         UnknownName: a path is unknown.
         MissingExtra: the package cma is not installed.
     """
+    progress = on.use("dd.tune", "progress").told("dd.tune")
     request = requested(model, parameters, requirements, field, bounds, options)
     judge = CandidateJudge(request, progress)
     equations: ExactField | None = None

@@ -254,7 +254,9 @@ def test_a_map_survives_its_file(tmp_path):
 def test_progress_counts_cells():
     told: list[tuple[int, int]] = []
     found = dd.regime_map(
-        line(31), {EXCITATION: (1, 30, 9), INHIBITION: (0, 1.5, 9)}, progress=lambda *now: told.append(now)
+        line(31),
+        {EXCITATION: (1, 30, 9), INHIBITION: (0, 1.5, 9)},
+        on=dd.Resources(progress=lambda *now: told.append(now)),
     )
     assert told[-1] == (int(found.computed.sum()),) * 2
     assert [done for done, _ in told] == sorted(done for done, _ in told)

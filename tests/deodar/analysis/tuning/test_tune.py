@@ -154,7 +154,7 @@ def test_an_interrupt_returns_the_best_so_far(after):
             raise KeyboardInterrupt
 
     wanted = [dd.detects(3.5, within=1e-4), dd.reverse(1.0, within=1e-4)]
-    found = dd.tune(node(), [LEVEL, EXCITATION], wanted, progress=stop)
+    found = dd.tune(node(), [LEVEL, EXCITATION], wanted, on=dd.Resources(progress=stop))
     assert found.interrupted and "interrupted" in repr(found)
     assert min(found.margins.values()) == pytest.approx(calls[-1], abs=1e-3)
 
