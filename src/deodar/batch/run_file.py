@@ -477,8 +477,10 @@ class OutputPart:
         self.selector.above = dict(about["above"])
         return int(about["steps"])
 
-    def end(self, reasons: Mapping[tuple[int, ...], str]) -> None:
-        """Note that the piece is complete, and which of its copies diverged, with their reasons."""
+    def end(self, reasons: Mapping[tuple[int, ...], str], complete: bool, lost: bool) -> None:
+        """Note which copies of a complete piece diverged, with their reasons; `close` makes them NaN."""
+        if not complete:
+            return
         starts = [part.start for part in self.region]
         whole = {tuple(k + s for k, s in zip(place, starts, strict=True)): r for place, r in reasons.items()}
         self.out.ended(self.number, whole)

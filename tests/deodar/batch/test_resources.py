@@ -60,7 +60,7 @@ def test_a_function_refuses_what_it_cannot_use(name: str) -> None:
 
 
 def test_a_function_without_a_bar_asks_for_a_function() -> None:
-    with pytest.raises(ParameterError, match="dd.tune draws no progress bar. Give a function"):
+    with pytest.raises(ParameterError, match="draws no progress bar"):
         dd.tune(model(), [], [], on=dd.Resources(progress=True))
 
 
