@@ -10,9 +10,10 @@ from collections.abc import Callable, Sequence
 
 from deodar.batch import sent
 from deodar.batch.compute import compute
+from deodar.batch.driver import PoolTask, pieces_driven
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import PackedModel, require_portable
-from deodar.batch.pieces import EMPTY, PieceResult
+from deodar.batch.pieces import PieceResult
 from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import PieceMessage, SentOutput, SentPart, SentState
 from deodar.batch.simulation_request import SimulationRequest
@@ -20,11 +21,7 @@ from deodar.cluster import Cluster
 from deodar.errors import WorkerError
 from deodar.model.model import Model
 from deodar.precision import Arithmetic
-from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds._base import World
-
-WAIT = 0.2
-"""Longest wall time between two checks for Ctrl-C, in seconds."""
 
 
 def run(
@@ -79,29 +76,23 @@ def in_pool(
 ) -> list[PieceResult | None]:
     """Run the pieces on the workers of a pool that was entered, and return their records, as `run` does."""
     packed = PackedModel.of(model, world)
-    known = set() if out is None else set(out.done)
-    parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(len(pieces))]
     steps = [round(piece.duration / (piece.dt or 1.0)) for piece in pieces]
-    waiting = [k for k in range(len(pieces))[::-1] if k not in known]
-    interrupted = False
-    while waiting or pool.busy:
-        while waiting and pool.idle:
-            k = waiting.pop()
-            pool.give(k, work, packed, pieces[k], k, None if out is None else SentPart.of(out, k))
-        for number, (part, messages) in pool.wait(WAIT):
+
+    def task(k: int) -> PoolTask:
+        return PoolTask(k, work, (packed, pieces[k], k, None if out is None else SentPart.of(out, k)))
+
+    def check(parts: Sequence[PieceResult | None]) -> None:
+        between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
+
+    def wait(seconds: float) -> list[tuple[int, PieceResult]]:
+        arrived = pool.wait(seconds)
+        for number, (_, messages) in arrived:
             for message in messages:
                 assert out is not None
                 sent.receive(out, number, message)
-            parts[number] = part
-        if not interrupted:
-            try:
-                between(sum(n for n, part in zip(steps, parts, strict=True) if part is not None))
-            except SecondInterrupt:
-                raise
-            except KeyboardInterrupt:
-                interrupted = True
-                waiting.clear()
-    return parts
+        return [(number, part) for number, (part, _) in arrived]
+
+    return pieces_driven(pool, len(pieces), out, task, check, wait)
 
 
 # ---------------------------------------------------------------------------------------------- in the worker

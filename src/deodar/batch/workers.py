@@ -16,19 +16,16 @@ from pathlib import Path
 
 from deodar.batch import sent
 from deodar.batch.compute import compute, watching
+from deodar.batch.driver import PoolTask, pieces_driven
 from deodar.batch.packed_model import PackedModel
-from deodar.batch.pieces import EMPTY, PieceResult
+from deodar.batch.pieces import PieceResult
 from deodar.batch.pool import Pool
 from deodar.batch.run_file import OutputPart, RunOutput
 from deodar.batch.sent import SentOutput, SentPart
 from deodar.batch.simulation_request import SimulationRequest
 from deodar.errors import Interrupted
 from deodar.model.model import Model
-from deodar.session.interrupt import SecondInterrupt
 from deodar.worlds._base import World
-
-LOOK_EVERY = 0.1
-"""Seconds between two reads of the progress of the workers."""
 
 
 @dc.dataclass(frozen=True)
@@ -77,31 +74,24 @@ def run(
         WorkerError: a part of the model cannot be sent to another process, or a process has died.
     """
     packed = PackedModel.of(model, world)
-    known = set() if out is None else set(out.done)
-    parts: list[PieceResult | None] = [EMPTY if k in known else None for k in range(len(pieces))]
     with _board(len(pieces) + 1) as (path, board), Pool(min(workers, len(pieces)), talks=True) as pool:
-        waiting = [k for k in range(len(pieces))[::-1] if k not in known]
+
+        def task(k: int) -> PoolTask:
+            how = None if out is None else SentPart.of(out, k)
+            return PoolTask(k, work, (WorkerTask(packed, pieces[k], path, k, how),))
+
+        def check(parts: object) -> None:
+            try:
+                between(sum(board.tolist()[:-1]))
+            except KeyboardInterrupt:  # running pieces report how far they have come
+                board[-1] = 1
+                raise
 
         def heard(number: int, message: sent.PieceMessage) -> None:
             assert out is not None
             sent.receive(out, number, message)
 
-        while waiting or pool.busy:
-            while waiting and pool.idle:
-                k = waiting.pop()
-                how = None if out is None else SentPart.of(out, k)
-                pool.give(k, work, WorkerTask(packed, pieces[k], path, k, how))
-            for number, part in pool.wait(LOOK_EVERY, heard):
-                parts[number] = part
-            if not board[-1]:
-                try:
-                    between(sum(board.tolist()[:-1]))
-                except SecondInterrupt:
-                    raise
-                except KeyboardInterrupt:  # running pieces report how far they have come
-                    board[-1] = 1
-                    waiting.clear()
-    return parts
+        return pieces_driven(pool, len(pieces), out, task, check, lambda seconds: pool.wait(seconds, heard))
 
 
 @contextlib.contextmanager

@@ -7,9 +7,10 @@ import dataclasses as dc
 import io
 import math
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from deodar.batch.driver import PoolTask, driven
 from deodar.batch.on_cluster import ClusterPool
 from deodar.errors import RunWarning
 from deodar.experiments.jobs import MACHINE, Job, named
@@ -70,37 +71,34 @@ def compare(jobs: Sequence[Job], rows: Rows, pool: ClusterPool, out: Path) -> No
 
 def _compared(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[ComparedTrial]:
     with stoppable() as check:
-        for job in chosen(jobs):
-            own = str(rows.found[job.keys[0]].get(MACHINE, ""))
-            other = next((kind for kind in pool.machines if kind != own), None)
-            if other is None:
-                continue
-            while not pool.idle:
-                yield from _arrived(pool, rows, check)
+
+        def look() -> None:
+            check()
+            pool.look()
+
+        for _, repeated in driven(pool, _elsewhere(jobs, rows, pool), lambda: None, look):
+            for row in repeated:
+                stored = rows.found[row[KEY]]
+                machines = str(stored.get(MACHINE, "")), str(row[MACHINE])
+                if machines[0] != machines[1]:  # a worker of the other kind may have left
+                    outcomes = str(stored["outcome"]), str(row["outcome"])
+                    yield ComparedTrial(int(row["trial"]), machines, outcomes)
+
+
+def _elsewhere(jobs: Sequence[Job], rows: Rows, pool: ClusterPool) -> Iterator[PoolTask]:
+    """Yield the tasks of the pieces that are compared, each on another kind of machine than before."""
+    for job in chosen(jobs):
+        own = str(rows.found[job.keys[0]].get(MACHINE, ""))
+        other = next((kind for kind in pool.machines if kind != own), None)
+        if other is not None:
             unrecorded = dc.replace(job, arguments={**job.arguments, "records": None})
-            pool.give(job.keys, named, unrecorded, machine=other)
-        while pool.busy:
-            yield from _arrived(pool, rows, check)
+            yield PoolTask(job.keys, named, (unrecorded,), {"machine": other})
 
 
 def chosen(jobs: Sequence[Job]) -> list[Job]:
     """Return the pieces that are compared: `SHARE` of them, at least one, at regular distances."""
     count = math.ceil(SHARE * len(jobs))
     return [jobs[k * len(jobs) // count] for k in range(count)]
-
-
-def _arrived(pool: ClusterPool, rows: Rows, check: Callable[[], None]) -> Iterator[ComparedTrial]:
-    """Yield what has arrived after a moment; `check` and the pool's `look` may end the comparison."""
-    for _, repeated in pool.wait(0.2):
-        for row in repeated:
-            stored = rows.found[row[KEY]]
-            machines = str(stored.get(MACHINE, "")), str(row[MACHINE])
-            if machines[0] != machines[1]:  # a worker of the other kind may have left
-                yield ComparedTrial(
-                    int(row["trial"]), machines, (str(stored["outcome"]), str(row["outcome"]))
-                )
-    check()
-    pool.look()
 
 
 def _table(found: Sequence[ComparedTrial]) -> str:

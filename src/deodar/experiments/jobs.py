@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from deodar.batch.driver import PoolTask, driven
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing, WorkerWatch
@@ -142,26 +143,17 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 def _in_workers(
     jobs: Sequence[Job], pool: Pool | ClusterPool, ends: WorkerWatch
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
-    running, interrupted = dict[tuple[str, ...], Job](), False
+    by_key = {job.keys: job for job in jobs}
     run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
+
+    def look() -> None:
+        if ends(Staffing(pool.workers, pool.busy)):
+            raise KeyboardInterrupt
+
     with stoppable() as check:
-        waiting = list(reversed(jobs))
-        while waiting or pool.busy:
-            while waiting and pool.idle:  # one or two per worker: after Ctrl-C only these are awaited
-                job = waiting.pop()
-                pool.give(job.keys, run, job)
-                running[job.keys] = job
-            if ends(Staffing(pool.workers, pool.busy)):
-                raise KeyboardInterrupt
-            for keys, rows in pool.wait(0.2):
-                yield running.pop(keys), rows
-            try:
-                check()
-            except KeyboardInterrupt:
-                interrupted = True
-                waiting.clear()
-    if interrupted:
-        raise KeyboardInterrupt
+        # a pool has one or two tasks per worker: after Ctrl-C only these are awaited
+        for keys, rows in driven(pool, (PoolTask(job.keys, run, (job,)) for job in jobs), check, look):
+            yield by_key[keys], rows
 
 
 def named(job: Job) -> list[Row]:
