@@ -11,7 +11,7 @@ from deodar.cluster import Cluster
 from deodar.errors import ParameterError, show
 
 
-@dc.dataclass(frozen=True)
+@dc.dataclass(frozen=True, repr=False)
 class Resources:
     """What a computation may use, and what it shows, as functions take it: `on=dd.Resources(workers=4)`.
 
@@ -62,6 +62,10 @@ class Resources:
         for name in ("workers", "devices"):
             if getattr(self, name) is not None:
                 raise ParameterError(f"{name} and cluster exclude each other", fix="Leave one of them out")
+
+    def __repr__(self) -> str:
+        given = {field.name: getattr(self, field.name) for field in dc.fields(self)}
+        return f"Resources({', '.join(f'{k}={v!r}' for k, v in given.items() if v is not None)})"
 
     @property
     def shared(self) -> bool:

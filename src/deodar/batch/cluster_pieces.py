@@ -10,7 +10,8 @@ from collections.abc import Callable, Sequence
 
 from deodar.batch import sent
 from deodar.batch.compute import compute
-from deodar.batch.driver import PoolTask, pieces_driven
+from deodar.batch.driven_pieces import pieces_driven
+from deodar.batch.driver import PoolTask
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.packed_model import PackedModel, require_portable
 from deodar.batch.pieces import PieceResult

@@ -16,7 +16,8 @@ from pathlib import Path
 
 from deodar.batch import sent
 from deodar.batch.compute import compute, watching
-from deodar.batch.driver import PoolTask, pieces_driven
+from deodar.batch.driven_pieces import pieces_driven
+from deodar.batch.driver import PoolTask
 from deodar.batch.packed_model import PackedModel
 from deodar.batch.pieces import PieceResult
 from deodar.batch.pool import Pool

@@ -32,7 +32,7 @@ def rows():
 def test_all_jobs_are_run_and_progress_reaches_the_end(tmp_path, rows):
     seen = []
     kept = Rows(tmp_path / "runs.jsonl", {})
-    run_jobs(jobs(), kept, seen.append)
+    run_jobs(jobs(), kept, Resources(progress=seen.append))
     assert list(kept.found.values()) == rows
     assert [s.rows for s in seen] == list(range(7)) and {s.of for s in seen} == {6}
     assert seen[0].left is None and seen[-1].left == 0 and seen[-1].share == 1
