@@ -98,8 +98,8 @@ def test_trials_and_points_of_a_sweep_have_the_noise_of_single_runs() -> None:
 
 def test_pieces_of_a_batch_have_the_bits_of_each_other() -> None:
     model = large()
-    whole = dd.simulate(model, 15, trials=4, batch=2, record=RECORD)
-    part = dd.simulate(model, 15, trials=[2, 3], batch=2, record=RECORD)
+    whole = dd.simulate(model, 15, trials=4, on=dd.Resources(batch=2), record=RECORD)
+    part = dd.simulate(model, 15, trials=[2, 3], on=dd.Resources(batch=2), record=RECORD)
     for path in RECORD:
         np.testing.assert_array_equal(whole[path].sel(trial=[2, 3]), part[path])
 
