@@ -61,6 +61,8 @@ SCRIPT = [
     "simulate",
     "dynamics",
     "rollout",
+    "unbounded",
+    "bounded",
     "resume",
     "Resources",
     "Points",

@@ -171,6 +171,8 @@ from deodar.figures.snapshot import snapshot as snapshot
 from deodar.figures.snapshots import snapshots as snapshots
 from deodar.figures.space_time import space_time as space_time
 from deodar.figures.time_course import time_course as time_course
+from deodar.gradients.bounded import bounded as bounded
+from deodar.gradients.bounded import unbounded as unbounded
 from deodar.gradients.dynamics import dynamics as dynamics
 from deodar.gradients.rollout import RolloutStart as RolloutStart
 from deodar.gradients.rollout import rollout as rollout

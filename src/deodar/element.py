@@ -275,6 +275,14 @@ class Element(Part):
         """
         return {}
 
+    def jumps_at(self) -> Sequence[str]:
+        """Return the names of the inputs, states and parameters at whose values an output or the new state
+        jumps, so that it has no derivative in them; gradients through them are refused.
+
+        Parameters that are moments or durations need no mention, nor do output functions that jump.
+        """
+        return ()
+
     def kernels(self) -> Sequence[Kernel]:
         """Return the kernels that `Setting.convolve` applies, summed."""
         return ()

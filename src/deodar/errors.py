@@ -172,6 +172,10 @@ class FigureError(DeodarError):
     """Raised when the file of a figure cannot be read."""
 
 
+class DerivativeError(DeodarError):
+    """Raised where a gradient passes through a jump, which has no derivative."""
+
+
 class AnalysisError(DeodarError):
     """Raised when a measurement does not apply to its argument."""
 

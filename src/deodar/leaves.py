@@ -115,6 +115,16 @@ def arrays(part: Part) -> Iterator[np.ndarray]:
                 yield from arrays(inner)
 
 
+def nested(part: Part) -> Iterator[Part]:
+    """Yield the parts inside a part, at any depth."""
+    for p in parameters(type(part)):
+        value = getattr(part, p.name)
+        if p.form in ("part", "parts") and value is not None:
+            for inner in value if p.form == "parts" else (value,):
+                yield inner
+                yield from nested(inner)
+
+
 @dc.dataclass(frozen=True)
 class StepLimit:
     """A parameter that limits the Euler step.

@@ -195,10 +195,11 @@ class Dynamics:
                     "a world begins on the host, for a seed and a trial that are numbers",
                     fix="Make the keys outside of jit, grad and vmap, and give them as arguments",
                 )
-            noise = program.keys(jnp.uint32(seed), jnp.uint32(trial))
-            self.body.world.reset(int(seed), [int(trial)], self.precision)
             empty: ProgramState = {"groups": [], "held": {}}
-            shared, state, noise = self.executable.embodied(self.body.world, empty, noise)
+            with jax.ensure_compile_time_eval():
+                noise = program.keys(jnp.uint32(seed), jnp.uint32(trial))
+                self.body.world.reset(int(seed), [int(trial)], self.precision)
+                shared, state, noise = self.executable.embodied(self.body.world, empty, noise)
             assert "world" in state
             return TrialKey(noise, shared, state["world"])
 

@@ -136,6 +136,7 @@ class ProgramRequest:
             devices.name(self.device),
             native.version(None if self.plain else native.kernels(self.device.platform, self.precision)),
             self.body and self.body.key,
+            self.plain,
             distribution and distribution.key,
         )
 
@@ -202,6 +203,7 @@ class Executable:
             copies=self.part.size if self.device.platform == "cpu" and alike else 0,
             replaced=Replacements(self.kernels, None if self.fields is None else self.fields.tapped),
             pictures=body is None and batch.points is None and distribution is None,
+            refuses=request.plain,
         )
         self.division: Division | None = self.fields
         if distribution is not None and self.fields is None:

@@ -26,11 +26,13 @@ from deodar.compiler.plan import Call, Plan, Read, RowGroup
 from deodar.compiler.sharing import functions, plain_ports
 from deodar.compiler.traffic import scope
 from deodar.element import Arrays, Element, Setting, Time
-from deodar.leaves import bind
+from deodar.leaves import bind, leaves, nested
 from deodar.numerics.axes import shape
+from deodar.numerics.derivatives import without_derivative
 from deodar.numerics.exact import LOW, Exact
 from deodar.numerics.native import LEAST_NOISE
 from deodar.numerics.noise import Cells, block, element_keys, no_block, normal, of_block
+from deodar.numerics.sigmoids._base import SigmoidFunction
 
 T = TypeVar("T")
 
@@ -118,6 +120,7 @@ class Program:
     `copies`: how many copies of the model are computed at once; 0 where no branch serves all of them, and on
     a device that waits at every branch.
     `replaced`: functions that replace those of `numerics`.
+    `refuses`: whether a gradient through a jump is an error.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
     """
 
@@ -130,8 +133,10 @@ class Program:
         copies: int = 1,
         replaced: Replacements | None = None,
         pictures: bool = False,
+        refuses: bool = False,
     ) -> None:
         self.plan = plan
+        self.jumps = [_jumps(group) if refuses else frozenset[str]() for group in plan.groups]
         replaced = replaced or Replacements()
         self.kernels = replaced.kernels
         self.body = body
@@ -409,8 +414,8 @@ class Program:
         self, g: int, row: int, values: ProgramValues, state: Arrays, amount: Array, dt: float
     ) -> Arrays:
         """Return the state of a group after a step in which an amount was added to the input of a row."""
-        leaves = {path: leaf[row] for path, leaf in self._leaves(g, values).items()}
-        element = bind(self.plan.groups[g].like.element, self._value(g, leaves))
+        given = {path: leaf[row] for path, leaf in self._leaves(g, values).items()}
+        element = bind(self.plan.groups[g].like.element, self._value(g, given))
         own: Any = {name: rows[row] for name, rows in state.items()}
         new = element.inject(own, cast("Any", amount), dt)
         assert new is not None
@@ -462,7 +467,7 @@ class Program:
             g,
             lambda e, at, read: self.functions[g].output(e, at, read, time),
             chunk.values,
-            StepArguments(shown, inputs, chunk.constants[g], noise),
+            self._refusing(g, StepArguments(shown, inputs, chunk.constants[g], noise)),
         )
         for port, axes in group.like.outs.items():
             buffers[g, port, call.instant] = jnp.broadcast_to(
@@ -470,8 +475,27 @@ class Program:
             )
 
     def _advance(self, g: int, values: ProgramValues, read: StepArguments, time: Time) -> Arrays:
+        read = self._refusing(g, read)
         new = self._each(g, lambda e, at, read: self.functions[g].advance(e, at, read, time), values, read)
         return jax.tree.map(lambda a, b: jnp.asarray(a, b.dtype), new, read.state)
+
+    def _refusing(self, g: int, read: StepArguments) -> StepArguments:
+        """Return what an element reads, so that gradients through its jumps are refused."""
+        if not self.jumps[g]:
+            return read
+        return read._replace(state=self._refused(g, read.state), inputs=self._refused(g, read.inputs))
+
+    def _refused(self, g: int, arrays: Arrays) -> Arrays:
+        like, names = self.plan.groups[g].like, self.jumps[g]
+        paths = ", ".join(node.path for node in self.plan.groups[g].nodes)
+
+        def guarded(name: str, value: Array) -> Array:
+            if name not in names:
+                return value
+            what = f"{paths} ({type(like.element).__name__}): jumps as {name} changes, and has no derivative"
+            return without_derivative(value, what)
+
+        return {name: guarded(name.removesuffix(LOW), value) for name, value in arrays.items()}
 
     def _gated(
         self, g: int, run: Callable[[], Arrays], old: Sequence[Arrays], held: dict[str, Arrays], tick: Array
@@ -549,7 +573,7 @@ class Program:
         return jax.vmap(one, axis_size=group.rows)(own, *args)
 
     def _value(
-        self, g: int, leaves: Arrays, only: str = ""
+        self, g: int, given: Arrays, only: str = ""
     ) -> Callable[[str], Array | Exact | _NotHere | None]:
         """Return the function that gives the value of a leaf of a row by its path."""
         group = self.plan.groups[g]
@@ -557,8 +581,8 @@ class Program:
         def value(path: str) -> Array | Exact | _NotHere | None:
             if only and path in group.cost and group.cost[path] != only:
                 return _NotHere()
-            found = leaves.get(path)
-            return Exact(found, leaves[path + LOW]) if path in group.exact else found
+            found = given.get(path)
+            return Exact(found, given[path + LOW]) if path in group.exact else found
 
         return value
 
@@ -575,7 +599,7 @@ class Program:
             out[path] = leaf
         for path in group.arrays:
             out[path] = arrays[array_key(g, path)]
-        return out
+        return self._refused(g, out) if self.jumps[g] else out
 
     def _swept_constants(self, group: RowGroup) -> bool:
         for path, offset in group.offset.items():
@@ -616,6 +640,17 @@ def gather(x: Array, read: Read) -> Array:
 
         total = total.at[rows].set(lax.fori_loop(0, blocks.shape[0], add, total[rows]))
     return total
+
+
+def _jumps(group: RowGroup) -> frozenset[str]:
+    """Return the names of inputs, states and parameters of a group in which it has no derivative."""
+    element, like = group.like.element, group.like
+    names = {path for path, _, p in leaves(element) if p.role in ("moment", "duration")}
+    names |= set(element.jumps_at())
+    if any(isinstance(part, SigmoidFunction) and part.jumps for part in nested(element)):
+        setting = Setting(like.ins, like.outs, np.dtype("float32"))
+        names |= {*like.ins, *group.offset, *group.arrays, *jax.eval_shape(lambda: element.init(setting))}
+    return frozenset(names)
 
 
 def _cells(group: RowGroup) -> int:

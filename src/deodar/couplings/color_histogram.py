@@ -90,6 +90,9 @@ class ColorHistogram(Coupling):
         turns = (at.points(hue) - hue.lower) / hue.range
         return constants | {"smooth": jnp.exp(-0.5 * (from_hues(hue, turns, at.dtype) / self.sigma) ** 2)}
 
+    def jumps_at(self) -> Sequence[str]:
+        return "input", "palest", "darkest"
+
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:

@@ -130,6 +130,9 @@ class Hebbian(Coupling):
         if self.apart and ins["pre"] != ins["input"]:
             yield f"its axes are not those that arrive at pre, {describe(ins['pre'])}"
 
+    def jumps_at(self) -> Sequence[str]:
+        return ("threshold",) if self.threshold == 0 else (*self.ports(), "threshold")
+
     def init(self, at: Setting) -> Arrays:
         pre, post = shape(at.ins["input"]), shape(self.axes)
         if self.start is not None:

@@ -93,6 +93,9 @@ class Homography(Coupling):
                         "Use the four corners of a rectangle on the plane",
                     )
 
+    def jumps_at(self) -> Sequence[str]:
+        return ("picture", "plane") if self.interpolation == "nearest" else ()
+
     def prepare(self, at: Setting) -> Arrays:
         x, y = (at.points(axis) for axis in self.axes)
         picture, plane = at.array(self.picture), at.array(self.plane)

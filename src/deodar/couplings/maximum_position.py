@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -44,6 +44,9 @@ class MaximumPosition(Coupling):
 
     jumps: ClassVar[bool] = True
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input",)}
+
+    def jumps_at(self) -> Sequence[str]:
+        return "input", "least"
 
     def input_axes(self, port: str, arriving: Axes | None) -> Axes | None:
         return arriving

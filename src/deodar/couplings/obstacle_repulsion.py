@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -71,6 +71,9 @@ class ObstacleRepulsion(Coupling):
         yield from one_axis(ins["input"])
         if len(ins["input"]) == 1:
             yield from wrong_shape("angles", self.angles, shape(ins["input"]), "the input has")
+
+    def jumps_at(self) -> Sequence[str]:
+        return ("angles",)
 
     def prepare(self, at: Setting) -> Arrays:
         return {"angles": at.array(self.angles)}

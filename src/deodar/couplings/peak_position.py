@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -69,6 +69,9 @@ class PeakPosition(Coupling):
         axes = ins["input"]
         read = PositionUnit.of(axes[0]) if len(axes) == 1 else None
         return {} if read is None else {"output": (read,)}
+
+    def jumps_at(self) -> Sequence[str]:
+        return ("least",)
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -42,6 +42,9 @@ class Quotient(Coupling):
     inputs: ClassVar[tuple[str, ...]] = ("input", "divisor")
     follows: ClassVar[Mapping[str, str]] = {"divisor": "input"}
     direct: ClassVar[Mapping[str, tuple[str, ...]]] = {"output": ("input", "divisor")}
+
+    def jumps_at(self) -> Sequence[str]:
+        return ("least",)
 
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None

@@ -78,6 +78,9 @@ class RateCode(Coupling):
         n = len(self.axes)
         return {"output": (Axis("component", 0, n - 1, n),) if n > 1 else (), "strength": ()}
 
+    def jumps_at(self) -> Sequence[str]:
+        return ("least",)
+
     def output(
         self, at: Setting, state: Arrays, inputs: Arrays, constants: Arrays, time: Time, noise: Array | None
     ) -> Arrays:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -83,6 +83,9 @@ class RewardGate(Coupling):
 
     def outputs(self, ins: Mapping[str, Axes]) -> Mapping[str, Axes]:
         return {"output": ()}
+
+    def jumps_at(self) -> Sequence[str]:
+        return *self.ports(), "threshold"
 
     def init(self, at: Setting) -> Arrays:
         return {"onset": at.full((), NEVER), "onset_low": at.full((), 0.0), "rewarded": at.full((), 0.0)}

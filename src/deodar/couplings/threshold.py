@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -38,6 +38,9 @@ class Threshold(Coupling):
     """
 
     level: Annotated[float, Live(meaning="the threshold")] = 0.5
+
+    def jumps_at(self) -> Sequence[str]:
+        return "input", "level"
 
     def bounds(
         self, ins: Mapping[str, Axes], inputs: Mapping[str, Interval], before: Mapping[str, Interval]

@@ -117,6 +117,10 @@ class MemoryTrace(Element):
         )
         return {"output": hull(first, inputs["input"]), "active": (0.0, 1.0)}
 
+    def jumps_at(self) -> Sequence[str]:
+        gradual = (self.graded and self.fades) or self.activity is not None
+        return ("threshold",) if gradual else ("input", "threshold")
+
     def init(self, at: Setting) -> Arrays:
         trace = at.full(tuple(self.axes), 0.0) if self.start is None else at.array(self.start)
         return {"trace": trace, "active": at.full(tuple(self.axes), 0.0)}

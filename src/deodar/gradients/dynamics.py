@@ -10,6 +10,7 @@ from deodar.compiler.driven import array_leaf, driven
 from deodar.compiler.dynamics import Dynamics
 from deodar.compiler.plan import Leaf
 from deodar.errors import ParameterError, WorldError
+from deodar.leaves import leaves as numbers
 from deodar.model import edit, find
 from deodar.model.document import Document
 from deodar.model.model import Handle, Model, path_of
@@ -42,8 +43,8 @@ def dynamics(
             computed inside the step. None: readings of sensors are inputs, by default 0.
 
     Raises:
-        ParameterError: a parameter is not a number or array of the program, or names several different
-            numbers.
+        ParameterError: a parameter is not a number or array of the program, is off, or names several
+            different numbers.
         TimeError: dt is too long for an element.
         WorldError: the world is computed on the host.
     """
@@ -67,7 +68,9 @@ def dynamics(
     if len(set(held)) < len(held):
         raise ParameterError("two of the parameters drive the same number", fix="Leave one of them out")
     accuracy = "exact" if any(array_leaf(doc, path) for path in paths) else "default"
-    return Dynamics(model, doc, precision, accuracy, body=body, drives=drives)
+    found = Dynamics(model, doc, precision, accuracy, body=body, drives=drives)
+    assert found.executable.precision == precision  # made here, as checks of a model cannot be traced
+    return found
 
 
 def _drives(doc: Document, path: str) -> tuple[Leaf, ...]:
@@ -75,6 +78,15 @@ def _drives(doc: Document, path: str) -> tuple[Leaf, ...]:
     if (array := array_leaf(doc, path)) is not None:
         return (array,)
     leaves = driven(doc, path)
+    for ident, leaf in leaves:
+        entry = find.entry(doc, ident)
+        declared = next(p for name, _, p in numbers(entry.element) if name == leaf)
+        if declared.off and find.number(doc, ident, leaf) == declared.neutral:
+            raise ParameterError(
+                f"is off at {declared.neutral:g}, which is not the limit of small values",
+                where=f"{entry.path}.{leaf}",
+                fix="Set it to another value first",
+            )
     values = {float(np.asarray(find.number(doc, *leaf))) for leaf in leaves}
     if len(values) > 1:
         known = ", ".join(f"{find.entry(doc, ident).path}.{leaf}" for ident, leaf in leaves)

@@ -23,7 +23,9 @@ def mixed() -> dd.Model:
     """Return a field with noise, a trace that runs every third tick, a delay, free weights and a node."""
     model = field(0.5)
     u = model["u"]
-    trace = model.add(dd.MemoryTrace("trace", [X], tau_build=30, tau_decay=200, graded=True), ticks=3)
+    trace = model.add(
+        dd.MemoryTrace("trace", [X], tau_build=30, tau_decay=200, graded=True, fades=True), ticks=3
+    )
     node = model.add(dd.Field("node", [], tau=5, resting_level=-1))
     model.connect(u, trace)
     model.connect(trace, model.add(dd.Gain(0.5, name="gain")))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -18,7 +18,13 @@ POINTS = 5
 
 @dataclass(frozen=True)
 class SigmoidFunction(Part):
-    """The base class of output functions g(u), applied to each sample."""
+    """The base class of output functions g(u), applied to each sample.
+
+    Class attributes:
+        jumps: whether g jumps, so that it has no derivative that a gradient could follow.
+    """
+
+    jumps: ClassVar[bool] = False
 
     def __call__(self, u: Array) -> Array:
         """Return the output for activation u; same shape."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import jax.numpy as jnp
 from jax import Array
@@ -34,6 +34,8 @@ class Step(SigmoidFunction):
     """
 
     threshold: Annotated[float, Live("activation", meaning="activation above which the output is 1")] = 0.0
+
+    jumps: ClassVar[bool] = True
 
     def __call__(self, u: Array) -> Array:
         return (u > self.threshold).astype(u.dtype)
