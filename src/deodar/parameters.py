@@ -18,6 +18,7 @@ import hashlib
 import math
 import numbers
 import re
+import sys
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -50,6 +51,7 @@ class FrozenArray:
     """An array that is a parameter: float64, read-only, compared and hashed by its content."""
 
     def __init__(self, data: Any) -> None:
+        require_value(data)
         array = np.array(data, dtype=np.float64, order="C")
         array.setflags(write=False)
         self.data: np.ndarray = array
@@ -338,8 +340,23 @@ def _same(a: Any, b: Any) -> bool:
     )
 
 
+def require_value(value: Any) -> None:
+    """Raise an error for a value that JAX traces, as inside `jax.jit` or `jax.grad`: it has no number yet."""
+    core = sys.modules.get("jax.core")  # without it nothing is traced, and importing JAX takes long
+    if core is not None and isinstance(value, core.Tracer):
+        raise ParameterError(
+            "models and simulate take numbers, and this value is one that JAX traces",
+            fix="Inside jit, grad and vmap: d = dd.dynamics(model, [PATH]); dd.rollout(d, n, {PATH: value})",
+        )
+
+
 def real(value: Any) -> float | None:
-    """Return the value as a number, or None if it is not a number; booleans and text are not numbers."""
+    """Return the value as a number, or None if it is not a number; booleans and text are not numbers.
+
+    Raises:
+        ParameterError: the value is one that JAX traces.
+    """
+    require_value(value)
     if hasattr(value, "item"):  # a scalar of NumPy or JAX
         value = value.item() if np.ndim(value) == 0 else None
     if isinstance(value, bool) or not isinstance(value, numbers.Real):

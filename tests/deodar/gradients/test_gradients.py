@@ -86,3 +86,20 @@ def test_compiled_kernels_are_not_used_in_single_precision() -> None:
     d = dd.dynamics(mixed(), ["u.tau"], precision="float32")
     assert d.executable.kernels is None
     assert np.isfinite(jax.grad(total(d, 5))(d.parameters)["u.tau"])
+
+
+def test_a_traced_value_in_a_model_or_in_simulate_names_rollout() -> None:
+    def fixed(tau: Any) -> Any:
+        model = field()
+        model.set("u.tau", tau)
+        return dd.simulate(model, 3)
+
+    def swept(tau: Any) -> Any:
+        return dd.simulate(field(), 3, sweep={"u.tau": [tau, 2 * tau]})
+
+    def weights(scale: Any) -> Any:
+        return dd.Weights(scale * np.eye(21), [X])
+
+    for function in (fixed, swept, weights):
+        with pytest.raises(ParameterError, match=r"dd\.rollout"):
+            jax.jit(function)(1.0)
