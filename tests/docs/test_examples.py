@@ -411,3 +411,21 @@ def test_change_detection_reports_the_changed_item() -> None:
 def test_sequences_are_produced_in_every_seed(capsys: pytest.CaptureFixture[str]) -> None:
     found = module(EXAMPLES / "sequences.py").main(2, range(10, 11))
     assert found == {10: (2, 20, 20)} and "2 of 2 seeds" in capsys.readouterr().out
+
+
+def test_learned_kernel_finds_the_free_samples() -> None:
+    wanted, weights, errors = module(EXAMPLES / "learned_kernel.py").learn(samples=101, most=400)
+    assert errors[-1] < 1e-3 * errors[0]
+    assert np.abs(weights - wanted).max() < 0.1 * np.abs(wanted).max()
+
+
+def test_trained_vision_puts_the_peak_at_the_cross() -> None:
+    _, before, after = module(EXAMPLES / "trained_vision.py").train(count=48, most=200)
+    assert before < 0.4 and after > 0.8
+
+
+def test_fitted_time_course_finds_the_parameters() -> None:
+    script = module(EXAMPLES / "fitted_time_course.py")
+    found, _ = script.fit(script.measured(trials=20))
+    for path, value in script.TRUE.items():
+        assert found[path] == pytest.approx(value, rel=0.03)

@@ -32,6 +32,7 @@ DRAWN_ELSEWHERE = {
     "spa.md": {f"spa-{name}.png" for name in ("success", "divergence", "choice", "routes")},
     "neuromorphic.md": {"neuromorphic-error.png"},  # by `python benchmarks/spikes.py pages`
     "building.md": {"studio-palette.png", "studio-built.png", "studio-wire.png"},
+    "gradients.md": {"learned-kernel.png", "fitted-time-course.png"},  # by the scripts in `examples`
     "event-cameras.md": {"studio-eye.png"},
     "experiments.md": {"studio-experiment.png"},
     "studio.md": {p.name for p in (DOCS / "pictures").glob("studio-*.png")},
