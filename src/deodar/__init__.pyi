@@ -173,9 +173,9 @@ from deodar.figures.space_time import space_time as space_time
 from deodar.figures.time_course import time_course as time_course
 from deodar.gradients.bounded import bounded as bounded
 from deodar.gradients.bounded import unbounded as unbounded
-from deodar.gradients.dynamics import dynamics as dynamics
 from deodar.gradients.rollout import RolloutStart as RolloutStart
 from deodar.gradients.rollout import rollout as rollout
+from deodar.gradients.step_functions import dynamics as dynamics
 from deodar.importers.opening import load as load
 from deodar.importers.opening import read as read
 from deodar.importers.presets import apply_preset as apply_preset
