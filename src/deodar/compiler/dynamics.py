@@ -64,7 +64,7 @@ from deodar.parameters import FrozenArray
 ONE = Batch()
 """One copy without an axis for copies."""
 
-Values = Mapping[str, Any]
+ByPath = Mapping[str, Any]
 """Arrays or numbers by path: of parameters, or of inputs."""
 
 
@@ -164,7 +164,7 @@ class Dynamics:
             for name, rows in state["groups"][plan.row[entry.id][0]].items()
         }
 
-    def replaced(self, state: ProgramState, arrays: Values) -> ProgramState:
+    def replaced(self, state: ProgramState, arrays: ByPath) -> ProgramState:
         """Return a state with other arrays, by element and name as in `named`."""
         groups = [dict(group) for group in state["groups"]]
         known = {f"{e.path}.{n}": (e.id, n) for e in self.doc.entries for n in self._arrays_of(e.id, state)}
@@ -203,7 +203,7 @@ class Dynamics:
             assert "world" in state
             return TrialKey(noise, shared, state["world"])
 
-    def constants(self, parameters: Values | None = None) -> list[Constants]:
+    def constants(self, parameters: ByPath | None = None) -> list[Constants]:
         """Return the constants that only parameters that rebuild change, such as the weights of kernels.
 
         `prepare` accepts them, so that copies share those of the groups that are not `rebuilt`.
@@ -218,7 +218,7 @@ class Dynamics:
         return [own or g in arrays for g, own in enumerate(self.executable.program.rebuilt)]
 
     def prepare(
-        self, parameters: Values | None = None, constants: list[Constants] | None = None
+        self, parameters: ByPath | None = None, constants: list[Constants] | None = None
     ) -> PreparedStep:
         """Return what follows from parameters alone: kernels, and outputs that stay constant.
 
@@ -231,7 +231,7 @@ class Dynamics:
             own = program.prepare_one(values) if constants is None else constants
             return PreparedStep(values, own, self._chunk(program, values, own, {}))
 
-    def init(self, parameters: Values | None = None, key: TrialKey | None = None) -> ProgramState:
+    def init(self, parameters: ByPath | None = None, key: TrialKey | None = None) -> ProgramState:
         """Return the state at tick 0.
 
         Args:
@@ -246,7 +246,7 @@ class Dynamics:
             return state
 
     def step(
-        self, prepared: PreparedStep, state: ProgramState, inputs: Values, tick: Any, key: TrialKey
+        self, prepared: PreparedStep, state: ProgramState, inputs: ByPath, tick: Any, key: TrialKey
     ) -> ProgramState:
         """Return the state at the next tick.
 
@@ -273,7 +273,7 @@ class Dynamics:
         self,
         prepared: PreparedStep,
         state: ProgramState,
-        inputs: Values,
+        inputs: ByPath,
         tick: Any,
         key: TrialKey,
         ports: Sequence[str],
@@ -337,7 +337,7 @@ class Dynamics:
     def _base(self) -> ProgramValues:
         return {**self.executable.values(self.doc), "swept": ()}
 
-    def _values(self, parameters: Values | None) -> ProgramValues:
+    def _values(self, parameters: ByPath | None) -> ProgramValues:
         """Return the parameters of the program."""
         given, known = {} if parameters is None else parameters, self._present
         for name in given:
@@ -396,7 +396,7 @@ class Dynamics:
             values = {**values, "world": key.shared}
         return chunk._replace(values=values, keys=key.noise)
 
-    def _divided(self, inputs: Values) -> tuple[Arrays, Arrays]:
+    def _divided(self, inputs: ByPath) -> tuple[Arrays, Arrays]:
         """Return the readings of sensors, and what is added to inputs, by id."""
         readings, amounts = dict[str, Array](), dict[str, Array]()
         plan, dtype = self.executable.plan, self.executable.program.dtype

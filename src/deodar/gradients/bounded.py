@@ -18,14 +18,14 @@ import numpy as np
 from jax import Array
 from jax.core import Tracer
 
-from deodar.compiler.dynamics import Dynamics, Values
+from deodar.compiler.dynamics import ByPath, Dynamics
 from deodar.declarations import LIMITING
 from deodar.errors import ParameterError
 from deodar.leaves import leaves
 from deodar.model import find
 
 
-class Bounds(NamedTuple):
+class ParameterBounds(NamedTuple):
     """The bounds of a parameter; None: none.
 
     Attributes:
@@ -37,11 +37,11 @@ class Bounds(NamedTuple):
     upper: float | None
 
 
-def bounds(dynamics: Dynamics) -> dict[str, Bounds]:
+def bounds(dynamics: Dynamics) -> dict[str, ParameterBounds]:
     """Return the bounds of the parameters: those of their declarations, and for time constants and rates
     those beyond which the Euler step would be too long. What drives several numbers has the tightest.
     """
-    found: dict[str, Bounds] = {}
+    found: dict[str, ParameterBounds] = {}
     for path, driven in dynamics.drives.items():
         lower, upper = list[float](), list[float]()
         for ident, leaf in driven:
@@ -54,11 +54,11 @@ def bounds(dynamics: Dynamics) -> dict[str, Bounds]:
                 upper.append(1 / step)
             elif declared.role in LIMITING:
                 lower.append(step)
-        found[path] = Bounds(max(lower, default=None), min(upper, default=None))
+        found[path] = ParameterBounds(max(lower, default=None), min(upper, default=None))
     return found
 
 
-def unbounded(dynamics: Dynamics, parameters: Values) -> dict[str, Array]:
+def unbounded(dynamics: Dynamics, parameters: ByPath) -> dict[str, Array]:
     """Return the numbers z for parameters; `bounded` is the inverse.
 
     Args:
@@ -71,7 +71,7 @@ def unbounded(dynamics: Dynamics, parameters: Values) -> dict[str, Array]:
     return _moved(dynamics, parameters, _free)
 
 
-def bounded(dynamics: Dynamics, numbers: Values) -> dict[str, Array]:
+def bounded(dynamics: Dynamics, numbers: ByPath) -> dict[str, Array]:
     """Return the parameters for numbers z: inside their declared bounds, whatever the numbers.
 
     A fit that moves z by a gradient keeps a time constant above the step, and an excitation excitatory.
@@ -83,12 +83,12 @@ def bounded(dynamics: Dynamics, numbers: Values) -> dict[str, Array]:
     return _moved(dynamics, numbers, _inside)
 
 
-def _moved(dynamics: Dynamics, values: Values, move: Any) -> dict[str, Array]:
-    known: Mapping[str, Bounds] = bounds(dynamics)
+def _moved(dynamics: Dynamics, values: ByPath, move: Any) -> dict[str, Array]:
+    known: Mapping[str, ParameterBounds] = bounds(dynamics)
     return {path: move(path, known[path], jnp.asarray(value)) for path, value in values.items()}
 
 
-def _inside(path: str, own: Bounds, z: Array) -> Array:
+def _inside(path: str, own: ParameterBounds, z: Array) -> Array:
     if own.lower is not None and own.upper is not None:
         return own.lower + (own.upper - own.lower) * jax.nn.sigmoid(z)
     if own.lower is not None:
@@ -96,7 +96,7 @@ def _inside(path: str, own: Bounds, z: Array) -> Array:
     return z if own.upper is None else own.upper - jnp.exp(z)
 
 
-def _free(path: str, own: Bounds, p: Array) -> Array:
+def _free(path: str, own: ParameterBounds, p: Array) -> Array:
     above = None if own.lower is None else p - own.lower
     below = None if own.upper is None else own.upper - p
     for room in (above, below):
@@ -112,6 +112,6 @@ def _free(path: str, own: Bounds, p: Array) -> Array:
     return functools.reduce(lambda found, new: found if new is None else new, logs, p)
 
 
-def _text(own: Bounds) -> str:
+def _text(own: ParameterBounds) -> str:
     low, high = ("" if bound is None else f"{bound:g}" for bound in own)
     return f"{low} to {high}" if low and high else f"above {low}" if low else f"below {high}"

@@ -13,12 +13,12 @@ import jax.numpy as jnp
 from jax import Array, lax
 
 from deodar.compiler.arguments import ProgramState
-from deodar.compiler.dynamics import Dynamics, Values, PreparedStep, TrialKey
+from deodar.compiler.dynamics import ByPath, Dynamics, PreparedStep, TrialKey
 from deodar.errors import ParameterError, TimeError
 from deodar.model import find
 from deodar.session.run import whole
 
-Carry = tuple[Array, ProgramState]
+RolloutCarry = tuple[Array, ProgramState]
 """Tick and state."""
 
 
@@ -49,8 +49,8 @@ class RolloutStart(NamedTuple):
 def rollout(
     dynamics: Dynamics,
     n: int,
-    parameters: Values | None = None,
-    inputs: Values | None = None,
+    parameters: ByPath | None = None,
+    inputs: ByPath | None = None,
     key: TrialKey | None = None,
     record: Sequence[str] = (),
     every: float | None = None,
@@ -91,7 +91,7 @@ def rollout(
     return run.recorded(n, (first, state), tuple(record), gap)
 
 
-def _by_step(dynamics: Dynamics, inputs: Values, n: int) -> tuple[dict[str, Array], dict[str, Array]]:
+def _by_step(dynamics: Dynamics, inputs: ByPath, n: int) -> tuple[dict[str, Array], dict[str, Array]]:
     """Return the inputs that are constant, and those that have an axis of steps."""
     still, moving = dict[str, Array](), dict[str, Array]()
     for path, value in inputs.items():
@@ -133,24 +133,24 @@ class _Steps:
         moving = {path: a[jnp.minimum(passed, len(a) - 1)] for path, a in self._moving.items()}
         return {**self._still, **moving}
 
-    def _one(self, carry: Carry) -> Carry:
+    def _one(self, carry: RolloutCarry) -> RolloutCarry:
         tick, state = carry
         new = self._dynamics.step(self._prepared, state, self._inputs(tick), tick, self._key)
         return tick + jnp.uint32(1), new
 
-    def _some(self, carry: Carry, n: int) -> Carry:
+    def _some(self, carry: RolloutCarry, n: int) -> RolloutCarry:
         """Take `n` steps, in segments whose inside is computed again for the gradient."""
         return _segmented(carry, n, lambda carry: (self._one(carry), None), math.isqrt(n))[0]
 
-    def recorded(self, n: int, carry: Carry, ports: Sequence[str], every: int) -> Rollout:
+    def recorded(self, n: int, carry: RolloutCarry, ports: Sequence[str], every: int) -> Rollout:
         """Take `n` steps and observe ports in between."""
 
-        def seen(carry: Carry) -> dict[str, Array]:
+        def seen(carry: RolloutCarry) -> dict[str, Array]:
             tick, state = carry
             inputs = self._inputs(tick) if self._sensors else {}
             return self._dynamics.observe(self._prepared, state, inputs, tick, self._key, ports)
 
-        def interval(carry: Carry) -> tuple[Carry, dict[str, Array]]:
+        def interval(carry: RolloutCarry) -> tuple[RolloutCarry, dict[str, Array]]:
             carry = self._one(carry) if every == 1 else self._some(carry, every)
             return carry, seen(carry)
 
@@ -176,13 +176,13 @@ class _Steps:
 
 
 def _segmented(
-    carry: Carry, n: int, one: Callable[[Carry], tuple[Carry, Any]], size: int
-) -> tuple[Carry, Any]:
+    carry: RolloutCarry, n: int, one: Callable[[RolloutCarry], tuple[RolloutCarry, Any]], size: int
+) -> tuple[RolloutCarry, Any]:
     """Apply a function `n` times, in segments of `size` whose inside is computed again for the gradient;
     return the last value and what it gave beside, stacked.
     """
 
-    def inner(carry: Carry, length: int) -> tuple[Carry, Any]:
+    def inner(carry: RolloutCarry, length: int) -> tuple[RolloutCarry, Any]:
         return lax.scan(lambda carry, _: one(carry), carry, length=length)
 
     whole, left = divmod(n, max(1, size))

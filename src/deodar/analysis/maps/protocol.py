@@ -17,7 +17,7 @@ from deodar.analysis.maps.labels import RegimeLabel
 from deodar.analysis.maps.patterns import count, widest
 from deodar.analysis.maps.request import INPUTS, MapRequest
 from deodar.analysis.selection import HEAD_START
-from deodar.analysis.step_copies import StepCopies
+from deodar.analysis.settling_copies import SettlingCopies
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.functions import Constants
 from deodar.compiler.program import precision_context
@@ -86,8 +86,8 @@ class RegimeProtocol:
         self.axes: Axes = request.isolated.axes
         dt = request.isolated.session.dt
 
-        def copies(lanes: int) -> StepCopies:
-            return StepCopies(request.model, leaves, lanes, request.precision, dt)
+        def copies(lanes: int) -> SettlingCopies:
+            return SettlingCopies(request.model, leaves, lanes, request.precision, dt)
 
         self.copies = copies(MOST_LANES)
         matrix = sum(axis.samples**2 for axis in self.axes) * self.copies.dtype.itemsize

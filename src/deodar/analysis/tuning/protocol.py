@@ -13,7 +13,7 @@ import numpy as np
 from jax import Array
 
 from deodar.analysis.maps.patterns import count, widest
-from deodar.analysis.step_copies import StepCopies
+from deodar.analysis.settling_copies import SettlingCopies
 from deodar.analysis.tuning.request import INPUTS, TuningRequest
 from deodar.analysis.tuning.response import FieldInput, FieldResponse, SettledBatch, Stages
 from deodar.compiler.arguments import ProgramState
@@ -62,9 +62,9 @@ class TuningProtocol:
         inputs = [((find.element(doc, name).id, "amplitude"),) for name in INPUTS]
         dt = isolated.session.dt
 
-        def copies(lanes: int) -> StepCopies:
+        def copies(lanes: int) -> SettlingCopies:
             leaves = [*request.leaves, *inputs]
-            return StepCopies(request.model, leaves, lanes, isolated.session.precision, dt)
+            return SettlingCopies(request.model, leaves, lanes, isolated.session.precision, dt)
 
         self.axes: Axes = isolated.axes
         self.copies = copies(LANES)

@@ -14,7 +14,7 @@ from deodar.model import edit
 from deodar.model.model import Model
 
 
-class StepCopies:
+class SettlingCopies:
     """Several copies of a model without noise, sensors and parts of several ticks, from time 0.
 
     Copies share what no parameter rebuilds: kernels whose amplitudes alone differ have one matrix for all.
