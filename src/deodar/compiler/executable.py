@@ -201,9 +201,8 @@ class Executable:
             self.layout.swept,
             body,
             copies=self.part.size if self.device.platform == "cpu" and alike else 0,
-            replaced=Replacements(self.kernels, None if self.fields is None else self.fields.tapped),
+            replaced=Replacements(self.kernels, self.fields and self.fields.tapped, request.plain),
             pictures=body is None and batch.points is None and distribution is None,
-            refuses=request.plain,
         )
         self.division: Division | None = self.fields
         if distribution is not None and self.fields is None:

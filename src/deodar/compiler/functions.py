@@ -23,15 +23,17 @@ TappedOver = Callable[[Axes, Array, Array, str, int], Array]
 
 
 class Replacements(NamedTuple):
-    """Functions that replace those of `numerics` on some devices.
+    """Functions that replace those of `numerics`, on some devices or for gradients.
 
     Attributes:
         kernels: compiled kernels for parts of the step.
         tapped: the convolution by lags, where devices divide an axis.
+        refuses: whether a gradient through a jump is an error.
     """
 
     kernels: Kernels | None = None
     tapped: TappedOver | None = None
+    refuses: bool = False
 
 
 class Constants(NamedTuple):

@@ -120,7 +120,6 @@ class Program:
     `copies`: how many copies of the model are computed at once; 0 where no branch serves all of them, and on
     a device that waits at every branch.
     `replaced`: functions that replace those of `numerics`.
-    `refuses`: whether a gradient through a jump is an error.
     `pictures`: whether what follows from pictures alone is an argument, under the keys of `look`.
     """
 
@@ -133,11 +132,10 @@ class Program:
         copies: int = 1,
         replaced: Replacements | None = None,
         pictures: bool = False,
-        refuses: bool = False,
     ) -> None:
         self.plan = plan
-        self.jumps = [_jumps(group) if refuses else frozenset[str]() for group in plan.groups]
         replaced = replaced or Replacements()
+        self.jumps = [_jumps(group) if replaced.refuses else frozenset[str]() for group in plan.groups]
         self.kernels = replaced.kernels
         self.body = body
         self.precision = precision
@@ -158,7 +156,9 @@ class Program:
         self.settings = [
             Setting(plain_ports(g.like.ins), plain_ports(g.like.outs), self.dtype) for g in plan.groups
         ]
-        self.functions = [functions(g.like, g.strategy, *replaced) for g in plan.groups]
+        self.functions = [
+            functions(g.like, g.strategy, replaced.kernels, replaced.tapped) for g in plan.groups
+        ]
 
     def _kept(self, copies: int) -> list[int]:
         """Return the groups whose noise is drawn for two ticks at once, where that is worth it."""
