@@ -1,7 +1,7 @@
 """What a call of a few trials costs beside the trials: `python benchmarks/trials.py`.
 
 A field decides between two inputs; each call has four trials with another seed and other values of two
-parameters, as an optimiser or a notebook makes them. `kept`: calls of one `dd.Trials`. `made anew`: each call
+parameters, as an optimiser or a notebook makes them. `kept`: calls of one `dd.Trials`. `made again`: each call
 makes a `dd.Trials` of the same model. `one by one`: the trials run without a batch. Times are of the
 processor, after two calls that compile.
 """
@@ -49,7 +49,7 @@ def main() -> None:
     print(f"{TRIALS} trials a call, {CALLS} calls; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     for name, call in {
         "kept": lambda k: kept.run(range(TRIALS), k, VALUES),
-        "made anew": lambda k: dd.Trials(model, plan).run(range(TRIALS), k, VALUES),
+        "made again": lambda k: dd.Trials(model, plan).run(range(TRIALS), k, VALUES),
         "one by one": lambda k: alone.run(range(TRIALS), k),
     }.items():
         seconds, steps = timed(call)

@@ -230,7 +230,7 @@ class _Columns:
     right: float
 
     def middle(self, column: int, width: float) -> float:
-        """Return the left edge of what stands in the middle of a column."""
+        """Return the left edge of a box of this width in the middle of a column."""
         return self.lefts[column] + (self.widths[column] - width) / 2
 
 
