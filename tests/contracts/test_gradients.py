@@ -56,7 +56,7 @@ def test_gradients_are_those_of_finite_differences_or_are_refused(kind: str) -> 
             way = np.cos(np.arange(slope.size) + 0.5).reshape(slope.shape)
             high, low = (float(value({**start, path: start[path] + e * way})) for e in (NUDGE, -NUDGE))
             by = float(np.sum(np.asarray(slope) * way))
-            assert by == pytest.approx((high - low) / (2 * NUDGE), rel=1e-5, abs=1e-5), path
+            assert by == pytest.approx((high - low) / (2 * NUDGE), rel=1e-6, abs=1e-6), path
 
 
 def accepted(model: dd.Model, path: str) -> bool:

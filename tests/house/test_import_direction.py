@@ -107,6 +107,18 @@ def test_modules_are_named_where_they_are_imported(path: Path) -> None:
     assert not {"import_module", "__import__"} & set(names)
 
 
+def test_one_place_asks_for_programs() -> None:
+    """Sessions, records, trials and gradients have the programs of `Dynamics.compiled`."""
+    calls = {
+        module(path)
+        for path in MODULES
+        for n in ast.walk(tree(path))
+        if isinstance(n, ast.Call)
+        and "executable" in (getattr(n.func, "id", ""), getattr(n.func, "attr", ""))
+    }
+    assert calls == {"compiler.dynamics"}
+
+
 def test_imports_are_absolute() -> None:
     wrong = [p.name for p in MODULES for n in ast.walk(tree(p)) if isinstance(n, ast.ImportFrom) and n.level]
     assert not wrong
