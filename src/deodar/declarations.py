@@ -48,7 +48,8 @@ class Declaration:
         upper: highest value; None: any.
         neutral: the value at which the parameter has no effect, so that the program leaves it out.
         choices: the allowed texts; empty: any.
-        meaning: one phrase for forms, the reference and the schema.
+        meaning: one phrase for forms, the reference and the schema; empty: the one with which the description
+            in the docstring begins.
         off: whether the neutral value switches the effect off, instead of being the limit of small values.
         role: role of a parameter whose unit contains time, see above.
         exact: whether it keeps the digits of float64 in a program of single precision.

@@ -6,9 +6,10 @@ Help, the manual, the studio, the command line and the tests read docstrings wit
 from __future__ import annotations
 
 import dataclasses as dc
+import functools
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 _TITLE = re.compile(r"([A-Z][A-Za-z ]*):[ ]*")
 _TITLE_AND_TEXT = re.compile(r"(Equation|Parameters|Ports|Shapes|Reference):[ ]+(.+)")
@@ -42,8 +43,7 @@ class Docstring:
 
     def entries(self, title: str) -> dict[str, str]:
         """Return the entries `name: text` of a section, each text in one line."""
-        blocks = self.blocks(title).items()
-        return {name: " ".join(line.strip() for line in block)[len(name) + 2 :] for name, block in blocks}
+        return {name: _text(name, block) for name, block in self.blocks(title).items()}
 
     def blocks(self, title: str) -> dict[str, list[str]]:
         """Return the entries of a section with their line breaks: for each name its lines."""
@@ -89,6 +89,29 @@ def parse(text: str) -> Docstring:
 def source(cls: type) -> str:
     """Return the docstring in the source of a class, without its indentation; "" without one."""
     return inspect.cleandoc(vars(cls).get("__doc__") or "")
+
+
+@functools.cache
+def described(cls: type) -> Mapping[str, Sequence[str]]:
+    """Return the lines of the entry of each parameter that a class or one of its bases describes; that of the
+    nearest class.
+    """
+    read = [parse(source(base)) for base in reversed(cls.__mro__[:-1])]
+    return dict(
+        entry
+        for each in read
+        for title in ("Parameters", "Attributes")
+        for entry in each.blocks(title).items()
+    )
+
+
+def descriptions(cls: type) -> dict[str, str]:
+    """Return for each parameter that a class or one of its bases describes what it says, in one line."""
+    return {name: _text(name, lines) for name, lines in described(cls).items()}
+
+
+def _text(name: str, lines: Sequence[str]) -> str:
+    return " ".join(line.strip() for line in lines)[len(name) + 2 :]
 
 
 def _joined(text: str) -> str:

@@ -26,6 +26,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
+from deodar import docstring
 from deodar.declarations import TIME_ROLES, Cost, Declaration, FormSection, Names, Needed, Recompile, Role
 from deodar.declarations import Live as Live
 from deodar.declarations import Rebuild as Rebuild
@@ -281,7 +282,7 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
         d.upper,
         d.neutral,
         d.choices,
-        d.meaning,
+        d.meaning or _meaning(docstring.descriptions(cls).get(field.name, "")),
         default,
         of,
         optional,
@@ -291,6 +292,11 @@ def _read(cls: type[Any], field: dc.Field[Any], hint: Any) -> Parameter:
         d.names,
         d.section,
     )
+
+
+def _meaning(description: str) -> str:
+    """Return the phrase with which the description of a parameter begins."""
+    return re.split(r"; |\. ", description.replace("`", ""))[0].rstrip(".")
 
 
 def _form(hint: Any) -> tuple[ValueForm, type[Any] | None, bool]:

@@ -104,18 +104,23 @@ def _words(hint: Any) -> str:
 @functools.cache
 def _documentation(cls: Any) -> str:
     """Return the docstring of the source, with unit and range after each parameter, and with the parameters
-    that it does not describe.
+    that it does not describe: as a base class does, or as declared.
     """
     text = docstring.source(cls)
     if text.startswith(f"{cls.__name__}("):  # without a docstring in the source, `dataclass` writes the call
         text = ""
     read = docstring.parse(text or f"{cls.__name__}.")
-    title = next((title for title in read.sections if title in _TITLES), _TITLES[0])
+    sections = (title for base in cls.__mro__ for title in docstring.parse(docstring.source(base)).sections)
+    title = next((title for title in sections if title in _TITLES), _TITLES[0])
     declared = {p.name: p for p in cls.__declared__()}
-    entries = read.blocks(title)
+    own, inherited = read.blocks(title), docstring.described(cls)
+    entries = dict[str, list[str]]()
     for p in declared.values():
-        if p.name not in entries and p.name != "name":
+        if p.name in inherited:
+            entries[p.name] = [*inherited[p.name]]
+        elif p.name != "name":
             entries[p.name] = [f"{p.name}: {p.meaning}."]
+    entries |= own
     for name in entries.keys() & declared.keys():
         entries[name][-1] += _range(declared[name])
     body = "\n".join(line for entry in entries.values() for line in entry)

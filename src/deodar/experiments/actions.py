@@ -20,22 +20,17 @@ from deodar.worlds._base import World
 PerTrial = float | Sequence[float]
 """A number for all trials, or a list with one for each."""
 
-AT = Recompile(
-    "time",
-    role="moment",
-    lower=0.0,
-    meaning="document time of the action; with `when` the time after that event; or one for each trial",
-)
-WHEN = Recompile(meaning="the event after which it is done; empty: at a time of its own", names="event")
+At = Annotated[PerTrial, Recompile("time", role="moment", lower=0.0)]
+When = Annotated[str, Recompile(names="event")]
 
 
 class Action(Part):
     """Base of actions on a trial.
 
     Attributes:
-        at: document time of the action; with `when` the time from that event on. A list has one time for each
-            trial, by its number.
-        when: name of an event; empty: the action has a time of its own.
+        at: document time of the action, or of its beginning; with `when` the time after that event; or one
+            for each trial, by its number.
+        when: the event after which the action is carried out, or begins; empty: at a time of its own.
     """
 
     at: PerTrial
@@ -102,28 +97,21 @@ class Place(Action):
     A `RunWarning` names blocks of an `Arena` that overlap from then on.
 
     Attributes:
-        at: document time from which on the world contains it; with `when` the time after that event; or one
-            for each trial.
         object: name of the object in the world.
         center: x and y of its centre, in the unit of the world.
         size: along x and y.
         color: red, green and blue, 0 to 1.
-        when: the event after which the action is carried out; empty: at a time of its own.
         height: height of the object, above 0, in the unit of the world; None: the default of the world. Only
             a world whose `place` has this argument, such as `Arena`, accepts it.
     """
 
-    at: Annotated[PerTrial, AT]
-    object: Annotated[str, Recompile(meaning="name of the object in the world")]
-    center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
-    size: Annotated[PerAxis, Recompile(meaning="along x and y")]
-    color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0, meaning="red, green and blue")] = (
-        0.72,
-        0.53,
-        0.3,
-    )
-    when: Annotated[str, WHEN] = ""
-    height: Annotated[float | None, Recompile(meaning="height; none: the default of the world")] = None
+    at: At
+    object: str
+    center: PerAxis
+    size: PerAxis
+    color: Annotated[PerAxis, Recompile(lower=0.0, upper=1.0)] = (0.72, 0.53, 0.3)
+    when: When = ""
+    height: float | None = None
 
     world_method: ClassVar[str] = "place"
 
@@ -152,17 +140,15 @@ class Move(Action):
     A `RunWarning` names blocks of an `Arena` that overlap from then on.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
         object: name of the object in the world, or of the vehicle.
         center: x and y of its new centre, in the unit of the world; of a vehicle also its heading (rad), if
             that changes, too.
-        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    object: Annotated[str, Recompile(meaning="name of the object in the world")]
-    center: Annotated[PerAxis, Recompile(meaning="x and y of its middle")]
-    when: Annotated[str, WHEN] = ""
+    at: At
+    object: str
+    center: PerAxis
+    when: When = ""
 
     world_method: ClassVar[str] = "move"
 
@@ -182,14 +168,12 @@ class Remove(Action):
     """Remove an object from the world.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
         object: name of the object in the world.
-        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    object: Annotated[str, Recompile(meaning="name of the object in the world")]
-    when: Annotated[str, WHEN] = ""
+    at: At
+    object: str
+    when: When = ""
 
     world_method: ClassVar[str] = "remove"
 
@@ -203,16 +187,14 @@ class Set(Action):
     """Set a parameter of the model.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
         path: the parameter, of an element or of the document.
         value: a number, or another valid value of the parameter.
-        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    path: Annotated[str, Recompile(meaning="the parameter", names="parameter")]
-    value: Annotated[object, Recompile(meaning="new value of the parameter")]
-    when: Annotated[str, WHEN] = ""
+    at: At
+    path: Annotated[str, Recompile(names="parameter")]
+    value: object
+    when: When = ""
 
     def sets(self) -> Iterator[tuple[str, Any]]:
         yield self.path, self.value
@@ -227,22 +209,18 @@ class Ramp(Action):
     """Change a parameter of the model linearly from one value to another, at each step.
 
     Attributes:
-        at: document time at which it begins; with `when` the time after that event; or one for each trial.
         path: the parameter, a number of an element or of the document.
         end: its value at the end and afterwards.
         lasting: duration in document time.
         start: its value at the beginning; none: its present value.
-        when: the event after which it begins; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    path: Annotated[str, Recompile(meaning="the parameter", names="parameter")]
-    end: Annotated[float, Recompile(meaning="its value at the end")]
-    lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="how long it takes")]
-    start: Annotated[
-        float | None, Recompile(meaning="its value at the beginning; none: the one it then has")
-    ] = None
-    when: Annotated[str, WHEN] = ""
+    at: At
+    path: Annotated[str, Recompile(names="parameter")]
+    end: float
+    lasting: Annotated[float, Recompile("time", role="duration", lower=0.0)]
+    start: float | None = None
+    when: When = ""
 
     def sets(self) -> Iterator[tuple[str, Any]]:
         yield from ((self.path, value) for value in (self.end, self.start) if value is not None)
@@ -265,18 +243,16 @@ class Push(Action):
     peak.
 
     Attributes:
-        at: document time at which it begins; with `when` the time after that event; or one for each trial.
         element: path of the field or node.
         amount: value that is added to its input.
         lasting: duration in document time.
-        when: the event after which it begins; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    element: Annotated[str, Recompile(meaning="path of the field or node", names="element")]
-    amount: Annotated[float, Recompile("activation", meaning="value added to its input")]
-    lasting: Annotated[float, Recompile("time", role="duration", lower=0.0, meaning="for how long")]
-    when: Annotated[str, WHEN] = ""
+    at: At
+    element: Annotated[str, Recompile(names="element")]
+    amount: Annotated[float, Recompile("activation")]
+    lasting: Annotated[float, Recompile("time", role="duration", lower=0.0)]
+    when: When = ""
 
     def apply(self, running: RunningTrial) -> None:
         if self in running.pushes:  # another one is part of the model, with a window
@@ -295,14 +271,12 @@ class Record(Action):
     A trial with an action that starts recording is not recorded before that action.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
         on: whether values are recorded from then on.
-        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    on: Annotated[bool, Recompile(meaning="whether recording is on from then on")] = True
-    when: Annotated[str, WHEN] = ""
+    at: At
+    on: bool = True
+    when: When = ""
 
     def apply(self, running: RunningTrial) -> None:
         running.recording = self.on
@@ -314,16 +288,14 @@ class Snapshot(Action):
     """Record the values of ports at one moment.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
         label: name of the snapshot in the record.
         of: paths of the ports; the path of a field alone means its activation.
-        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    label: Annotated[str, Recompile(meaning="name in the record")]
-    of: Annotated[Sequence[str], Recompile(meaning="paths of the ports", names="port")]
-    when: Annotated[str, WHEN] = ""
+    at: At
+    label: str
+    of: Annotated[Sequence[str], Recompile(names="port")]
+    when: When = ""
 
     def ports(self) -> Iterator[str]:
         yield from self.of
@@ -345,16 +317,12 @@ class Reset(Action):
     what the elements have learned: weights, gains and memory traces (`Element.learned_parameters`).
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
-        when: the event after which the action is carried out; empty: at a time of its own.
         keep_learned: whether learned states stay.
     """
 
-    at: Annotated[PerTrial, AT]
-    when: Annotated[str, WHEN] = ""
-    keep_learned: Annotated[bool, Recompile(meaning="whether weights and traces that were learned stay")] = (
-        False
-    )
+    at: At
+    when: When = ""
+    keep_learned: bool = False
 
     def apply(self, running: RunningTrial) -> None:
         running.restart(self.keep_learned)
@@ -366,14 +334,12 @@ class End(Action):
     """End the trial.
 
     Attributes:
-        at: document time of the action; with `when` the time after that event; or one for each trial.
         outcome: the outcome in the row of the trial.
-        when: the event after which the action is carried out; empty: at a time of its own.
     """
 
-    at: Annotated[PerTrial, AT]
-    outcome: Annotated[str, Recompile(meaning="outcome in the row")]
-    when: Annotated[str, WHEN] = ""
+    at: At
+    outcome: str
+    when: When = ""
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if not self.outcome:

@@ -42,37 +42,43 @@ OWN = ("trial", "key", "outcome", "awaited", "diverged", "duration", "time")
 
 @dataclass(frozen=True)
 class Design(Part):
-    """An experiment as data; `Experiment` documents its parameters and runs it."""
+    """An experiment as data, which `Experiment` runs.
 
-    name: Annotated[str, Recompile(meaning="name of the experiment")]
-    model: Annotated[object, Recompile(meaning="the model, or the path of its document")]
-    limit: Annotated[
-        float, Recompile("time", role="duration", lower=0.0, meaning="longest duration of a trial")
-    ]
-    trials: Annotated[int, Recompile(lower=1, meaning="of each combination of levels")] = 1
-    conditions: Annotated[Sequence[Event], Recompile(meaning="events to detect")] = ()
-    actions: Annotated[Sequence[Action], Recompile(meaning="changes during each trial, and when")] = ()
-    factors: Annotated[Sequence[Factor], Recompile(meaning="what differs between trials")] = ()
-    measures: Annotated[Sequence[BaseMeasure], Recompile(meaning="measurements of each trial")] = ()
-    design: Annotated[str, Recompile(choices=DESIGNS, meaning="how trials are given levels")] = dc.field(
-        default="crossed", kw_only=True
-    )
-    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1, meaning="of all noise and random draws")] = (
-        dc.field(default=0, kw_only=True)
-    )
-    every: Annotated[
-        float | None, Recompile("time", role="duration", meaning="time between samples; none: each step")
-    ] = dc.field(default=None, kw_only=True)
-    record: Annotated[Sequence[str], Recompile(meaning="recorded ports", names="port")] = dc.field(
-        default=(), kw_only=True
-    )
-    world: Annotated[object, Recompile(meaning="world that sensors read and motors move")] = dc.field(
-        default=None, kw_only=True
-    )
-    dt: Annotated[
-        float | None, Recompile("time", role="duration", meaning="Euler step; none: the document's own")
-    ] = dc.field(default=None, kw_only=True)
-    precision: Annotated[str, Recompile(choices=("float32", "float64"), meaning="of all numbers")] = dc.field(
+    Attributes:
+        name: name of the experiment.
+        model: the model, or the path of its document.
+        limit: document time after which a trial times out.
+        trials: number of trials for each combination of levels; for a random design in total.
+        conditions: the events to detect; events with `ends` end a trial, and give its outcome.
+        actions: the actions on each trial, with their times.
+        factors: parameters in which trials differ, and their levels.
+        measures: the measures of each trial.
+        design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for
+            each trial).
+        seed: seed of all noise, and of the random order or levels.
+        every: sampling interval, also of records, in document time; none: each step.
+        record: paths of ports that are recorded in every trial; the path of a field alone means its
+            activation.
+        world: the world of the model's sensors and motors: a world, or KIND:ARGUMENT as on the command line.
+        dt: Euler step; none: the document's own.
+        precision: float32 or float64.
+    """
+
+    name: str
+    model: object
+    limit: Annotated[float, Recompile("time", role="duration", lower=0.0)]
+    trials: Annotated[int, Recompile(lower=1)] = 1
+    conditions: Sequence[Event] = ()
+    actions: Sequence[Action] = ()
+    factors: Sequence[Factor] = ()
+    measures: Sequence[BaseMeasure] = ()
+    design: Annotated[str, Recompile(choices=DESIGNS)] = dc.field(default="crossed", kw_only=True)
+    seed: Annotated[int, Recompile(lower=0, upper=2**32 - 1)] = dc.field(default=0, kw_only=True)
+    every: Annotated[float | None, Recompile("time", role="duration")] = dc.field(default=None, kw_only=True)
+    record: Annotated[Sequence[str], Recompile(names="port")] = dc.field(default=(), kw_only=True)
+    world: object = dc.field(default=None, kw_only=True)
+    dt: Annotated[float | None, Recompile("time", role="duration")] = dc.field(default=None, kw_only=True)
+    precision: Annotated[str, Recompile(choices=("float32", "float64"))] = dc.field(
         default="float32", kw_only=True
     )
 

@@ -13,7 +13,7 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
-from deodar.experiments.observable import REDUCES, Observable
+from deodar.experiments.observable import REDUCES, Observable, position
 from deodar.family import Family
 from deodar.parameters import Part, PerAxis, Recompile
 
@@ -78,25 +78,20 @@ class Crosses(Event):
     """A port or a sensor is above or below a value.
 
     Attributes:
-        name: name of the event in rows.
         of: path of the port, or name of a sensor of the world; the path of a field alone means its
             activation.
         level: the value.
         side: `above` or `below` it.
         reduce: reduction of an array to the compared number: max, min, mean or sum.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    of: Annotated[str, Recompile(meaning="path of the port, or name of a sensor of the world", names="port")]
-    level: Annotated[float, Recompile(meaning="the value")] = 0.0
-    side: Annotated[str, Recompile(choices=tuple(COMPARES), meaning="side of the value")] = "above"
-    reduce: Annotated[
-        str, Recompile(choices=tuple(REDUCES), meaning="number that an array is reduced to")
-    ] = "max"
-    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
-    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+    name: str
+    of: Annotated[str, Recompile(names="port")]
+    level: float = 0.0
+    side: Annotated[str, Recompile(choices=tuple(COMPARES))] = "above"
+    reduce: Annotated[str, Recompile(choices=tuple(REDUCES))] = "max"
+    times: Annotated[int, Recompile(lower=1)] = 1
+    ends: bool = True
 
     @property
     def views(self) -> tuple[Observable, ...]:
@@ -112,14 +107,12 @@ class Reached(Event):
     """A time is reached.
 
     Attributes:
-        name: name of the event in rows.
         at: the document time; the first sampling time at it or later counts.
-        ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    at: Annotated[float, Recompile("time", role="moment", lower=0.0, meaning="the document time")]
-    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+    name: str
+    at: Annotated[float, Recompile("time", role="moment", lower=0.0)]
+    ends: bool = True
 
     def holds(self, samples: Samples) -> np.ndarray:
         return (samples.times >= self.at - 1e-9 * max(1.0, abs(self.at)))[None]
@@ -131,35 +124,23 @@ class Appears(Event):
     """A peak appears in a field: its activation is above a threshold anywhere, or near a position.
 
     Attributes:
-        name: name of the event in rows.
         field: path of the field, or of one of its ports; a field alone means its activation.
         threshold: threshold of the activation.
         near: a position, in axis units, one number or one per axis; none: anywhere.
         radius: distance from that position, along every axis.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    field: Annotated[str, Recompile(meaning="path of the field", names="element")]
-    threshold: Annotated[float, Recompile("activation", meaning="of the activation")] = 0.0
-    near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: anywhere")] = None
-    radius: Annotated[
-        float, Recompile("axis", lower=0.0, meaning="radius around that place, along every axis")
-    ] = 0.0
-    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
-    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+    name: str
+    field: Annotated[str, Recompile(names="element")]
+    threshold: Annotated[float, Recompile("activation")] = 0.0
+    near: Annotated[PerAxis | None, Recompile("axis")] = None
+    radius: Annotated[float, Recompile("axis", lower=0.0)] = 0.0
+    times: Annotated[int, Recompile(lower=1)] = 1
+    ends: bool = True
 
     @property
     def views(self) -> tuple[Observable, ...]:
-        near = (
-            ()
-            if self.near is None
-            else tuple(map(float, self.near))
-            if isinstance(self.near, Sequence)
-            else (float(self.near),)
-        )
-        return (Observable(self.field, "max", near, self.radius, "activation"),)
+        return (Observable(self.field, "max", position(self.near), self.radius, "activation"),)
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:
@@ -174,15 +155,6 @@ class Appears(Event):
 class Vanishes(Appears):
     """A peak of a field vanishes: its activation falls below the threshold everywhere, or everywhere near a
     position.
-
-    Attributes:
-        name: name of the event in rows.
-        field: path of the field, or of one of its ports; a field alone means its activation.
-        threshold: threshold of the activation.
-        near: a position, in axis units, one number or one per axis; none: anywhere.
-        radius: distance from that position, along every axis.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
     """
 
     turns: ClassVar[bool] = True
@@ -197,24 +169,17 @@ class Within(Event):
     """One position is within a radius of another, for example of a goal.
 
     Attributes:
-        name: name of the event in rows.
         radius: the distance, in the unit of the world.
         of: the sensor or port whose first two values are the position.
         goal: the sensor or port whose first two values are the goal.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
-    of: Annotated[
-        str, Recompile(meaning="sensor or port whose first two values are the place", names="port")
-    ] = "pose"
-    goal: Annotated[
-        str, Recompile(meaning="sensor or port whose first two values are the goal", names="port")
-    ] = "goal"
-    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
-    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+    name: str
+    radius: Annotated[float, Recompile(lower=0.0)]
+    of: Annotated[str, Recompile(names="port")] = "pose"
+    goal: Annotated[str, Recompile(names="port")] = "goal"
+    times: Annotated[int, Recompile(lower=1)] = 1
+    ends: bool = True
 
     @property
     def views(self) -> tuple[Observable, ...]:
@@ -231,20 +196,15 @@ class Leaves(Event):
     """A position is farther than a radius from its value at the first sampling time: something has moved.
 
     Attributes:
-        name: name of the event in rows.
         radius: the distance, in the unit of the world.
         of: the sensor or port whose first two values are the position.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    radius: Annotated[float, Recompile(lower=0.0, meaning="in the unit of the world")]
-    of: Annotated[
-        str, Recompile(meaning="sensor or port whose first two values are the place", names="port")
-    ] = "pose"
-    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
-    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = False
+    name: str
+    radius: Annotated[float, Recompile(lower=0.0)]
+    of: Annotated[str, Recompile(names="port")] = "pose"
+    times: Annotated[int, Recompile(lower=1)] = 1
+    ends: bool = False
 
     @property
     def views(self) -> tuple[Observable, ...]:
@@ -263,16 +223,13 @@ class All(Event):
     """All of some events hold at the same sampling time.
 
     Attributes:
-        name: name of the event in rows.
         of: their names.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    of: Annotated[Sequence[str], Recompile(meaning="names of other events", names="event")]
-    times: Annotated[int, Recompile(lower=1, meaning="number of samples at which it holds")] = 1
-    ends: Annotated[bool, Recompile(meaning="whether the trial ends then")] = True
+    name: str
+    of: Annotated[Sequence[str], Recompile(names="event")]
+    times: Annotated[int, Recompile(lower=1)] = 1
+    ends: bool = True
 
     @property
     def others(self) -> tuple[str, ...]:
@@ -289,14 +246,7 @@ class All(Event):
 @EVENTS.register
 @dataclass(frozen=True)
 class AnyOf(All):
-    """At least one of some events holds.
-
-    Attributes:
-        name: name of the event in rows.
-        of: their names.
-        times: number of samples at which it holds, not necessarily consecutive.
-        ends: whether the event ends the trial.
-    """
+    """At least one of some events holds."""
 
     def holds(self, samples: Samples) -> np.ndarray:
         return np.logical_or.reduce([samples.holds[name] for name in self.of])

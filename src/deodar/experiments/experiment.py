@@ -28,25 +28,6 @@ class Experiment(Design):
     Trials run together in batches if their world, if any, can be computed inside the step, and no action sets
     a parameter that needs another program; otherwise one by one. Trial k has the noise of trial k of the seed
     in any batch.
-
-    Attributes:
-        name: name of the experiment.
-        model: the model, or the path of its document.
-        limit: document time after which a trial times out.
-        trials: number of trials for each combination of levels; for a random design in total.
-        conditions: the events to detect; events with `ends` end a trial, and give its outcome.
-        actions: the actions on each trial, with their times.
-        factors: parameters in which trials differ, and their levels.
-        measures: the measures of each trial.
-        design: `crossed`, `shuffled` (the same in an order drawn from the seed) or `random` (levels drawn for
-            each trial).
-        seed: seed of all noise, and of the random order or levels.
-        every: sampling interval, also of records, in document time; none: each step.
-        record: paths of ports that are recorded in every trial; the path of a field alone means its
-            activation.
-        world: the world of the model's sensors and motors: a world, or KIND:ARGUMENT as on the command line.
-        dt: Euler step; none: the document's own.
-        precision: float32 or float64.
     """
 
     def setup(self, trust: bool = False) -> Setup:

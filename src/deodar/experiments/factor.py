@@ -29,14 +29,9 @@ class Factor(Part):
             name parameters themselves.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    levels: Annotated[
-        object,
-        Recompile(meaning="values of one parameter, or for each level its name and the values of parameters"),
-    ]
-    path: Annotated[
-        str, Recompile(meaning="the parameter whose values the levels are", names="parameter")
-    ] = ""
+    name: str
+    levels: object
+    path: Annotated[str, Recompile(names="parameter")] = ""
 
     def validate(self) -> Iterator[tuple[str, str]]:
         levels: Any = self.levels

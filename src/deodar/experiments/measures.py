@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from deodar.experiments.observable import PLACE, REDUCES, Observable
+from deodar.experiments.observable import PLACE, REDUCES, Observable, position
 from deodar.extensions import Extensions
 from deodar.numerics.axes import Axes
 from deodar.parameters import Part, PerAxis, Recompile
@@ -55,44 +55,26 @@ class Measure(BaseMeasure):
     """One number per trial, or one per axis.
 
     Attributes:
-        name: name of its column in the results.
-        of: path of a port, or name of a sensor of the world; the path of a field alone means its activation.
         reduce: max, min, mean or sum of an array, or `place`: the position of its highest peak in axis units,
             interpolated between samples as `dd.peaks` does. A trial without a peak has no position (NaN in
             the table).
-        when: the event at whose time it is taken; empty: when the trial ends.
         near: only samples around this position, in axis units, one number or one per axis; none: all.
         radius: distance from that position, along every axis.
         threshold: samples above it belong to the peak, for `place`; 0 fits an activation, 0.5 an output.
     """
 
-    name: Annotated[str, Recompile(meaning="name in the rows")]
-    of: Annotated[str, Recompile(meaning="path of a port, or name of a sensor of the world", names="port")]
-    reduce: Annotated[
-        str, Recompile(choices=(*REDUCES, PLACE), meaning="number that an array is reduced to")
-    ] = "max"
-    when: Annotated[
-        str, Recompile(meaning="event at which it is measured; empty: at the end", names="event")
-    ] = ""
-    near: Annotated[PerAxis | None, Recompile("axis", meaning="a place; none: all samples")] = None
-    radius: Annotated[
-        float, Recompile("axis", lower=0.0, meaning="radius around that place, along every axis")
-    ] = 0.0
-    threshold: Annotated[
-        float, Recompile("activation", meaning="samples above it belong to the peak, for place")
-    ] = 0.0
+    name: str
+    of: Annotated[str, Recompile(names="port")]
+    reduce: Annotated[str, Recompile(choices=(*REDUCES, PLACE))] = "max"
+    when: Annotated[str, Recompile(names="event")] = ""
+    near: Annotated[PerAxis | None, Recompile("axis")] = None
+    radius: Annotated[float, Recompile("axis", lower=0.0)] = 0.0
+    threshold: Annotated[float, Recompile("activation")] = 0.0
 
     @property
     def view(self) -> Observable:
         """The sampled values, or their reduction."""
-        near = (
-            ()
-            if self.near is None
-            else tuple(map(float, self.near))
-            if isinstance(self.near, Sequence)
-            else (float(self.near),)
-        )
-        return Observable(self.of, self.reduce, near, self.radius, threshold=self.threshold)
+        return Observable(self.of, self.reduce, position(self.near), self.radius, threshold=self.threshold)
 
     def validate(self) -> Iterator[tuple[str, str]]:
         if self.near is not None and self.radius == 0.0:

@@ -13,6 +13,7 @@ from deodar.errors import AxesError, UnknownName
 from deodar.model import find
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes
+from deodar.parameters import PerAxis
 
 REDUCES: Mapping[str, Callable[..., Any]] = {"max": np.max, "min": np.min, "mean": np.mean, "sum": np.sum}
 PLACE = "place"
@@ -83,6 +84,13 @@ class Observable:
         u = values if inside is None else np.where(inside, values, np.minimum(values, self.threshold))
         found = peaks(u, axes, self.threshold)
         return found[0].position if found else (np.nan,) * len(axes)
+
+
+def position(near: PerAxis | None) -> tuple[float, ...]:
+    """Return a position as `Observable` has it."""
+    if near is None:
+        return ()
+    return tuple(map(float, near)) if isinstance(near, Sequence) else (float(near),)
 
 
 def mask(axes: Axes, near: Sequence[float], radius: float) -> np.ndarray | None:
