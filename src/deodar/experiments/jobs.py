@@ -118,10 +118,7 @@ def run_jobs(
 
 
 def _anywhere(
-    jobs: Sequence[Job],
-    workers: int | None,
-    ends: WorkerWatch,
-    cluster: ClusterPool | None,
+    jobs: Sequence[Job], workers: int | None, ends: WorkerWatch, cluster: ClusterPool | None
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
     if not jobs or not (workers or cluster):
         yield from _here(jobs)

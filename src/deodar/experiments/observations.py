@@ -191,9 +191,7 @@ def _order(events: Sequence[Event]) -> list[int]:
         ready = [e for e in left if all(other in done for other in e.others)]
         if not ready:
             raise ParameterError(
-                "depends on itself",
-                where=left[0].name,
-                fix="Leave its own name out of those it names",
+                "depends on itself", where=left[0].name, fix="Leave its own name out of those it names"
             )
         done += [e.name for e in ready]
         left = [e for e in left if e not in ready]

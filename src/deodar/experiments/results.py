@@ -93,11 +93,7 @@ def run_trials(
 
 
 def _run_trials(
-    setup: Setup,
-    out: Path,
-    on: Resources,
-    part: tuple[int, int] | None,
-    watch: WorkerWatch | None,
+    setup: Setup, out: Path, on: Resources, part: tuple[int, int] | None, watch: WorkerWatch | None
 ) -> xarray.Dataset:
     handed = packed_experiment.PackedExperiment.of(setup) if on.shared else None
     with _opened(setup, handed, on, watch) as pool:
@@ -154,10 +150,7 @@ def _require_records(setup: Setup, out: str | Path | None, workers: bool) -> Non
 
 @contextlib.contextmanager
 def _opened(
-    setup: Setup,
-    handed: packed_experiment.PackedExperiment | None,
-    on: Resources,
-    watch: WorkerWatch | None,
+    setup: Setup, handed: packed_experiment.PackedExperiment | None, on: Resources, watch: WorkerWatch | None
 ) -> Generator[ClusterPool | None]:
     """Connect to a cluster whose workers can run the experiment; None without a cluster.
 

@@ -54,11 +54,7 @@ class RunningTrial:
     """
 
     def __init__(
-        self,
-        copies: TrialCopies,
-        row: int,
-        actions: Sequence[ScheduledAction],
-        pushes: Mapping[Any, str],
+        self, copies: TrialCopies, row: int, actions: Sequence[ScheduledAction], pushes: Mapping[Any, str]
     ) -> None:
         self._copies, self.row, self.dt, self.pushes = copies, row, copies.dt, pushes
         self.recording = True

@@ -201,10 +201,7 @@ class Setup:
         levels = {f.name: f.labels[n] for f, n in zip(e.factors, self.cells[trial], strict=True)}
         awaited = [c.name for c in e.conditions if c.ends and result.events[c.name] is None]
         row: Row = {KEY: f"{trial:06}", "trial": trial, "levels": levels, "outcome": result.outcome}
-        row |= {
-            "awaited": ", ".join(awaited) if result.outcome == TIME else "",
-            "duration": result.duration,
-        }
+        row |= {"awaited": ", ".join(awaited) if result.outcome == TIME else "", "duration": result.duration}
         row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
         return row | {"events": dict(result.events), "measures": dict(result.measures)}
 

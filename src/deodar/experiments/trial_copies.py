@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import dataclasses as dc
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import jax
 import numpy as np
 
-from deodar.compiler.arguments import ProgramState
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.driven import driven
 from deodar.compiler.dynamics import Dynamics
@@ -22,13 +21,12 @@ from deodar.model.document import Document
 from deodar.model.resolve import resolve
 from deodar.model.unit import unit_seconds
 from deodar.numerics.axes import Axes, Axis
-from deodar.numerics.pytree import PyTree
 from deodar.parameters import real
 from deodar.session import memory
 from deodar.session.adopt import adopt
-from deodar.session.keep import learned_states
+from deodar.session.keep import with_learned
 from deodar.session.run import Run, host, require_step
-from deodar.session.session_snapshot import fill, rows
+from deodar.session.session_snapshot import put_rows, put_states, rows
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
 from deodar.worlds._pure import PureWorld
@@ -94,7 +92,6 @@ class TrialCopies:
         leaves = tuple(tuple(driven(dynamics.doc, path)) for path in self.swept)
         self._batch = Batch(sweep=leaves, begun=len(self.rows), own_noise=bool(leaves))
         self.run = self._begun(self.rows)
-        self._first: ProgramState | None = None
 
     def _begun(self, copies: Sequence[int]) -> Run:
         """Return a run of some trials at its start: trials of one batch, or points of a sweep if parameters
@@ -230,50 +227,23 @@ class TrialCopies:
 
     def keep_start(self) -> None:
         """Store the present states, for `restart`."""
-        self._first = host(self.run.state)
-        self._states = rows(self.run.program, self.run.state) if self.alone else {}
+        self._start = self.run.program, host(self.run.state)
 
     def restart(self, row: int, keep_learned: bool) -> None:
         """Reset the states of all elements of one trial to those of `keep_start`; states that were learned
         only if `keep_learned` is false.
         """
-        if self.alone:
-            self._restart_alone(keep_learned)
-            return
-        assert self._first is not None
-        k = self.rows.index(row)
-        state = self.run.state.copy()
+        run = self.run
+        first, copy = ((), ()) if self.alone else ((row,), (self.rows.index(row),))
+        states, state = rows(*self._start, first), run.state.copy()
         state["groups"], state["held"] = jax.tree.map(_writable, (state["groups"], state["held"]))
-        learned = [(a, r, a[k, r].copy()) for a, r in self._learned(state, k)] if keep_learned else []
-        first = self._first["groups"], self._first["held"]
-        jax.tree.map(lambda now, begun: _put(now, k, begun[row]), (state["groups"], state["held"]), first)
-        for values, r, kept in learned:
-            values[k, r] = kept
-        self.run.state = state
-
-    def _restart_alone(self, keep_learned: bool) -> None:
-        run, states = self.run, dict(self._states)
-        now = rows(run.program, run.state) if keep_learned else {}
-        for entry in run.doc.entries if keep_learned else ():
-            if entry.id in states and entry.id in now:
-                names = learned_states(entry.element, now[entry.id][0])
-                pairs = zip(states[entry.id], now[entry.id], strict=True)
-                shown, held = ({**old, **{name: new[name] for name in names}} for old, new in pairs)
-                states[entry.id] = shown, held
-        sensed, unread = run.sensed, run.exchange.unread
-        fill(run, states)
-        run.sensed, run.exchange.unread = sensed, unread  # the world and its readings continue
-
-    def _learned(self, state: ProgramState, copy: int) -> Iterator[tuple[Any, int]]:
-        """Yield the arrays of learned states, and the row of the element in them."""
-        elements = {e.id: e.element for e in self.dynamics.doc.entries}
-        for ident, (g, r) in self.run.program.plan.row.items():
-            if ident in elements:
-                shown = {name: np.asarray(values[copy, r]) for name, values in state["groups"][g].items()}
-                for name in learned_states(elements[ident], shown):
-                    for part in (state["groups"][g], state["held"].get(str(g), {})):
-                        if name in part:
-                            yield part[name], r
+        if keep_learned:
+            states = with_learned(run.doc, rows(run.program, state, copy), states)
+        if self.alone:
+            put_states(run, states)
+        else:
+            put_rows(run.program, state, states, copy)
+            run.state = state
 
     def world_of(self, row: int) -> World | None:
         """Return the world of a trial, which actions change."""
@@ -319,7 +289,3 @@ def axes_of(world: World, name: str) -> Axes:
 def _writable(values: Any) -> np.ndarray:
     """Return an array of the host that may be changed: this one, if it is one, else a copy."""
     return values if isinstance(values, np.ndarray) and values.flags.writeable else np.array(values)
-
-
-def _put(values: np.ndarray, copy: int, new: PyTree) -> None:
-    values[copy] = new

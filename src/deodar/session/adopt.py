@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from deodar.leaves import step_limits
 from deodar.model.document import Document
 from deodar.session.changes import changed_leaves
-from deodar.session.run import Run, require_step
+from deodar.session.run import Run, host, require_step
 from deodar.session.session_snapshot import fill, rows
 
 
@@ -35,7 +35,7 @@ def adopt(run: Run, doc: Document, steps: Iterable[float]) -> str:
     if changed is not None and cost != "recompile":
         run.change(doc, changed)
         return cost
-    states = rows(run.program, run.state)
+    states = rows(run.program, host(run.state))
     run.load(doc)
     fill(run, states)
     return "recompile"

@@ -8,6 +8,7 @@ import numpy as np
 
 from deodar.element import Element
 from deodar.errors import ParameterError
+from deodar.model.document import Document
 from deodar.model.model import Model
 from deodar.session.session_snapshot import SessionSnapshot, StateRow
 
@@ -38,18 +39,18 @@ def learned_states(element: Element, state: StateRow) -> list[str]:
 
 
 def with_learned(
-    now: SessionSnapshot, states: Mapping[str, tuple[StateRow, StateRow]]
+    doc: Document,
+    now: Mapping[str, tuple[StateRow, StateRow]],
+    states: Mapping[str, tuple[StateRow, StateRow]],
 ) -> dict[str, tuple[StateRow, StateRow]]:
     """Return states of elements, with those in place of them that elements have learned `now`."""
     out = dict(states)
-    for entry in now.document.entries:
-        if entry.id in out and entry.id in now.states:
-            names = learned_states(entry.element, now.states[entry.id][0])
-            (shown, held), (new, coming) = out[entry.id], now.states[entry.id]
-            out[entry.id] = (
-                {**shown, **{name: new[name] for name in names}},
-                {**held, **{name: coming[name] for name in names}},
-            )
+    for entry in doc.entries:
+        if entry.id in out and entry.id in now:
+            names = learned_states(entry.element, now[entry.id][0])
+            pairs = zip(out[entry.id], now[entry.id], strict=True)
+            shown, held = ({**old, **{name: new[name] for name in names}} for old, new in pairs)
+            out[entry.id] = shown, held
     return out
 
 

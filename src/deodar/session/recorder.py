@@ -6,7 +6,7 @@ import dataclasses as dc
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,23 +32,13 @@ MOST_RECORDS = 64
 """Records of one chunk: a session advances by few steps at a time."""
 
 
-class JournalEntry(Protocol):
-    """An entry of the journal of a session."""
+@dc.dataclass(frozen=True)
+class Change:
+    """An entry of the journal of a session: the tick, what was changed, and its new value."""
 
-    @property
-    def tick(self) -> int:
-        """Tick of the change."""
-        ...
-
-    @property
-    def what(self) -> str:
-        """What was changed."""
-        ...
-
-    @property
-    def value(self) -> Any:
-        """Its new value."""
-        ...
+    tick: int
+    what: str
+    value: Any
 
 
 class Recorder:
@@ -148,7 +138,7 @@ class Recorder:
                 np.asarray([run.clock.time]), [values[None] for values in run.read(self._ports(run.program))]
             )
 
-    def follow(self, journal: Sequence[JournalEntry]) -> None:
+    def follow(self, journal: Sequence[Change]) -> None:
         """Store the changes of a session from now on."""
         self._journal, self._seen = journal, len(journal)
         self._last = journal[-1] if journal else None

@@ -10,7 +10,8 @@ import numpy as np
 
 from deodar.errors import RecordError
 from deodar.parameters import FrozenArray
-from deodar.session.session import Change, Session
+from deodar.session.recorder import Change
+from deodar.session.session import Session
 
 TOGETHER = 0.05
 """Wall time of the steps between two reports of progress, in seconds."""

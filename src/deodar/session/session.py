@@ -28,31 +28,22 @@ from deodar.precision import Arithmetic
 from deodar.recording.probe import Probe, probes
 from deodar.recording.provenance import described, stored
 from deodar.resources import Resources
-from deodar.session import agreement, memory, rearrange
+from deodar.session import agreement, memory
 from deodar.session.adopt import adopt, require
 from deodar.session.changes import changed_leaves
 from deodar.session.cost import SECONDS, StepCost, StepInputs, costs, moment
 from deodar.session.keep import keep
 from deodar.session.meter import Meter
 from deodar.session.port_reader import PortKey, PortReader
-from deodar.session.recorder import Recorder
-from deodar.session.run import Run, require_duration, require_step, whole
+from deodar.session.recorder import Change, Recorder
+from deodar.session.run import Run, host, require_duration, require_step, whole
 from deodar.session.run_live import run_live
-from deodar.session.session_snapshot import SessionSnapshot, StateRow, fill, rows
+from deodar.session.session_snapshot import SessionSnapshot, StateRow, fill, put_states, rows
 from deodar.worlds._base import World
 from deodar.worlds._failure import errors_of
-from deodar.worlds._scene import Scene
+from deodar.worlds._scene import Scene, SceneBox
 
 LARGEST_SEED = 2**32 - 1
-
-
-@dc.dataclass(frozen=True)
-class Change:
-    """An entry of the journal: the tick, what was changed, and its new value."""
-
-    tick: int
-    what: str
-    value: Any
 
 
 class Session:
@@ -309,7 +300,7 @@ class Session:
         run = self._run
         return SessionSnapshot(
             self.document,
-            rows(run.program, run.state),
+            rows(run.program, host(run.state)),
             run.clock,
             run.seed,
             self.precision,
@@ -334,10 +325,7 @@ class Session:
         """Replace the states of elements (`SessionSnapshot.states`); time, noise, parameters, the world and
         its readings continue.
         """
-        run = self._run
-        sensed, unread = run.sensed, run.exchange.unread
-        fill(run, states)
-        run.sensed, run.exchange.unread = sensed, unread
+        put_states(self._run, states)
 
     def go_back(self, snapshot: SessionSnapshot, world: World | None) -> None:
         """Restore a snapshot of this session with the world of that moment, whatever was edited since."""
@@ -417,14 +405,15 @@ class Session:
             UnknownName: the world has no object or mark of that name.
             WorldError: it does not fit at the position, or cannot be moved.
         """
-        self._note(*rearrange.move(*self._seen(), name, center))
+        world, scene = self._seen()
+        item = scene.entry(name)
+        scene.require_room(name, center, item.size if isinstance(item, SceneBox) else None)
+        with errors_of(world, "move"):
+            world.move(name, center)
+        self._note(f"world.move {name}", tuple(center))
 
     def place(
-        self,
-        name: str,
-        center: Sequence[float],
-        size: Sequence[float],
-        color: Sequence[float] | None = None,
+        self, name: str, center: Sequence[float], size: Sequence[float], color: Sequence[float] | None = None
     ) -> None:
         """Add an object to the world, or replace the one of the same name.
 
@@ -435,13 +424,25 @@ class Session:
             color: red, green and blue, 0 to 1; None: that of `World.place`.
 
         Raises:
-            WorldError: it does not fit at the position, or a value is invalid.
+            WorldError: it does not fit at the position, a mark has that name, or a value is invalid.
         """
-        self._note(*rearrange.place(*self._seen(), name, center, size, color))
+        world, scene = self._seen()
+        coloured = () if color is None else (tuple(color),)
+        scene.require_room(name, center, size)
+        if name in [mark.name for mark in scene.marks]:
+            raise WorldError("is the name of a mark", where=name, fix="Choose another name")
+        with errors_of(world, "place"):
+            world.place(name, center, size, *coloured)
+        self._note(f"world.place {name}", (tuple(center), tuple(size), *coloured))
 
     def remove(self, name: str) -> None:
         """Remove an object from the world."""
-        self._note(*rearrange.remove(*self._seen(), name))
+        world, scene = self._seen()
+        if not isinstance(scene.entry(name), SceneBox):
+            raise WorldError("is a mark; it can be moved, not removed", where=name)
+        with errors_of(world, "remove"):
+            world.remove(name)
+        self._note(f"world.remove {name}", None)
 
     def push_body(self, body: str, force: Sequence[float]) -> None:
         """Push a body of the world with a force along x, y and z (N), until the next push of it.
@@ -450,7 +451,10 @@ class Session:
             UnknownName: the world has no such body.
             WorldError: nothing in the world can be pushed, or the force is invalid.
         """
-        self._note(*rearrange.push(self._seen()[0], body, force))
+        world, _ = self._seen()
+        with errors_of(world, "push"):
+            world.push(body, force)
+        self._note(f"world.push {body}", tuple(force))
 
     def _seen(self) -> tuple[World, Scene]:
         scene = self.scene()

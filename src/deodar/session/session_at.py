@@ -15,9 +15,10 @@ from deodar.errors import RecordError, TimeError
 from deodar.model import find
 from deodar.model.model import Model
 from deodar.resources import Resources
+from deodar.session.recorder import Change
 from deodar.session.repeat_changes import repeat_changes
 from deodar.session.run import whole
-from deodar.session.session import Change, Session
+from deodar.session.session import Session
 from deodar.worlds._base import World
 
 if TYPE_CHECKING:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses as dc
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from deodar.compiler.arguments import ProgramState
 from deodar.compiler.executable import Executable
 from deodar.model.document import Document
-from deodar.numerics.pytree import PyTree
 from deodar.session.clock import Clock
 from deodar.session.exchange import WorldState
 from deodar.session.run import Run, host
@@ -41,38 +41,56 @@ class SessionSnapshot:
     world: WorldState | None = None
 
 
-def rows(program: Executable, state: ProgramState) -> dict[str, tuple[StateRow, StateRow]]:
+def rows(
+    program: Executable, state: ProgramState, copy: tuple[int, ...] = ()
+) -> dict[str, tuple[StateRow, StateRow]]:
     """Return the state of every element by id: the visible one, and the one that is held until it is due.
 
-    Both are the same for elements that run at every tick.
+    Both are the same for elements that run at every tick. The arrays of `state` are on the host; `copy` is
+    the index of a copy in a batch.
     """
-    here = host(state)
     out: dict[str, tuple[StateRow, StateRow]] = {}
+    here: Any = state
     for ident, (g, r) in program.plan.row.items():
-        shown = {name: values[r] for name, values in here["groups"][g].items()}
-        held = {name: values[r] for name, values in here["held"].get(str(g), here["groups"][g]).items()}
+        shown, held = (
+            {name: values[(*copy, r)] for name, values in arrays.items()}
+            for arrays in (here["groups"][g], here["held"].get(str(g), here["groups"][g]))
+        )
         out[ident] = (shown, held)
     return out
 
 
-def fill(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
-    """Copy states by id into the present program, for elements whose states have the same shapes.
+def put_rows(
+    program: Executable,
+    state: ProgramState,
+    states: Mapping[str, tuple[StateRow, StateRow]],
+    copy: tuple[int, ...] = (),
+) -> None:
+    """Copy states by id into arrays on the host, for elements whose states have the same shapes."""
+    for ident, (g, r) in program.plan.row.items():
+        if ident in states:
+            for source, target in zip(
+                states[ident], (state["groups"][g], state["held"].get(str(g), {})), strict=True
+            ):
+                for name, values in source.items():
+                    if name in target and target[name].shape[len(copy) + 1 :] == np.shape(values):
+                        target[name][(*copy, r)] = values
 
-    Other elements start at their initial states. Noise follows from seed and tick.
+
+def fill(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
+    """Copy states by id into the present program; other elements start at their initial states.
+
+    Noise follows from seed and tick.
     """
     fresh, run.keys = run.program.init(run.values, run.seed, run.trials)
     state = host(fresh)
-    for ident, (g, r) in run.program.plan.row.items():
-        if ident in states:
-            shown, held = states[ident]
-            _copy_row(shown, state["groups"][g], r)
-            if str(g) in state["held"]:
-                _copy_row(held, state["held"][str(g)], r)
+    put_rows(run.program, state, states)
     run.state = state
     run.forget()
 
 
-def _copy_row(source: StateRow, target: PyTree, row: int) -> None:
-    for name, values in source.items():
-        if name in target and target[name].shape[1:] == values.shape:
-            target[name][row] = values
+def put_states(run: Run, states: Mapping[str, tuple[StateRow, StateRow]]) -> None:
+    """Replace the states of elements; time, noise, parameters, the world and its readings continue."""
+    sensed, unread = run.sensed, run.exchange.unread
+    fill(run, states)
+    run.sensed, run.exchange.unread = sensed, unread

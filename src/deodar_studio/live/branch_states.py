@@ -9,8 +9,9 @@ import jax
 import numpy as np
 
 from deodar.errors import RecordError
+from deodar.session.recorder import Change
 from deodar.session.repeat_changes import StepProgress, is_push, repeat_changes
-from deodar.session.session import Change, Session
+from deodar.session.session import Session
 from deodar.session.session_snapshot import SessionSnapshot
 from deodar.worlds._base import World
 
