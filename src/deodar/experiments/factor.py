@@ -41,17 +41,11 @@ class Factor(Part):
         if len(levels) == 0:
             yield "levels", "holds no levels, so there is nothing to run"
             return
-        items = (
-            list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
-        )
-        if not self.path and any(not isinstance(v, Mapping) or not v for v in items):
-            yield (
-                "levels",
-                (
-                    'needs for each level the parameters it sets, {"left.amplitude": 6}, because no path is'
-                    " given"
-                ),
+        if not self.path and any(not isinstance(v, Mapping) or not v for v in self._values):
+            what = (
+                'needs for each level the parameters it sets, {"left.amplitude": 6}, because no path is given'
             )
+            yield "levels", what
         elif not self.path and not isinstance(levels, Mapping):
             yield "levels", 'needs a name for each level: {"near": {"left.center": 45}}'
         labels = self.labels
@@ -69,11 +63,12 @@ class Factor(Part):
     @property
     def sets(self) -> list[dict[str, Any]]:
         """For each level, the parameters it sets."""
+        return [{self.path: v} if self.path else dict(v) for v in self._values]
+
+    @property
+    def _values(self) -> list[Any]:
         levels: Any = self.levels
-        values = (
-            list(cast("Mapping[str, Any]", levels).values()) if isinstance(levels, Mapping) else list(levels)
-        )
-        return [{self.path: v} if self.path else dict(v) for v in values]
+        return list(levels.values() if isinstance(levels, Mapping) else levels)
 
 
 def assign(factors: Sequence[Factor], design: str, trials: int, seed: int) -> list[tuple[int, ...]]:

@@ -179,14 +179,7 @@ class Setup:
         for k, result, model in self._results(trials, () if records is None else self.experiment.record):
             row = self._row(k, result)
             if records is not None:
-                about = {
-                    "experiment": self.experiment.name,
-                    "trial": k,
-                    "seed": self.experiment.seed,
-                    "levels": row["levels"],
-                    "outcome": result.outcome,
-                }
-                about |= {DIVERGED: row[DIVERGED]} if DIVERGED in row else {}
+                about = self._about(row) | ({DIVERGED: row[DIVERGED]} if DIVERGED in row else {})
                 found = trial_records(model.document, self.experiment.record, result, about)
                 if isinstance(records, Path):
                     write_records(records, row[KEY], found)
@@ -205,6 +198,11 @@ class Setup:
         row |= {} if result.error is None else {"duration": None, DIVERGED: result.error.problems[0].what}
         return row | {"events": dict(result.events), "measures": dict(result.measures)}
 
+    def _about(self, row: Row) -> dict[str, Any]:
+        e = self.experiment
+        own = {key: row[key] for key in ("levels", "outcome")}
+        return {"experiment": e.name, "trial": row["trial"], "seed": e.seed, **own}
+
     def repeat(self, trial: int, watch: Sequence[str], path: Path) -> Row:
         """Run a trial again as it ran in the experiment, in its piece, write its record, and return its row.
 
@@ -218,9 +216,11 @@ class Setup:
         k, result, _ = next(one for one in found if one[0] == trial)
         row = self._row(k, result)
         doc = self._with(self.changes(k)).document
-        about = {"experiment": self.experiment.name, "trial": k, "seed": self.experiment.seed}
-        about |= {"levels": row["levels"], "outcome": result.outcome, "dt": self.dt}
-        about |= {"world": provenance.described(self.world)} | provenance.stored(doc)
+        about = (
+            self._about(row)
+            | {"dt": self.dt, "world": provenance.described(self.world)}
+            | provenance.stored(doc)
+        )
         write_record(path, doc, watch, result, about)
         return row
 
@@ -258,22 +258,20 @@ class Setup:
         out.programs = self.model.programs
         return out
 
+    @cached_property
+    def _nodes(self) -> list[Node]:
+        return resolve(self.model.document)[0]
+
     @property
     def record_bytes(self) -> float:
         """Size in bytes of the records of a trial that lasts until the limit."""
-        return self._record_bytes(resolve(self.model.document)[0])
-
-    def _record_bytes(self, nodes: Sequence[Node]) -> float:
-        e, by = self.experiment, {node.id: node for node in nodes}
-        looks = e.limit / (e.every or self.dt) + 1
-        cells = 0
-        for name in e.record:
-            entry, port = find.shown(self.model.document, name)
-            cells += math.prod(shape(by[entry.id].axes(port)))
-        return cells * looks * (8 if e.precision == "float64" else 4)
+        e, by = self.experiment, {node.id: node for node in self._nodes}
+        found = [find.shown(self.model.document, name) for name in e.record]
+        cells = sum(math.prod(shape(by[entry.id].axes(port))) for entry, port in found)
+        return cells * (e.limit / (e.every or self.dt) + 1) * (8 if e.precision == "float64" else 4)
 
     def _most(self) -> int:
         """Return the largest number of trials in one batch."""
-        nodes = resolve(self.model.document)[0]
-        size, recorded = memory.copy_bytes(nodes, self.experiment.precision), self._record_bytes(nodes)
-        return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), int(RECORD_BYTES // max(1.0, recorded))))
+        size = memory.copy_bytes(self._nodes, self.experiment.precision)
+        recorded = int(RECORD_BYTES // max(1.0, self.record_bytes))
+        return max(1, min(MOST_COPIES, BATCH_BYTES // max(1, size), recorded))

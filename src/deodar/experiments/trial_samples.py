@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -17,7 +17,7 @@ from deodar.experiments.trial import Trial
 from deodar.experiments.trial_copies import WORLD, TrialCopies, axes_of, tied
 from deodar.experiments.trial_plan import TrialPlan
 from deodar.model import find
-from deodar.model.document import Document
+from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, shape
 from deodar.worlds._base import World
 
@@ -77,21 +77,18 @@ class SampledPlaces:
     ) -> None:
         known = () if world is None else world.sensors
 
-        def watched(name: str) -> ReadPlace:
+        def place(name: str, port: Callable[[], tuple[Entry, str]]) -> ReadPlace:
             if name in known:
                 return WORLD, name
-            entry, port = find.shown(doc, name)
-            return entry.id, port
+            entry, shown = port()
+            return entry.id, shown
 
-        def viewed(view: Observable) -> ReadPlace:
-            if view.of in known:
-                return WORLD, view.of
-            entry, port = view.place(doc)
-            return entry.id, port
-
-        self.watched = [watched(name) for name in plan.watch]
+        self.watched = [place(name, lambda name=name: find.shown(doc, name)) for name in plan.watch]
         self.readers = readers
-        self.viewed = {view: readers.get(view) or viewed(view) for view in plan.views}
+        self.viewed = {
+            view: readers.get(view) or place(view.of, lambda view=view: view.place(doc))
+            for view in plan.views
+        }
         places = list(dict.fromkeys([*self.watched, *self.viewed.values()]))
         self.all = places or (tied(doc) if world is not None else []) or [_anything(doc)]
 

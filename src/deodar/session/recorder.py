@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses as dc
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -176,13 +176,7 @@ class Recorder:
 
     def end(self, reason: str) -> None:
         """End the record before its time."""
-        if self._writer is not None:
-            self.note()
-            writer, self._writer = self._writer, None
-            try:
-                writer.close(False, settings={"ended": reason})
-            finally:
-                self.ended = reason
+        self._end(reason, False, {"ended": reason})
 
     # -------------------------------------------------------------------------------------- by the script
 
@@ -192,13 +186,7 @@ class Recorder:
         Raises:
             OutputError: samples cannot be written; those before are in the file.
         """
-        if self._writer is not None:
-            self.note()
-            writer, self._writer = self._writer, None
-            try:
-                writer.close(True)
-            finally:
-                self.ended = "closed"
+        self._end("closed", True)
 
     @property
     def open(self) -> bool:
@@ -215,6 +203,15 @@ class Recorder:
             self.end(f"{kind.__name__} ended the script")
 
     # --------------------------------------------------------------------------------------------- inside
+
+    def _end(self, reason: str, complete: bool, settings: Mapping[str, str] | None = None) -> None:
+        if self._writer is not None:
+            self.note()
+            writer, self._writer = self._writer, None
+            try:
+                writer.close(complete, settings=settings)
+            finally:
+                self.ended = reason
 
     def _put(self, times: np.ndarray, values: Sequence[np.ndarray]) -> None:
         assert self._writer is not None

@@ -354,11 +354,8 @@ class Run:
         self.clock = self.clock.after(used)
         seconds = time.perf_counter() - began
         if used:
-            self.pace = (
-                used / max(seconds, 1e-9)
-                if not self.pace
-                else 0.5 * self.pace + 0.5 * used / max(seconds, 1e-9)
-            )
+            now = used / max(seconds, 1e-9)
+            self.pace = 0.5 * (self.pace + now) if self.pace else now
         return seen
 
     def _call(self, chunk: Compiled, state: ProgramState, counts: dict[str, int]) -> ChunkResult:
@@ -368,12 +365,7 @@ class Run:
 
     def read(self, ports: Sequence[Port]) -> list[np.ndarray]:
         """Return the values of ports in the present state."""
-        self.sense()
-        reader = self.program.reader(ports)
-        seen = self.program.call(
-            reader, self._values(), self.constants, self.state, self.keys, self.readings(), *self._now()
-        )
-        return [hosts.gathered(a) for a in seen]
+        return [hosts.gathered(a) for a in self.read_arrays(self.program.reader(ports))]
 
     def read_arrays(self, reader: Compiled) -> Sequence[np.ndarray]:
         """Return the values of a compiled reader in the present state."""
