@@ -155,7 +155,7 @@ from deodar.experiments.results import load_results as load_results
 from deodar.experiments.rows import Rows as Rows
 from deodar.experiments.stored_records import open_records as open_records
 from deodar.experiments.trial import Trial as Trial
-from deodar.experiments.trial_plan import TrialPlan as TrialPlan
+from deodar.experiments.trial import TrialPlan as TrialPlan
 from deodar.experiments.trials import Trials as Trials
 from deodar.exporters.exporting import export as export
 from deodar.figures._files import save_figure as save_figure

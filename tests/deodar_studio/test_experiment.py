@@ -18,7 +18,7 @@ import pytest
 import deodar as dd
 from deodar import codec
 from deodar.errors import DeodarError
-from deodar.experiments.results import stored_rows
+from deodar.experiments.results import stored
 from deodar_studio.experiment.experiment_run import ExperimentRun
 from deodar_studio.experiment.open_experiment import OpenExperiment
 from deodar_studio.experiment.run_place import RunPlace
@@ -106,7 +106,7 @@ def test_an_experiment_file_opens_with_its_model_and_runs_in_a_worker(folder: Pa
         await ended(p)
         run = experiment(p)["run"]
         assert (run["state"], run["rows"], run["folder"]) == ("complete", 12, "two_targets-001")
-        assert rows(p) == stored_rows(folder / "two_targets-001")
+        assert rows(p) == stored(folder / "two_targets-001")[1]
 
     with studio(folder) as address:
         play(address, scene)

@@ -18,7 +18,7 @@ from distributed import LocalCluster
 import deodar as dd
 from deodar.batch import scheduler
 from deodar.experiments import following, setup
-from deodar.experiments.results import stored_rows
+from deodar.experiments.results import stored
 from deodar.recording import writer_lock
 from deodar_studio.experiment import experiment_run, run_place
 from deodar_studio.web.service import Service
@@ -238,7 +238,7 @@ def test_an_experiment_that_another_process_runs_is_followed_to_its_end(
 
     with writer_lock.locked(theirs):
         at_its_experiment(folder, scene, path="theirs/experiment.json")
-    assert sorted(map(str, stored_rows(theirs))) == sorted(map(str, stored_rows(folder / "results")))
+    assert sorted(map(str, stored(theirs)[1])) == sorted(map(str, stored(folder / "results")[1]))
 
 
 def test_a_line_that_is_not_a_row_is_named_when_results_are_opened(

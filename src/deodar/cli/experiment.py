@@ -196,12 +196,12 @@ def _follow(args: argparse.Namespace, of: int) -> int:
     # start-up time: these bring JAX
     from deodar.experiments import following
     from deodar.experiments.following import QUIET_SECONDS, RowsTail, RowsWriter, standing
-    from deodar.experiments.results import ROWS, stored_rows
+    from deodar.experiments.results import ROWS, stored
     from deodar.recording import writer_lock
 
     begun: tuple[float, int] | None = None
     said = -1
-    stored_rows(args.follow)  # or the error that it is no such folder
+    stored(args.follow)  # or the error that it is no such folder
     tail, rows, writer = RowsTail(args.follow / ROWS), list[dict[str, Any]](), RowsWriter(time.monotonic())
     with contextlib.suppress(KeyboardInterrupt):
         while True:

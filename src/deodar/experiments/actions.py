@@ -8,11 +8,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
+from deodar.elements.boost import Boost
 from deodar.errors import ParameterError, RunWarning, UnknownName, WorldError, did_you_mean
 from deodar.experiments.running_trial import RunningTrial
 from deodar.family import Family
-from deodar.model import find
+from deodar.model import edit, find
 from deodar.model.document import Document
+from deodar.model.model import Model
 from deodar.parameters import Part, PerAxis, Recompile
 from deodar.session.run import whole
 from deodar.worlds._base import World
@@ -377,6 +379,30 @@ def targets(action: Action, doc: Document) -> None:
         find.shown(doc, path)
     if isinstance(action, Push):
         find.element(doc, action.element)
+
+
+def with_pushes(model: Model, actions: Sequence[Action]) -> tuple[Model, dict[Push, str]]:
+    """Return the model with a boost for each push, which acts without an intervention in the run, and the
+    paths of those whose time is not the same in all trials; without pushes the model itself.
+    """
+    wanted = list(dict.fromkeys(a for a in actions if isinstance(a, Push)))
+    if not wanted:
+        return model, {}
+    doc, waiting, number = model.document, dict[Push, str](), 0
+    for push in wanted:
+        target = find.element(doc, push.element)
+        while (f"push{number}",) in doc.by_names():
+            number += 1
+        own = bool(push.when) or isinstance(push.at, Sequence)
+        windows = () if own else ((push.times[0], push.times[0] + push.lasting),)
+        boost = Boost(f"push{number}", amplitude=0.0 if own else push.amount, windows=windows)  # pyright: ignore[reportArgumentType]
+        doc, entry = edit.add(doc, boost)
+        doc = edit.connect(doc, entry, "", target, "")
+        if own:
+            waiting[push] = entry.path
+    staged = Model(document=doc, trusted=model.trusted)
+    staged.programs = model.programs  # so that the next trial uses the programs that this one compiles
+    return staged, waiting
 
 
 def _check(name: str, running: RunningTrial) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from deodar.elements.sensor import Sensor
-from deodar.errors import DeodarError, ParameterError, Problem, UnknownName, did_you_mean
+from deodar.errors import DeodarError, ParameterError, Problem, did_you_mean
 from deodar.experiments.actions import Record, changed, targets
 from deodar.experiments.design import Design
 from deodar.experiments.events import Leaves, Reached, Within
@@ -69,7 +69,8 @@ def check(experiment: Design, model: Model, world: World | None) -> None:
         if action.world_method:
             attempt(f"actions.{k}", lambda action=action: changed(action, world))
         if action.when and action.when not in names:
-            attempt(f"actions.{k}.when", lambda action=action: _no_event(action.when, names))
+            what = f"there is no condition {action.when!r}"
+            problems.append(Problem(f"actions.{k}.when", what, did_you_mean(action.when, names)))
         if isinstance(action, Record) and not experiment.record:
             problems.append(
                 Problem(
@@ -196,7 +197,3 @@ def _radius(event: Within | Leaves, doc: Document, world: World | None) -> None:
             f" {when} holds",
             fix=f"Give the radius in {unit}, or choose another unit of the world",
         )
-
-
-def _no_event(name: str, known: list[str]) -> None:
-    raise UnknownName(f"there is no condition {name!r}", fix=did_you_mean(name, known))

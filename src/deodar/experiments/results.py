@@ -9,7 +9,7 @@ import hashlib
 import tempfile
 from collections.abc import Generator, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 from deodar import codec
 from deodar.batch.on_cluster import ClusterPool
@@ -99,8 +99,9 @@ def _run_trials(
     with _opened(setup, handed, on, watch) as pool:
         about = _about(setup, on.shared, out, None if pool is None else pool.made_by)
 
-        def read(made: JsonObject) -> JsonObject:
-            return _of_today(made, about, setup.model.document)
+        def read(made: JsonObject) -> JsonObject:  # older rows name no packages
+            packages = {"packages": about["packages"]} if "packages" in about else {}
+            return packages | migrate(made, setup.model.document)
 
         rows = Rows(out / ROWS, about, read=read)
         if not (out / MODEL).exists():
@@ -221,12 +222,6 @@ def _about(setup: Setup, workers: bool, folder: Path, made: Mapping[str, str] | 
     }
 
 
-def _of_today(made: JsonObject, about: Mapping[str, Any], doc: Document) -> JsonObject:
-    """Convert the identity of existing rows to the present version; older rows name no packages."""
-    packages = {"packages": about["packages"]} if "packages" in about else {}
-    return packages | migrate(made, doc)
-
-
 def _digest(text: str, arrays: bytes | None) -> str:
     return hashlib.sha256(text.encode() + (arrays or b"")).hexdigest()
 
@@ -256,15 +251,6 @@ def _plan(setup: Setup) -> JsonObject:
 
 
 # -------------------------------------------------------------------------------------------------- the table
-
-
-def stored_rows(folder: Path) -> list[Row]:
-    """Return the rows in the folder of an experiment; an incomplete last line is left out.
-
-    Raises:
-        RecordError: it is not the folder of an experiment.
-    """
-    return stored(folder)[1]
 
 
 def load_results(path: str | Path) -> xarray.Dataset:

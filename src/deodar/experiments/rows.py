@@ -49,14 +49,21 @@ class StoredRows(Mapping[str, Row]):
         return key in self._places
 
     def values(self) -> ValuesView[Row]:
-        return _InOneReading(self)
+        return _InOneReading(self._path, self._places)
 
     def place(self, key: str, at: int) -> None:
         """State at which byte of the file the row of a key begins."""
         self._places[key] = at
 
-    def read(self) -> Iterator[Row]:
-        """Yield the rows in the order of the file; of two rows with one key the last one."""
+
+class _InOneReading(ValuesView[Row]):
+    """The rows of a file in their order, read from its beginning; of two rows with one key the last one."""
+
+    def __init__(self, path: Path, places: Mapping[str, int]) -> None:
+        super().__init__(places)  # pyright: ignore[reportArgumentType]
+        self._path, self._places = path, places
+
+    def __iter__(self) -> Iterator[Row]:
         if not self._places:
             return
         with self._path.open("rb") as file:
@@ -64,17 +71,6 @@ class StoredRows(Mapping[str, Row]):
                 row = codec.parse(line)
                 if self._places.get(row.get(KEY)) == at:
                     yield row
-
-
-class _InOneReading(ValuesView[Row]):
-    """The rows of a file, read from its beginning."""
-
-    def __init__(self, rows: StoredRows) -> None:
-        super().__init__(rows)
-        self._rows = rows
-
-    def __iter__(self) -> Iterator[Row]:
-        return self._rows.read()
 
 
 def _places(file: IO[bytes]) -> Iterator[tuple[int, bytes]]:

@@ -19,8 +19,7 @@ from deodar.experiments.levels import set_values, swept
 from deodar.experiments.observations import DIVERGED, TIME
 from deodar.experiments.record_target import RECORD, PieceRecords, RecordTarget
 from deodar.experiments.rows import KEY, Row
-from deodar.experiments.trial import Trial
-from deodar.experiments.trial_plan import TrialPlan
+from deodar.experiments.trial import Trial, TrialPlan
 from deodar.experiments.trials import Trials
 from deodar.experiments.writing import trial_records, write_record, write_records
 from deodar.model import edit, find

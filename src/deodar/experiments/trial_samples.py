@@ -13,9 +13,8 @@ from deodar.experiments.field_reader import ReadPlace
 from deodar.experiments.observable import Observable
 from deodar.experiments.observations import DIVERGED, Observations
 from deodar.experiments.running_trial import RunningTrial
-from deodar.experiments.trial import Trial
+from deodar.experiments.trial import Trial, TrialPlan
 from deodar.experiments.trial_copies import WORLD, TrialCopies, axes_of, tied
-from deodar.experiments.trial_plan import TrialPlan
 from deodar.model import find
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, shape

@@ -9,16 +9,14 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 
 from deodar.compiler.dynamics import Dynamics
 from deodar.errors import ParameterError, RunWarning, TimeError, WorldError
-from deodar.experiments.actions import Action, End, Record, Reset, require_targets
+from deodar.experiments.actions import Action, End, Record, Reset, require_targets, with_pushes
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.field_reader import with_readers
 from deodar.experiments.levels import acted
 from deodar.experiments.observations import require as require_events
-from deodar.experiments.pushes import with_pushes
 from deodar.experiments.running_trial import RunningTrial
-from deodar.experiments.trial import Trial
+from deodar.experiments.trial import Trial, TrialPlan
 from deodar.experiments.trial_copies import Numbered, TrialCopies
-from deodar.experiments.trial_plan import TrialPlan
 from deodar.experiments.trial_samples import LOOKS, SampledPlaces, Stops, TrialSamples
 from deodar.model.model import Model
 from deodar.model.resolve import resolve

@@ -57,7 +57,7 @@ def _axes(path: str, sensor: Element, world: World) -> Iterator[Problem]:
     given = units.parse(signal.unit)
     for axis in axes if signal.shape is not None else ():
         stated = units.parse(axis.unit)
-        if given is not None and stated is not None and _differ(given, stated):
+        if given is not None and stated is not None and given.quantity == stated.quantity and given != stated:
             what = (
                 f"its axis {axis.name!r} states the unit {axis.unit}, and the world gives {name!r}"
                 f" in {signal.unit}"
@@ -222,10 +222,6 @@ def _alike(one: PositionUnits, other: PositionUnits) -> bool:
     """Return whether two ports have the same units, whatever their bounds and their sources."""
     plain = [[p and dc.replace(p, bounds=None, source="") for p in found] for found in (one, other)]
     return plain[0] == plain[1]
-
-
-def _differ(one: MetricUnit, other: MetricUnit) -> bool:
-    return one.quantity == other.quantity and one != other
 
 
 def _ratio(p: PositionUnit, unit: str) -> float | None:

@@ -18,8 +18,7 @@ from deodar.elements.boost import Boost
 from deodar.experiments.actions import Action
 from deodar.experiments.events import All, AnyOf, Crosses, Event
 from deodar.experiments.rows import Row
-from deodar.experiments.trial import Trial
-from deodar.experiments.trial_plan import TrialPlan
+from deodar.experiments.trial import Trial, TrialPlan
 from deodar.experiments.trials import Trials
 from deodar.model.model import Model
 from deodar.numerics.windows import Window

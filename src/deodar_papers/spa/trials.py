@@ -16,7 +16,7 @@ from deodar.experiments.actions import Move
 from deodar.experiments.events import Leaves, Within
 from deodar.experiments.jobs import Job
 from deodar.experiments.rows import Row
-from deodar.experiments.trial_plan import TrialPlan
+from deodar.experiments.trial import TrialPlan
 from deodar.experiments.trials import Trials
 from deodar.model.model import Model
 from deodar.worlds.arena.arena import Arena
