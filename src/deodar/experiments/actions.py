@@ -351,18 +351,13 @@ class End(Action):
         running.outcome = self.outcome
 
 
-def require(actions: Sequence[Action], world: World | None) -> None:
-    """Refuse actions that call a method that the world lacks."""
+def require(actions: Sequence[Action], events: Sequence[str], doc: Document, world: World | None) -> None:
+    """Refuse actions that call a method that the world lacks, on elements that the document lacks, or that
+    wait for an event that cannot be reported.
+    """
     for action in actions:
         if action.world_method:
             changed(action, world)
-
-
-def require_targets(actions: Sequence[Action], events: Sequence[str], doc: Document) -> None:
-    """Refuse actions on elements that the document lacks, and actions that wait for an event that cannot be
-    reported.
-    """
-    for action in actions:
         targets(action, doc)
         if action.when and action.when not in events:
             raise UnknownName(

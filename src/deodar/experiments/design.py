@@ -97,13 +97,8 @@ class Design(Part):
         names = [p.name for p in (*self.conditions, *self.factors, *self.measures)]
         for name in dict.fromkeys(names):
             if not name or name in OWN or names.count(name) > 1:
-                what = (
-                    "is the name of two columns"
-                    if names.count(name) > 1
-                    else "is a column of every table"
-                    if name
-                    else "is not a name"
-                )
+                what = "is a column of every table" if name else "is not a name"
+                what = "is the name of two columns" if names.count(name) > 1 else what
                 yield "conditions, factors and measures", f"{name!r} {what}; give each a name of its own"
 
     # ---------------------------------------------------------------------------------------- what it will do

@@ -92,15 +92,9 @@ def gaps(trials: set[int], of: int) -> tuple[tuple[int, int], ...]:
     """Return the ranges of numbers below `of` that are not among some, each as first and one after the
     last.
     """
-    out: list[tuple[int, int]] = []
-    for k in range(of):
-        if k in trials:
-            continue
-        if out and out[-1][1] == k:
-            out[-1] = (out[-1][0], k + 1)
-        else:
-            out.append((k, k + 1))
-    return tuple(out)
+    there = [*(k in trials for k in range(of)), True]
+    first = [k for k in range(of) if not there[k] and (k == 0 or there[k - 1])]
+    return tuple((k, there.index(True, k)) for k in first)
 
 
 def computed(row: Row) -> Row:

@@ -37,11 +37,6 @@ class PackedExperiment:
         plain = setup.experiment.to_data() | {"model": "packed"}
         return cls(codec.line(plain), packed_model.PackedModel.of(setup.model, setup.world))
 
-    def open(self) -> Setup:
-        """Return the setup."""
-        model = self.setup.model  # first: it imports the modules that the experiment's model needs
-        return Setup(Design.from_data(codec.parse(self.experiment)), model, self.setup.world())
-
 
 def work(handed: PackedExperiment, trials: Sequence[int], records: Path | RecordTarget | None) -> list[Row]:
     """Run some trials in a worker and return their rows."""
@@ -61,4 +56,5 @@ def prepare(handed: PackedExperiment) -> None:
 # the next piece of the same experiment finds the compiled programs that a model keeps
 @functools.lru_cache(maxsize=1)
 def _opened(handed: PackedExperiment) -> Setup:
-    return handed.open()
+    model = handed.setup.model  # first: it imports the modules that the experiment's model needs
+    return Setup(Design.from_data(codec.parse(handed.experiment)), model, handed.setup.world())

@@ -9,7 +9,7 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 
 from deodar.compiler.dynamics import Dynamics
 from deodar.errors import ParameterError, RunWarning, TimeError, WorldError
-from deodar.experiments.actions import Action, End, Record, Reset, require_targets, with_pushes
+from deodar.experiments.actions import Action, End, Record, Reset, with_pushes
 from deodar.experiments.actions import require as require_actions
 from deodar.experiments.field_reader import with_readers
 from deodar.experiments.levels import acted
@@ -72,9 +72,8 @@ class Trials:
         # a world has one state on the host, which all trials reset
         self._world_lock = threading.RLock() if world is not None else contextlib.nullcontext()
         base = require_model(model)
-        require_actions(plan.actions, world)
         require_events(plan.events, plan.measures)
-        require_targets(plan.actions, [e.name for e in plan.events], base.document)
+        require_actions(plan.actions, [e.name for e in plan.events], base.document, world)
         staged, self._pushes = with_pushes(base, plan.actions)
         doc = staged.document
         self.dt = float(doc.step if plan.dt is None else plan.dt)

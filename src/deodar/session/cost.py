@@ -198,8 +198,7 @@ def costs(at: StepInputs, seconds: float = SECONDS) -> StepCost:
     return StepCost(tuple(sorted(found, key=lambda c: (-c.us, c.path))), step)
 
 
-# --------------------------------------------------------------------------------------------- functions
-# timed
+# ------------------------------------------------------------------------------------------- timed functions
 
 
 def _read_ports(at: StepInputs) -> list[list[Port]]:

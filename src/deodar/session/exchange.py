@@ -238,12 +238,8 @@ class Exchange:
                 if kept.objects is not None:
                     self.world.arrange(kept.objects)
                 self.world.put(state)
-            self._last, self._due, self._origin, self._commands = (
-                kept.last,
-                kept.due,
-                kept.origin,
-                kept.commands,
-            )
+            self._last, self._due, self._origin = kept.last, kept.due, kept.origin
+            self._commands = kept.commands
 
     def _each(self, sensor: Sensor) -> bool:
         known = {} if self.world is None else self.world.sensors  # a user's world may accept any name

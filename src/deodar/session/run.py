@@ -528,14 +528,8 @@ class Run:
             for g in groups
             for r in range(plan.groups[g].rows)
         ]
-        bad = (
-            {
-                (p.group, p.row): not np.isfinite(value[copy]).all()
-                for p, value in zip(ports, self.read(ports), strict=True)
-            }
-            if ports
-            else {}
-        )
+        values = zip(ports, self.read(ports) if ports else [], strict=True)
+        bad = {(p.group, p.row): not np.isfinite(value[copy]).all() for p, value in values}
         for g in groups:
             names = [self._path(n) for r, n in enumerate(plan.groups[g].nodes) if bad[g, r]]
             if names:
