@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from deodar.batch.driver import PoolTask, driven
 from deodar.batch.on_cluster import ClusterPool
 from deodar.batch.pool import Pool
 from deodar.batch.staffing import Staffing, WorkerWatch
@@ -140,6 +139,8 @@ def _here(jobs: Sequence[Job]) -> Iterator[tuple[Job, Sequence[Row]]]:
 def _in_workers(
     jobs: Sequence[Job], pool: Pool | ClusterPool, ends: WorkerWatch
 ) -> Iterator[tuple[Job, Sequence[Row]]]:
+    from deodar.batch.driver import PoolTask, driven  # start-up time: this brings JAX
+
     by_key = {job.keys: job for job in jobs}
     run = named if isinstance(pool, ClusterPool) and pool.cluster.mixed else Job.run
 
