@@ -1,8 +1,8 @@
 """What a call of a few trials costs beside the trials: `python benchmarks/trials.py`.
 
 A field decides between two inputs; each call has four trials with another seed and other values of two
-parameters, as an optimiser or a notebook makes them. `kept`: calls of one `dd.Trials`. `made again`: each call
-makes a `dd.Trials` of the same model. `one by one`: the trials run without a batch. Times are of the
+parameters, as an optimiser or a notebook makes them. `kept`: calls of one `dd.Trials`. `made again`: each
+call makes a `dd.Trials` of the same model. `one by one`: the trials run without a batch. Times are of the
 processor, after two calls that compile.
 """
 

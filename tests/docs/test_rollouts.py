@@ -22,14 +22,16 @@ EVERY, SEED = 4, 3
 
 INSIDE: Mapping[str, Callable[[], World]] = {
     "spa": lambda: Arena("z"),
-    "color_search": lambda: Arena("search", unit="mm", vehicle="khepera", period=20, camera_every=4),
+    "color_search": lambda: Arena(
+        "search", unit="mm", vehicle="khepera", physics=dd.ArenaPhysics(period=20, camera_every=4)
+    ),
 }
 """Worlds that are computed inside the step."""
 
 OUTSIDE: Mapping[str, Callable[[], World]] = {
     "saliency": lambda: next(scene for scene in photographs() if scene.name == "coffee").picture,
     "pointing": MuJoCo.example,
-    "looking": lambda: dd.Eye(endless=False, first=(30, 85)),
+    "looking": lambda: dd.Eye(first=(30, 85), screen=dd.EyeScreen(endless=False)),
 }
 """Worlds on the host; what they showed is given as input."""
 
