@@ -19,14 +19,14 @@ SAMPLES = (32, 25)
 
 
 def test_the_true_map_passes_its_test_and_a_silent_one_does_not() -> None:
-    right = gazes.summary(gazes.test("correcting", true_map(), 1, 40, {}, SAMPLES))
+    right = gazes.summary(gazes.test("correcting", true_map(), 1, 40, dd.PanTilt(), SAMPLES))
     assert right["near"] == 40 and right["median"] < 3
-    silent = gazes.summary(gazes.test("correcting", np.zeros_like(true_map()), 1, 40, {}, SAMPLES))
+    silent = gazes.summary(gazes.test("correcting", np.zeros_like(true_map()), 1, 40, dd.PanTilt(), SAMPLES))
     assert silent["near"] <= 6
 
 
 def test_the_true_map_fails_with_another_gain() -> None:
-    errors = gazes.test("paper", true_map(), 1, 40, {"gain": 0.1}, SAMPLES)
+    errors = gazes.test("paper", true_map(), 1, 40, dd.PanTilt(gain=0.1), SAMPLES)
     assert gazes.summary(errors)["near"] < 30
 
 
