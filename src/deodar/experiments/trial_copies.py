@@ -12,8 +12,6 @@ import numpy as np
 from deodar.compiler.copy_batch import Batch
 from deodar.compiler.driven import driven
 from deodar.compiler.dynamics import Dynamics
-from deodar.elements.motor import Motor
-from deodar.elements.sensor import Sensor
 from deodar.errors import NotFinite, ParameterError
 from deodar.experiments.field_reader import ReadPlace
 from deodar.model import edit, find
@@ -263,11 +261,6 @@ class TrialCopies:
             own[name] = _writable(own[name])
             own[name][self.rows.index(row)] = values
         self.run.keys = {**keys, "world": own}
-
-
-def tied(doc: Document) -> list[ReadPlace]:
-    """Return a port that is connected to the world; reading it brings the world up to date."""
-    return [(e.id, "output") for e in doc.entries if isinstance(e.element, (Motor, Sensor))][:1]
 
 
 def axes_of(world: World, name: str) -> Axes:

@@ -14,7 +14,7 @@ from deodar.experiments.observable import Observable
 from deodar.experiments.observations import DIVERGED, Observations
 from deodar.experiments.running_trial import RunningTrial
 from deodar.experiments.trial import Trial, TrialPlan
-from deodar.experiments.trial_copies import WORLD, TrialCopies, axes_of, tied
+from deodar.experiments.trial_copies import WORLD, TrialCopies, axes_of
 from deodar.model import find
 from deodar.model.document import Document, Entry
 from deodar.numerics.axes import Axes, shape
@@ -89,7 +89,7 @@ class SampledPlaces:
             for view in plan.views
         }
         places = list(dict.fromkeys([*self.watched, *self.viewed.values()]))
-        self.all = places or (tied(doc) if world is not None else []) or [_anything(doc)]
+        self.all = places or [_anything(doc)]
 
 
 class TrialSamples:
